@@ -22,11 +22,14 @@ long="$(find src python tests examples tools -name '*.rs' -o -name '*.py' | xarg
 wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
 "$programs/pip" install -q --force-reinstall --no-deps "$wheel"
 "$programs/pip" install -q "$wheel[test]"
-# Texts of the stubs are those of the module.
+# Texts of the stubs are those of the module, cells of the notebook those of the walkthrough.
 "$programs/python" tools/stubs.py --check
+"$programs/python" tools/notebook.py --check
 "$programs/python" -m pytest -q
-walkthrough="$PWD/examples/walkthrough.py"
-(cd "$CARGO_TARGET_DIR" && MPLBACKEND=agg "$programs/python" "$walkthrough")
+notebook="$PWD/examples/walkthrough.ipynb"
+(cd "$CARGO_TARGET_DIR" && "$programs/jupyter" execute --output="$CARGO_TARGET_DIR/walkthrough.ipynb" "$notebook")
+# Pages of all classes and functions, from their docstrings.
+"$programs/pdoc" --docformat google --no-show-source -o "$CARGO_TARGET_DIR/api" basemat basemat.opensees basemat.containment
 # The wheel in an environment of its own, without Rust.
 clean="$CARGO_TARGET_DIR/clean"
 rm -rf "$clean"

@@ -6,15 +6,17 @@ use std::sync::Arc;
 use basemat::Result;
 use basemat::structure::{ContactNode, Structure, Triplets};
 
+use crate::structure::DofNames;
+
 /// Makes a part for one simulation.
 pub(crate) type Recipe<T> = Arc<dyn Fn() -> Result<Box<T>> + Send + Sync>;
 
-/// A linear structure that several simulations read.
-pub(crate) struct Shared<T>(pub(crate) Arc<T>);
+/// A linear structure that several simulations read, and names of its degrees of freedom.
+pub(crate) struct Shared<T>(pub(crate) Arc<T>, pub(crate) Option<DofNames>);
 
 impl<T> Clone for Shared<T> {
     fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0))
+        Self(Arc::clone(&self.0), self.1.clone())
     }
 }
 
@@ -48,7 +50,10 @@ impl<T: Structure + Sync> Structure for Shared<T> {
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        self.0.describe(dofs)
+        match &self.1 {
+            Some(names) => names.describe(dofs),
+            None => self.0.describe(dofs),
+        }
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {

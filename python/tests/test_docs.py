@@ -248,6 +248,17 @@ def test_messages_are_pythons() -> None:
     assert "::" not in str(caught.value) and "use DampingLaw.constant_q with" in str(caught.value)
 
 
+def test_pages_have_every_name(tmp_path: Path) -> None:
+    pdoc = pytest.importorskip("pdoc")
+    pdoc.render.configure(docformat="google", show_source=False)
+    pdoc.pdoc("basemat", output_directory=tmp_path)
+    page = (tmp_path / "basemat.html").read_text("utf-8")
+    assert [name for name in bm.__all__ if f'id="{name}"' not in page] == []
+    assert 'id="Run.plot"' in page and 'href="#Run.contact"' in page
+    # No text is left as it stands in the source.
+    assert re.findall(r":(?:class|meth|attr|func|data):", page) == []
+
+
 def test_the_command_says_what_there_is() -> None:
     done = subprocess.run([sys.executable, "-m", "basemat"], capture_output=True, check=True)
     text = done.stdout.decode("utf-8")

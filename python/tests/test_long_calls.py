@@ -54,6 +54,7 @@ def interrupted(call: object) -> float:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no process sends itself Ctrl-C there")
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_is_heard() -> None:
     run = simulation(2e-5, 24)
     assert interrupted(lambda: run.run(2_000_000)) < 2.0

@@ -20,7 +20,7 @@ NORMAL, TANGENTIAL, DASHPOTS = 40e6, 25e6, (0.8e6, 0.5e6)
 FORCE, RECORD = 100e3, bm.el_centro_1940().resampled(STEP)
 
 
-def frame() -> None:
+def frame(element: str = "elasticBeamColumn") -> None:
     """An unsymmetric frame on a rigid base, whose middle is node 1."""
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
@@ -30,15 +30,17 @@ def frame() -> None:
         ops.node(tag, x, y)
         ops.mass(tag, 12e3, 12e3, 100.0 * tag)
     ops.geomTransf("Linear", 1)
+    ops.section("Elastic", 1, 30e9, 0.25, 0.005)
+    ops.beamIntegration("Legendre", 1, 1, 2)
+    section = (0.25, 30e9, 0.005, 1) if element == "elasticBeamColumn" else (1, 1)
     for tag, ends in enumerate(((1, 2), (2, 3), (3, 4), (4, 5), (5, 2)), 1):
-        ops.element("elasticBeamColumn", tag, *ends, 0.25, 30e9, 0.005, 1, "-mass", 500.0)
+        ops.element(element, tag, *ends, *section, "-mass", 500.0)
     # Of the stiffness: the base has no dashpot to the ground's outside.
     ops.region(1, "-eleRange", 1, 5, "-rayleigh", 0.0, 0.0, 0.002, 0.0)
 
 
-def on_springs() -> np.ndarray:
-    """Displacement of node 4 to the right under a force there, by OpenSees alone."""
-    frame()
+def on_springs() -> None:
+    """The frame on springs and dashpots in OpenSees."""
     length = WIDTH / ELEMENTS
     for k in range(ELEMENTS):
         x, tag = (k + 0.5) * length - 0.5 * WIDTH, 100 + k
@@ -50,9 +52,10 @@ def on_springs() -> np.ndarray:
         for own, stiffness, dashpot in zip(materials, (TANGENTIAL, NORMAL), DASHPOTS[::-1]):
             ops.uniaxialMaterial("Elastic", own, stiffness * length, dashpot * length)
         ops.element("zeroLength", tag, tag, tag + 100, "-mat", *materials, "-dir", 1, 2, "-doRayleigh", 0)
-    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
-    ops.pattern("Plain", 1, 1, "-fact", FORCE)
-    ops.load(4, 1.0, 0.0, 0.0)
+
+
+def marched() -> np.ndarray:
+    """Displacement of node 4 to the right under the pattern that is set up, by OpenSees alone."""
     ops.constraints("Transformation")
     ops.numberer("Plain")
     ops.system("FullGeneral")
@@ -66,25 +69,49 @@ def on_springs() -> np.ndarray:
     return np.array(found)
 
 
+def simulation(model: opensees.OpenSeesModel, **excitation: object) -> bm.Simulation:
+    """The frame on basemat's springs."""
+    strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
+    ground = bm.SpringGround(strip, NORMAL, TANGENTIAL, dashpots=DASHPOTS)
+    probe = bm.Probe.displacement("top", model.row(4))
+    return bm.Simulation(STEP, model, ground, bm.Bonded(), probes=[probe], **excitation)
+
+
 def test_a_frame_moves_as_in_opensees() -> None:
     frame()
     model = opensees.structure(ops, [1], width=WIDTH)
     assert model.dofs == 15 and model.nodes == [1, 2, 3, 4, 5]
+    assert len(set(model.dof_names)) == 15 and model.dof("4 rotation") == model.row(4, "rotation")
     rigid = sum(model.row(node, "x").weights(15) for node in model.nodes)
     assert np.abs(model.stiffness() @ rigid).max() < 1e-13 * np.abs(model.stiffness()).max()
     total = 40e3 + 4 * 12e3 + 500.0 * (4.0 + 4.0 + 2.5 + 4.0 + 2.5)
     assert rigid @ model.mass() @ rigid == pytest.approx(total, rel=1e-12)
     damping = 0.002 * model.stiffness()
     assert np.abs(model.damping() - damping).max() < 1e-12 * damping.max()
-    strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
-    ground = bm.SpringGround(strip, NORMAL, TANGENTIAL, dashpots=DASHPOTS)
-    probe = bm.Probe.displacement("top", model.row(4))
     load = bm.Load.record(model.row(4), RECORD, FORCE)
-    simulation = bm.Simulation(STEP, model, ground, bm.Bonded(), loads=[load], probes=[probe])
-    found = simulation.run(STEPS)["top"]
-    expected = on_springs()
+    found = simulation(model, loads=[load]).run(STEPS)["top"]
+    frame()
+    on_springs()
+    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
+    ops.pattern("Plain", 1, 1, "-fact", FORCE)
+    ops.load(4, 1.0, 0.0, 0.0)
+    expected = marched()
     assert np.abs(expected).max() > 5e-3
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+
+
+def test_a_frame_is_shaken_as_in_opensees() -> None:
+    """With the mass of elements; OpenSees takes the motion's acceleration at the ends of steps."""
+    frame("dispBeamColumn")
+    model = opensees.structure(ops, [1], width=WIDTH)
+    found = simulation(model, motion=RECORD).run(STEPS, warn=False)["top"]
+    frame("dispBeamColumn")
+    on_springs()
+    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
+    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+    expected = marched()
+    assert np.abs(expected).max() > 0.05
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=3e-4 * np.abs(expected).max())
 
 
 def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
@@ -112,3 +139,25 @@ def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
     ops.fix(3, 0, 1, 0)
     with pytest.raises(bm.InputError, match="node 3 is held in the direction y: it must be free"):
         opensees.structure(ops, [7, 3, 5])
+
+
+def test_models_that_are_none_are_refused() -> None:
+    for dimensions, needed in (((3, 6), "3 coordinates and 6 degrees"), ((2, 2), "2 coordinates and 2 degrees")):
+        ops.wipe()
+        ops.model("basic", "-ndm", dimensions[0], "-ndf", dimensions[1])
+        ops.node(4, *[0.0] * dimensions[0])
+        with pytest.raises(bm.InputError, match=f"node 4 has {needed} of freedom, but must have 2 and 3"):
+            opensees.structure(ops, [4], width=1.0)
+    frame()
+    assert repr(opensees.structure(ops, [1], width=WIDTH)) == "OpenSeesModel(5 nodes, 15 degrees of freedom)"
+    for nodes, width, text in (
+        ([1], None, "1 base nodes: give several, or a single one with a width"),
+        ([1, 5], WIDTH, "heights of 0.0 to 4.0 m, but must be at one"),
+        ([2, 5], WIDTH, "2 base nodes: give several"),
+        ([8], WIDTH, "no node 8"),
+    ):
+        with pytest.raises(bm.InputError, match=text):
+            opensees.structure(ops, nodes, width=width)
+    ops.wipe()
+    with pytest.raises(bm.InputError, match="no elements"):
+        opensees.structure(ops, [1], width=1.0)

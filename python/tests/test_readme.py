@@ -81,6 +81,11 @@ def test_the_others_run(
         motion=bm.el_centro_1940(),
     )
     assert simulation.run(200).steps == 200
+    braced = names["braced"]
+    ground = bm.ElasticGround.under(soil, braced, 6)  # type: ignore[arg-type]
+    simulation = bm.Simulation(0.005, braced, ground, bm.Coulomb(0.5), motion=bm.el_centro_1940())  # type: ignore[arg-type]
+    simulation.run(1000)
+    assert simulation.hysteresis[0].slack > 1e-3
 
 
 def test_the_containments_command_prints_its_table(capsys: pytest.CaptureFixture[str]) -> None:

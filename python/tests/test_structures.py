@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -280,3 +281,53 @@ def test_node_numbers_are_whole(node: float) -> None:
         mesh.add_springs([[0, node]], "x", 1e6)
     mesh.add_springs(np.array([[0.0, 1.0]]), "x", 1e6)
     assert repr(mesh) == "Mesh(3 nodes, 1 elements)"
+
+
+NAMES = ["base x", "base y", "base rotation", "roof"]
+
+
+def named(names: object = NAMES, factor: float = 1.0) -> bm.MatrixModel:
+    """A building of one storey by its matrices."""
+    own = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 40e6)])
+    return bm.MatrixModel(own.mass(), factor * own.stiffness(), own.contact_nodes(), dof_names=names)  # type: ignore[arg-type]
+
+
+def test_names_of_degrees_of_freedom_reach_probes_frames_and_errors(soil: bm.Soil) -> None:
+    model = named()
+    assert model.dof_names == NAMES and model.dof("roof") == bm.DofCombination(3)
+    ground = bm.ElasticGround.under(soil, model, 4)
+    probe = bm.Probe.velocity("v", model.dof("roof"))
+    run = bm.Simulation(0.01, model, ground, bm.Bonded(), motion=bm.el_centro_1940(), probes=[probe]).run(
+        100, motion_every=10
+    )
+    frame = run.motion_frame()
+    assert [*frame.columns] == NAMES and frame.index.name == "time"
+    assert same_bits(frame.to_numpy(), run.motion["displacement"])
+    assert same_bits(run.motion_frame("velocity")["base y"].to_numpy(), run.motion["velocity"][:, 1].copy())
+    assert pickle.loads(pickle.dumps(run)).dof_names == NAMES
+    damped = bm.WithModalDamping(pickle.loads(pickle.dumps(model)), [0.05])
+    assert damped.dof_names == NAMES
+    with pytest.raises(bm.InputError, match="quantity is 'force', but must be 'displacement' or"):
+        run.motion_frame("force")  # type: ignore[arg-type]
+    loose = named(factor=0.0)
+    with pytest.raises(bm.InputError, match="'roof'"):
+        bm.Simulation(0.01, loose, bm.ElasticGround.under(soil, loose, 4), bm.Bonded())
+    for names, text in ((NAMES[:3], "3 names, but must have 4"), ([*NAMES[:3], "base x"], "'base x' twice")):
+        with pytest.raises(bm.InputError, match=f"dof_names has {text}"):
+            named(names)
+    with pytest.raises(bm.InputError, match="no degree of freedom 'attic', only 'base x', 'base y'"):
+        model.dof("attic")
+
+
+def test_structures_name_what_they_can(soil: bm.Soil, block: bm.RigidBlock) -> None:
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS)
+    assert building.dof("floor 2") == bm.DofCombination(building.roof)
+    assert building.dof("floor 0") == bm.DofCombination(building.floor(0))
+    assert block.dof_names == ["x", "y", "rotation"]
+    group = bm.StructureGroup([(block, 0.0)])
+    assert group.dof_names is None
+    with pytest.raises(bm.InputError, match="the structure has no dof_names"):
+        group.dof("x")
+    ground = bm.ElasticGround.under(soil, group, 4)
+    run = bm.Simulation(0.01, group, ground, bm.Bonded()).run(5, motion_every=1)
+    assert [*run.motion_frame().columns] == [0, 1, 2]

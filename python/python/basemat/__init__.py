@@ -22,6 +22,7 @@ vertical_incidence = _pickling.function(vertical_incidence)
 for _class, _name, _method in (
     (Run, "to_frame", _frames.to_frame),
     (Run, "contact_frame", _frames.contact_frame),
+    (Run, "motion_frame", _frames.motion_frame),
     (Run, "envelope_frame", _frames.envelope_frame),
     (Run, "foundation_frame", _frames.foundation_frame),
     (Run, "energy_frame", _frames.energy_frame),

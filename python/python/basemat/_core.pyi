@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import UserLaw, UserStructure
+from ._protocols import UserHysteresis, UserLaw, UserStructure
 
 __version__: str
 MODES: list[_Mode]
@@ -1019,6 +1019,9 @@ class Run:
         m and m/s, and "free_field" (frames, 2), m to the right and up.
         """
     @property
+    def dof_names(self) -> list[str] | None:
+        """Names of the structure's degrees of freedom: list of n texts; None without names."""
+    @property
     def units(self) -> dict[str, str]:
         """SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios."""
     def to_frame(self) -> Any:
@@ -1030,6 +1033,13 @@ class Run:
         """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
         Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
+        """
+    def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> Any:
+        """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
+
+        ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
+        m/s and rad/s) of the snapshots in :attr:`Run.motion`, by its name in :attr:`Run.dof_names` or its
+        number.
         """
     def envelope_frame(self) -> Any:
         """:attr:`Run.envelope` as a pandas frame: a row per element."""
@@ -1380,6 +1390,12 @@ class Simulation:
         this simulation works on, with its internal variables.
         """
     @property
+    def hysteresis(self) -> list[Any]:
+        """The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
+        copies that this simulation works on, with their internal variables, in the order of storeys or
+        springs.
+        """
+    @property
     def probe_names(self) -> list[str]:
         """Names of the probes, in their order."""
     @property
@@ -1666,6 +1682,11 @@ class Structure:
     @property
     def dofs(self) -> int:
         """Number n of degrees of freedom."""
+    @property
+    def dof_names(self) -> list[str] | None:
+        """Names of the degrees of freedom: list of n texts; None without names."""
+    def dof(self, name: str) -> DofCombination:
+        """The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`."""
     def contact_nodes(self) -> list[ContactNode]:
         """Points of the base that touch the ground: list of :class:`ContactNode`, from left to right."""
     def mass(self) -> NDArray[np.float64]:
@@ -1678,7 +1699,7 @@ class Structure:
 @final
 class RigidBlock(Structure):
     """A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-    the right, displacement up, rotation.
+    the right, displacement up, rotation: "x", "y", "rotation" for :meth:`dof`.
 
     ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
     ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
@@ -1743,12 +1764,14 @@ class ShearBuilding(Structure):
     """Rigid floors on columns that shear, on a rigid base.
 
     Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-    horizontal displacement of every floor from below. ``width`` of the base: m. ``base_mass``: kg/m.
+    horizontal displacement of every floor from below; for :meth:`dof` "base x", "base y", "base rotation",
+    "floor 0", "floor 1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
     ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
     in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
     ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-    effect; none unless given. ``laws``: dict ``{storey: law}`` of :class:`Hysteresis` laws that take the
-    place of the stiffness of storeys, storey 0 the lowest; none unless given.
+    effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (:class:`Hysteresis`, or your own:
+    :class:`UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
+    unless given.
     """
 
     def __new__(
@@ -1761,21 +1784,21 @@ class ShearBuilding(Structure):
         damping: float | None = None,
         center: float = 0.0,
         p_delta: float | None = None,
-        laws: Mapping[int, Hysteresis] | None = None,
+        laws: Mapping[int, Hysteresis | UserHysteresis] | None = None,
     ) -> Self: ...
     @staticmethod
     def isolated(
         building: ShearBuilding,
-        law: Hysteresis,
+        law: Hysteresis | UserHysteresis,
         *,
         height: float,
         slab_mass: float,
         slab_inertia: float = 0.0,
         damping: float = 0.0,
-        laws: Mapping[int, Hysteresis] | None = None,
+        laws: Mapping[int, Hysteresis | UserHysteresis] | None = None,
     ) -> ShearBuilding:
         """The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-        (:class:`Hysteresis`); they become storey 0, and the building's storeys count from 1.
+        (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
 
         ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
         ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
@@ -2089,7 +2112,8 @@ class MatrixModel(Structure):
     (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
     points of its base, a list of :class:`ContactNode` from left to right. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-    (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given.
+    (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
+    list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
     """
 
     def __new__(
@@ -2101,6 +2125,7 @@ class MatrixModel(Structure):
         damping: _MatrixLike | None = None,
         active_damping: bool = False,
         rayleigh: RayleighDamping | None = None,
+        dof_names: Sequence[str] | None = None,
     ) -> Self: ...
 
 @final
@@ -2209,11 +2234,11 @@ class Mesh:
 @final
 class WithSprings(Structure):
     """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-    freedom, which is the spring's deformation (m), and a :class:`Hysteresis`.
+    freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
     """
 
     def __new__(
-        cls, structure: Structure | UserStructure, springs: Sequence[tuple[_RowLike, Hysteresis]]
+        cls, structure: Structure | UserStructure, springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]]
     ) -> Self: ...
 
 @final

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ._sweep import Outcome, described, run_case
+from ._case import Outcome, described, run_case
 
 
 def is_client(executor: Any) -> bool:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from ._core import MODES, EquivalentLinear, Impedances, Run, Spectrum
+from ._errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -69,6 +70,21 @@ def contact_frame(self: Run) -> Any:
     table.update({name: columns[name].ravel() for name in ("gap", "slip", "pressure", "shear")})
     modes = pandas().Categorical.from_codes(columns["mode"].ravel(), categories=MODES)
     return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT)
+
+
+def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "displacement") -> Any:
+    """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
+
+    ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
+    m/s and rad/s) of the snapshots in :attr:`Run.motion`, by its name in :attr:`Run.dof_names` or its
+    number.
+    """
+    motion = self.motion
+    if quantity not in ("displacement", "velocity"):
+        raise InputError(f"quantity is '{quantity}', but must be 'displacement' or 'velocity'")
+    index = pandas().Index(motion["time"], name="time")
+    frame = pandas().DataFrame(motion[quantity], index=index, columns=self.dof_names)
+    return _with_units(frame, _UNIT)
 
 
 def envelope_frame(self: Run) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
-__all__ = ["UserLaw", "UserStructure"]
+__all__ = ["UserHysteresis", "UserLaw", "UserStructure"]
 
 if TYPE_CHECKING:
     from ._core import Condition, ContactNode, ContactState, PreviousContact, Tolerance
@@ -60,3 +60,22 @@ class UserLaw(Protocol):
         self, mode: str, start: PreviousContact, trial: ContactState, tolerance: Tolerance
     ) -> str:
         """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""
+
+
+class UserHysteresis(Protocol):
+    """A spring with a memory written in Python: for storeys and isolators of a :class:`ShearBuilding`
+    and for :class:`WithSprings`.
+
+    It is led straight from the deformation of the last committed step to any other, as often as
+    Newton's method wants; only ``commit(deformation)``, called if it is there, accepts one and
+    changes internal variables. If it has them, these are called too: ``tangent(deformation)`` (slope of
+    the force, N/m per metre; otherwise by differences of ``force``, two more calls),
+    ``energy(deformation)`` (stored, and dissipated until then, J/m; otherwise all work counts as
+    stored), ``save()`` and ``restore(values)`` (internal variables, always as many, for checkpoints).
+
+    Every simulation works on a deep copy; :attr:`Simulation.hysteresis` gives it back with its
+    internal variables. What it raises comes out of the run, as for a :class:`UserStructure`.
+    """
+
+    def force(self, deformation: float) -> float:
+        """Force at a ``deformation`` (m), N/m, positive against a positive one; changes nothing."""

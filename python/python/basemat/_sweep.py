@@ -6,7 +6,6 @@ import itertools
 import math
 import os
 import threading
-import traceback
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import (
     BrokenExecutor,
@@ -15,14 +14,15 @@ from concurrent.futures import (
     ThreadPoolExecutor,
     wait,
 )
-from typing import Any, Optional
+from typing import Any
 
-from . import _core
-from ._core import Run, Simulation
+from . import _core, _dask
+from ._case import Outcome, described, run_case
+from ._core import Run
 from ._errors import InputError
+from ._frames import pandas
+from ._progress import Line
 
-# Results of a case, the texts of its run's warnings, and that of its error.
-Outcome = tuple[dict[str, Any], Optional[str], Optional[str]]
 _OWN = ("warnings", "error")
 """Columns that every table has."""
 
@@ -45,45 +45,6 @@ def cases_of(grid: Any, parameters: Grid | None) -> list[dict[str, Any]]:
     names = [name for name, _ in parameters]
     values = [values for _, values in parameters]
     return [dict(zip(names, combination)) for combination in itertools.product(*values)]
-
-
-def results_of(
-    found: Any,
-    steps: int | None,
-    duration: float | None,
-    results: Callable[[Run], Mapping[str, Any]] | None,
-) -> Outcome:
-    """Columns of a row from what ``make`` returned."""
-    if isinstance(found, Simulation):
-        # A table says it in its column, once for every case.
-        found = found.run(steps, duration=duration, series=results is not None, warn=False)
-    if isinstance(found, Run):
-        warnings = "; ".join(found.warnings) or None
-        return dict(found.summary() if results is None else results(found)), warnings, None
-    if isinstance(found, Mapping):
-        return dict(found), None, None
-    raise TypeError(
-        f"make returned {type(found).__name__}, but must return a Simulation, a Run or a mapping"
-    )
-
-
-def run_case(
-    make: Callable[..., Any],
-    case: dict[str, Any],
-    steps: int | None,
-    duration: float | None,
-    results: Callable[[Run], Mapping[str, Any]] | None,
-) -> Outcome:
-    """Results of a case and the text of its error; importable, for other processes."""
-    try:
-        return results_of(make(**case), steps, duration, results)
-    except Exception as error:
-        return {}, None, described(error)
-
-
-def described(error: BaseException) -> str:
-    """The error in one line, with its class."""
-    return "".join(traceback.format_exception_only(type(error), error)).strip()
 
 
 def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
@@ -151,9 +112,6 @@ def sweep(
         Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
         :attr:`Run.warnings`) and ``error`` (None, or its text), rows in the order of the cases.
     """
-    from . import _dask
-    from ._frames import pandas
-
     frames = pandas()
     given = parameters_of(grid)
     cases = cases_of(grid, given)
@@ -209,8 +167,6 @@ def merge(
         rows in the order of the cases. A file that was cut off or changed, and cases that are there
         twice or not at all, raise a :class:`FileError`.
     """
-    from ._frames import pandas
-
     paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     parameters = parameters_of(grid)
     if parameters is None:
@@ -255,8 +211,6 @@ def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[
     if callable(progress):
         return lambda done: progress(done, count)
     if progress:
-        from ._progress import Line
-
         line = Line("cases")
         return lambda done: line(done, count)
     return lambda done: None

@@ -19,16 +19,21 @@ _DIRECTIONS = ("x", "y", "rotation")
 class OpenSeesModel:
     """A structure from OpenSees with the names of its nodes; what :func:`structure` returns.
 
-    It is a structure like any other, for a ground, a simulation or a reduction.
+    It is a structure like any other, for a ground, a simulation or a reduction. Its degrees of freedom
+    are called "4 x", "4 y" and "4 rotation" by the node's tag, in frames and in errors, too.
     """
 
     def __init__(self, model: MatrixModel, numbers: dict[int, list[int]]) -> None:
         self._numbers = numbers
-        self.dofs = model.dofs
+        self.dofs, self.dof = model.dofs, model.dof
+        self.dof_names = model.dof_names
         self.contact_nodes = model.contact_nodes
         self.mass = model.mass
         self.stiffness = model.stiffness
         self.damping = model.damping
+
+    def __repr__(self) -> str:
+        return f"OpenSeesModel({len(self._numbers)} nodes, {self.dofs} degrees of freedom)"
 
     def row(self, node: int, direction: Literal["x", "y", "rotation"] = "x") -> DofCombination:
         """The :class:`DofCombination` of a ``node`` (its tag) in a ``direction``, "x" by default.
@@ -56,7 +61,17 @@ def structure(ops: Any, base_nodes: Sequence[int], *, width: float | None = None
 
     Returns:
         The structure at rest, without the loads of OpenSees.
+
+    To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
+    than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
     """
+    for tag in ops.getNodeTags():
+        found = len(ops.nodeCoord(tag)), len(ops.nodeDisp(tag))
+        if found != (2, 3):
+            counts = "{} coordinates and {} degrees of freedom".format(*found)
+            raise InputError(f"node {tag} has {counts}, but must have 2 and 3: -ndm 2 -ndf 3")
+    if not ops.getEleTags():
+        raise InputError("the model of OpenSees has no elements")
     stiffness = _matrix(ops, 0.0, 0.0, 1.0)
     # With a little stiffness, so that nothing without mass is singular there; a power of two rounds
     # nothing.
@@ -67,16 +82,24 @@ def structure(ops: Any, base_nodes: Sequence[int], *, width: float | None = None
     # The last analysis knows them.
     numbers = {tag: [int(own) for own in ops.nodeDOFs(tag)] for tag in ops.getNodeTags()}
     ops.wipeAnalysis()
-    x = {tag: float(ops.nodeCoord(tag)[0]) for tag in base_nodes}
+    at = {tag: ops.nodeCoord(tag) for tag in base_nodes if tag in numbers}
+    x = {tag: float(own[0]) for tag, own in at.items()}
     dofs = {tag: [_number(numbers, tag, name) for name in _DIRECTIONS] for tag in base_nodes}
+    heights = sorted({float(own[1]) for own in at.values()})
+    if len(heights) > 1:
+        raise InputError(f"base nodes are at heights of {heights[0]} to {heights[-1]} m, but must be at one")
+    if len(dofs) < 2 and width is None or len(dofs) != 1 and width is not None:
+        raise InputError(f"{len(dofs)} base nodes: give several, or a single one with a width")
     if width is not None:
-        [node] = base_nodes
+        [node] = dofs
         half = 0.5 * width
         contact = ContactNode.rigid_base(x[node] - half, x[node] + half, dofs[node])
     else:
         tags = sorted(base_nodes, key=lambda tag: x[tag])
         contact = [ContactNode(x[tag], dofs[tag][0], dofs[tag][1]) for tag in tags]
-    options = {"damping": _clean(damping)} if np.abs(damping).max() > 1e-12 * np.abs(one).max() else {}
+    options: dict[str, Any] = {"damping": _clean(damping)} if np.abs(damping).max() > 1e-12 * np.abs(one).max() else {}
+    names = {own: f"{tag} {name}" for tag in reversed(numbers) for own, name in zip(numbers[tag], _DIRECTIONS)}
+    options["dof_names"] = [names.get(own, f"equation {own}") for own in range(len(mass))]
     return OpenSeesModel(MatrixModel(_clean(mass), _clean(stiffness), contact, **options), numbers)
 
 
@@ -109,5 +132,8 @@ def _number(numbers: dict[int, list[int]], node: int, direction: str) -> int:
         raise InputError(f"there is no direction '{direction}', only {', '.join(_DIRECTIONS)}")
     found = numbers[node][_DIRECTIONS.index(direction)]
     if found < 0:
-        raise InputError(f"node {node} is held in the direction {direction}: it must be free")
+        raise InputError(
+            f"node {node} is held in the direction {direction}: it must be free, as the ground holds the "
+            f"structure up (leave its fix out)"
+        )
     return found

@@ -140,9 +140,12 @@ fn control(name: &str) -> PyResult<ControlPoint> {
     }
 }
 
-/// The record of a motion, with a warning if it lacks anything.
+/// Part of its peak that a motion may lack without a warning: less than response spectra show.
+const UNSEEN: f64 = 1e-4;
+
+/// The record of a motion, with a warning if it lacks what can be seen.
 fn record(py: Python<'_>, step: f64, motion: SiteMotion) -> PyResult<Py<PyRecord>> {
-    if !motion.is_whole() {
+    if motion.before.max(motion.after).max(motion.rounding) > UNSEEN * motion.peak() {
         let text = format!("{motion}: give the record quiet time on both sides (padded)");
         crate::error::warn(py, text)?;
     }
@@ -182,8 +185,8 @@ impl PyColumn {
     }
 
     /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-    /// "within", as long. A :class:`BasematWarning` gives the
-    /// size of what comes before or after and is cut off: ``Record.padded`` makes room for it.
+    /// "within", as long. A :class:`BasematWarning` gives the size of what comes before or after and is
+    /// cut off, from 1e-4 of the peak on: :meth:`Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(
         &self,

@@ -14,6 +14,12 @@ use crate::saved::{Reduced, reduced};
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundationSummary(pub(super) Summary);
 
+/// A text as HTML, in its lines.
+pub(crate) fn preformatted(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    format!("<pre style=\"line-height: 1.2\">{text}</pre>")
+}
+
 /// Slip events as tuples (start in s, end in s, slip in m).
 pub(super) fn events(list: &[SlipEvent]) -> Vec<(f64, f64, f64)> {
     list.iter().map(|event| (event.start, event.end, event.slip)).collect()

@@ -6,7 +6,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::base::{events, known};
+use super::base::{events, known, preformatted};
 use super::{PyEnergyBalance, PyExtremes, PyFoundationSummary, PyPeak, PyServiceCheck, series};
 use crate::array::Numbers;
 use crate::error::{OrRaise, in_python, refuse};
@@ -14,12 +14,6 @@ use crate::motion::{PyRecord, PySpectrum};
 use crate::saved::{Reduced, reduced};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// A text as HTML, in its lines.
-pub(crate) fn preformatted(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    format!("<pre style=\"line-height: 1.2\">{text}</pre>")
-}
-
 type Column = fn(&ElementEnvelope) -> f64;
 
 /// A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
@@ -31,11 +25,12 @@ type Column = fn(&ElementEnvelope) -> f64;
 pub(crate) struct PyRun {
     pub(super) run: Run,
     histories: Option<TimeSeries>,
+    names: Option<Vec<String>>,
 }
 
 impl PyRun {
-    pub(crate) fn new(run: Run, histories: Option<TimeSeries>) -> Self {
-        Self { run, histories }
+    pub(crate) fn new(run: Run, histories: Option<TimeSeries>, names: Option<Vec<String>>) -> Self {
+        Self { run, histories, names }
     }
 
     fn kept(&self) -> PyResult<&TimeSeries> {
@@ -104,6 +99,12 @@ impl PyRun {
     #[getter]
     fn motion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         series::motion(py, self.kept()?)
+    }
+
+    /// Names of the structure's degrees of freedom: list of n texts; None without names.
+    #[getter]
+    fn dof_names(&self) -> Option<Vec<String>> {
+        self.names.clone()
     }
 
     fn _repr_html_(&self) -> String {

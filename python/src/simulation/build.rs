@@ -2,11 +2,11 @@
 
 use basemat::Simulation;
 use basemat::contact::ContactSearch;
-use basemat::coupled::{Coordinates, GravityStage, Probe, SimulationBuilder};
+use basemat::coupled::{Checkpoint, Coordinates, GravityStage, Probe, SimulationBuilder};
 use basemat::results::{Quantity, Serviceability};
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, refuse, take_raised};
 use crate::probe::PyProbe;
 use crate::ticker::{progress_function, watched};
 
@@ -69,4 +69,13 @@ pub(super) fn build(
 ) -> PyResult<Simulation> {
     let progress = progress_function(progress, COEFFICIENTS)?;
     py.detach(move || watched(progress, |observer| builder.build_observed(observer)))
+}
+
+/// The checkpoint at the start of a simulation, or why there is none.
+pub(super) fn start(simulation: &Simulation) -> basemat::Result<Checkpoint> {
+    let found = simulation.checkpoint();
+    match take_raised() {
+        Some(reason) => Err(basemat::Error::part("structure", reason.to_string())),
+        None => found,
+    }
 }

@@ -18,8 +18,9 @@ use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
 use crate::results::PyRun;
+use crate::structure::DofNames;
 use crate::ticker::{progress_function, watched};
-use crate::{error, interface, motion, structure};
+use crate::{error, interface, motion, structure, user};
 
 /// A structure on a ground, ready to march: from the static state under its weight, step by step.
 ///
@@ -70,46 +71,19 @@ use crate::{error, interface, motion, structure};
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
     structure: Py<PyAny>,
+    /// Its springs written in Python.
+    hysteresis: Vec<Py<PyAny>>,
+    names: Option<DofNames>,
     /// Length of the motion that it was given, s.
-    duration: Option<f64>,
+    pub(super) duration: Option<f64>,
     /// Where it began, or why it cannot go back there.
     start: basemat::Result<Checkpoint>,
 }
 
 impl PySimulation {
     /// The simulation, unless a run holds it.
-    fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
+    pub(super) fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
         self.simulation.try_lock().map_err(locked)
-    }
-
-    /// Steps asked for directly, by a duration, or to the end of the motion.
-    fn count(
-        &self,
-        py: Python<'_>,
-        steps: Option<usize>,
-        duration: Option<f64>,
-    ) -> PyResult<usize> {
-        match (steps, duration, self.duration) {
-            (Some(_), Some(_), _) => Err(refuse("give steps or a duration, not both")),
-            (Some(steps), None, _) => Ok(steps),
-            (None, Some(duration), _) => self.steps_for(duration),
-            (None, None, Some(end)) => {
-                let (all, made) = (self.steps_for(end)?, self.lock()?.state().step);
-                if made < all {
-                    return Ok(all - made);
-                }
-                let text = format!(
-                    "the motion ended at {end} s, before these {all} steps: the ground does not \
-                     accelerate in them; reset() goes back to the start, and steps or a duration \
-                     say that they are meant"
-                );
-                error::warn(py, text)?;
-                Ok(all)
-            }
-            (None, None, None) => {
-                Err(refuse("give steps or a duration: no record says how long to run"))
-            }
-        }
     }
 }
 
@@ -167,8 +141,11 @@ impl PySimulation {
         take_raised();
         let laws = interface::recipes(&interface)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
+        user::made_springs();
         let (structure, object) = structure::made(&structure)?;
+        let hysteresis = user::made_springs();
         let dofs = structure.dofs();
+        let names = DofNames::of(&object, dofs)?;
         let mut builder = Simulation::builder(time_step)
             .structure(structure)
             .ground(made(&ground.get().make)?)
@@ -204,10 +181,9 @@ impl PySimulation {
         let simulation = build::build(py, builder, progress.as_ref())?;
         let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
         let duration = motion.and_then(|motion| motion.get().duration);
-        let start = simulation.checkpoint();
-        take_raised();
+        let start = build::start(&simulation);
         let (simulation, structure) = (Mutex::new(simulation), object.unbind());
-        Ok(Self { simulation, structure, duration, start })
+        Ok(Self { simulation, structure, hysteresis, names, duration, start })
     }
 
     /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
@@ -274,7 +250,7 @@ impl PySimulation {
             watched(coefficients, |observer| simulation.precompute(steps, observer))?;
             let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
             let result = simulation.run(steps, |state| watched.see(state));
-            watched.end(result)
+            watched.end(result, self.names.as_ref())
         })?;
         if warn {
             run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;
@@ -317,6 +293,14 @@ impl PySimulation {
         self.structure.clone_ref(py)
     }
 
+    /// The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
+    /// copies that this simulation works on, with their internal variables, in the order of storeys or
+    /// springs.
+    #[getter]
+    fn hysteresis(&self, py: Python<'_>) -> Vec<Py<PyAny>> {
+        self.hysteresis.iter().map(|own| own.clone_ref(py)).collect()
+    }
+
     /// Time step, s.
     #[getter]
     fn time_step(&self) -> PyResult<f64> {
@@ -355,7 +339,7 @@ impl PySimulation {
     }
 
     /// Number of steps that last ``duration`` (s), rounded up.
-    fn steps_for(&self, duration: f64) -> PyResult<usize> {
+    pub(super) fn steps_for(&self, duration: f64) -> PyResult<usize> {
         if !duration.is_finite() || duration < 0.0 {
             return Err(refuse(format!(
                 "duration is {duration} s, but must be finite and 0 or more"

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use super::PyState;
 use crate::error::{OrRaise, has_raised, raise, returned, take_raised};
 use crate::results::PyRun;
+use crate::structure::DofNames;
 use crate::ticker::Ticker;
 
 /// A run and those who watch it.
@@ -68,7 +69,11 @@ impl Watched {
     }
 
     /// The run, or what ended it.
-    pub(super) fn end(mut self, result: basemat::Result<Run>) -> PyResult<PyRun> {
+    pub(super) fn end(
+        mut self,
+        result: basemat::Result<Run>,
+        names: Option<&DofNames>,
+    ) -> PyResult<PyRun> {
         let raised = take_raised().or(self.stopped.take());
         let last = Python::attach(|py| self.ticker.look(py, self.done, self.steps));
         if let Some(raised) = raised {
@@ -76,7 +81,7 @@ impl Watched {
         }
         let run = result.map_err(raise)?;
         last?;
-        Ok(PyRun::new(run, self.histories))
+        Ok(PyRun::new(run, self.histories, names.map(DofNames::to_vec)))
     }
 }
 

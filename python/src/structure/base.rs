@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use basemat::structure::{Structure, Triplets};
+use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::PyContactNode;
+use super::{DofNames, PyContactNode};
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
+use crate::row::PyDofCombination;
 use crate::user::UserStructure;
 
 /// A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
@@ -16,12 +17,23 @@ use crate::user::UserStructure;
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,
+    names: Option<DofNames>,
 }
 
 impl PyStructure {
     /// A structure that can be copied.
     pub(crate) fn copied(structure: impl Structure + Clone + Sync + 'static) -> Self {
-        Self { make: Arc::new(move || Ok(Box::new(structure.clone()))) }
+        Self::new(Arc::new(move || Ok(Box::new(structure.clone()))))
+    }
+
+    /// A structure by its recipe.
+    pub(crate) fn new(make: Recipe<dyn Structure>) -> Self {
+        Self { make, names: None }
+    }
+
+    /// The same with names of its degrees of freedom.
+    pub(crate) fn named(self, names: Option<DofNames>) -> Self {
+        Self { names, ..self }
     }
 }
 
@@ -99,6 +111,22 @@ impl PyStructure {
     #[getter]
     fn dofs(&self) -> PyResult<usize> {
         Ok((self.make)().or_raise()?.dofs())
+    }
+
+    /// Names of the degrees of freedom: list of n texts; None without names.
+    #[getter]
+    fn dof_names(&self) -> Option<Vec<String>> {
+        self.names.as_ref().map(DofNames::to_vec)
+    }
+
+    /// The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`.
+    fn dof(&self, name: &str) -> PyResult<PyDofCombination> {
+        let names = self.names.as_ref().ok_or_else(|| {
+            refuse(format!(
+                "there is no degree of freedom '{name}': the structure has no dof_names"
+            ))
+        })?;
+        Ok(DofCombination::from(names.number(name)?).into())
     }
 
     /// Points of the base that touch the ground: list of :class:`ContactNode`, from left to right.

@@ -3,12 +3,12 @@
 use basemat::structure::RigidBlock;
 use pyo3::prelude::*;
 
-use super::PyStructure;
+use super::{DofNames, PyStructure};
 use crate::error::OrRaise;
 use crate::row::PyDofCombination;
 
 /// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-/// the right, displacement up, rotation.
+/// the right, displacement up, rotation: "x", "y", "rotation" for :meth:`dof`.
 ///
 /// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
 /// ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
@@ -24,8 +24,9 @@ fn placed(
     if let Some(gravity) = p_delta {
         block = block.with_p_delta(gravity).or_raise()?;
     }
-    Ok(PyClassInitializer::from(PyStructure::copied(block.clone()))
-        .add_subclass(PyRigidBlock(block)))
+    let names = ["x", "y", "rotation"].map(String::from).to_vec();
+    let base = PyStructure::copied(block.clone()).named(Some(DofNames::new(names, 3)?));
+    Ok(PyClassInitializer::from(base).add_subclass(PyRigidBlock(block)))
 }
 
 #[pymethods]

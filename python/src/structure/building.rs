@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey};
+use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey, Structure};
 use pyo3::prelude::*;
 
-use super::PyStructure;
-use super::hysteresis::PyHysteresis;
+use super::hysteresis::LawLike;
+use super::{DofNames, PyStructure};
 use crate::array::whole;
 use crate::error::{OrRaise, refuse};
 use crate::recipe::Recipe;
@@ -40,14 +40,14 @@ impl PyStorey {
 type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
 
 /// Laws by storey, as Python gives them.
-type GivenLaws<'py> = Option<BTreeMap<i64, Bound<'py, PyHysteresis>>>;
+type GivenLaws = Option<BTreeMap<i64, LawLike>>;
 
 /// Recipes of laws by storey.
-fn recipes(laws: GivenLaws<'_>) -> PyResult<Laws> {
-    let own = |(storey, law): (i64, Bound<'_, PyHysteresis>)| {
+fn recipes(laws: GivenLaws) -> PyResult<Laws> {
+    let own = |(storey, LawLike(law)): (i64, LawLike)| {
         let storey = usize::try_from(storey)
             .map_err(|_| refuse(format!("laws: storey is {storey}, but must be 0 or more")))?;
-        Ok((storey, law.get().make.clone()))
+        Ok((storey, law))
     };
     laws.into_iter().flatten().map(own).collect()
 }
@@ -63,12 +63,14 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 /// Rigid floors on columns that shear, on a rigid base.
 ///
 /// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-/// horizontal displacement of every floor from below. ``width`` of the base: m. ``base_mass``: kg/m.
+/// horizontal displacement of every floor from below; for :meth:`dof` "base x", "base y", "base rotation",
+/// "floor 0", "floor 1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
 /// ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
 /// in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
 /// ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-/// effect; none unless given. ``laws``: dict ``{storey: law}`` of :class:`Hysteresis` laws that take the
-/// place of the stiffness of storeys, storey 0 the lowest; none unless given.
+/// effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (:class:`Hysteresis`, or your own:
+/// :class:`UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
+/// unless given.
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyShearBuilding(Make);
 
@@ -80,9 +82,12 @@ impl PyShearBuilding {
         make: impl Fn() -> basemat::Result<ShearBuilding> + Send + Sync + 'static,
     ) -> PyResult<PyClassInitializer<Self>> {
         let make: Make = Arc::new(make);
-        make().or_raise()?;
+        let floors = make().or_raise()?.dofs() - 3;
+        let base = ["base x", "base y", "base rotation"].map(String::from);
+        let names = base.into_iter().chain((0..floors).map(|storey| format!("floor {storey}")));
+        let names = DofNames::new(names.collect(), 3 + floors)?;
         let own = Arc::clone(&make);
-        let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
+        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?)))).named(Some(names));
         Ok(PyClassInitializer::from(base).add_subclass(Self(make)))
     }
 
@@ -104,7 +109,7 @@ impl PyShearBuilding {
         damping: Option<f64>,
         center: f64,
         p_delta: Option<f64>,
-        laws: GivenLaws<'_>,
+        laws: GivenLaws,
     ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
         let laws = recipes(laws)?;
@@ -122,7 +127,7 @@ impl PyShearBuilding {
     }
 
     /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-    /// (:class:`Hysteresis`); they become storey 0, and the building's storeys count from 1.
+    /// (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
     ///
     /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
     /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
@@ -131,17 +136,17 @@ impl PyShearBuilding {
     #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
     fn isolated(
         building: Bound<'_, Self>,
-        law: Bound<'_, PyHysteresis>,
+        law: LawLike,
         height: f64,
         slab_mass: f64,
         slab_inertia: f64,
         damping: f64,
-        laws: GivenLaws<'_>,
+        laws: GivenLaws,
     ) -> PyResult<Py<Self>> {
         let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
-        let (make, own, laws) = (building.get().0.clone(), law.get().make.clone(), recipes(laws)?);
+        let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
         let made = Self::of(move || following(make()?.isolated(level, own()?)?, &laws))?;
-        Py::new(law.py(), made)
+        Py::new(building.py(), made)
     }
 
     /// Mass, kg/m.

@@ -8,7 +8,7 @@ use basemat::structure::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::{PyStructure, recipe};
+use super::{DofNames, PyStructure, recipe};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::recipe::{Recipe, Shared};
@@ -76,7 +76,7 @@ impl PyReducedModel {
             }
         });
         let reduced = Arc::new(reduced.or_raise()?);
-        let base = PyStructure::copied(Shared(Arc::clone(&reduced)));
+        let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
     }
 
@@ -131,7 +131,7 @@ impl PyStructureGroup {
         });
         make().or_raise()?;
         let own = Arc::clone(&make);
-        let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
+        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?))));
         Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
     }
 
@@ -158,11 +158,13 @@ pub(crate) struct PyWithModalDamping(Vec<f64>);
 impl PyWithModalDamping {
     #[new]
     fn new(structure: Bound<'_, PyAny>, ratios: Numbers) -> PyResult<PyClassInitializer<Self>> {
-        let structure = recipe(&structure)?;
+        let (object, structure) = (structure.clone(), recipe(&structure)?);
+        let own = structure().or_raise()?;
+        let names = DofNames::of(&object, own.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
-        let frequencies = damping.on(structure().or_raise()?).or_raise()?.frequencies().to_vec();
+        let frequencies = damping.on(own).or_raise()?.frequencies().to_vec();
         let make = move || Ok(Box::new(damping.on(structure()?)?) as Box<_>);
-        let base = PyStructure { make: Arc::new(make) };
+        let base = PyStructure::new(Arc::new(make)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
     }
 

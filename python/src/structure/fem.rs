@@ -79,7 +79,7 @@ impl PyFemModel {
             model = model.with_active_damping();
         }
         let model = Arc::new(model);
-        let base = PyStructure::copied(Shared(Arc::clone(&model)));
+        let base = PyStructure::copied(Shared(Arc::clone(&model), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
     }
 

@@ -7,12 +7,27 @@ use pyo3::prelude::*;
 
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
+use crate::user;
 
 /// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
 /// Forces and stiffnesses are per metre of thickness.
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
-    pub(super) make: Recipe<dyn Hysteresis>,
+    make: Recipe<dyn Hysteresis>,
+}
+
+/// A law of this package, or one written in Python.
+pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>);
+
+impl<'py> FromPyObject<'_, 'py> for LawLike {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        match object.cast::<PyHysteresis>() {
+            Ok(own) => Ok(Self(own.get().make.clone())),
+            Err(_) => Ok(Self(user::hysteresis(&object)?)),
+        }
+    }
 }
 
 fn law<T>(law: impl Hysteresis + Clone + Sync + 'static, own: T) -> PyClassInitializer<T>

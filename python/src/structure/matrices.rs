@@ -5,9 +5,9 @@ use std::sync::Arc;
 use basemat::structure::MatrixModel;
 use pyo3::prelude::*;
 
-use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::contact_node::{PyContactNode, nodes};
+use super::{DofNames, PyStructure};
 use crate::array::Matrix;
 use crate::error::{OrRaise, refuse};
 use crate::recipe::Shared;
@@ -18,14 +18,15 @@ use crate::recipe::Shared;
 /// (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
 /// points of its base, a list of :class:`ContactNode` from left to right. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-/// (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given.
+/// (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
+/// list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
 #[pymethods]
 impl PyMatrixModel {
     #[new]
-    #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, rayleigh=None))]
+    #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, rayleigh=None, dof_names=None))]
     fn new(
         mass: Matrix,
         stiffness: Matrix,
@@ -33,8 +34,11 @@ impl PyMatrixModel {
         damping: Option<Matrix>,
         active_damping: bool,
         rayleigh: Option<&PyRayleighDamping>,
+        dof_names: Option<Vec<String>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let contact = nodes(&contact, mass.0.order())?;
+        let dofs = mass.0.order();
+        let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
+        let contact = nodes(&contact, dofs)?;
         let mut model = MatrixModel::new(mass.0, stiffness.0, contact).or_raise()?;
         model = match (damping, rayleigh) {
             (Some(_), Some(_)) => {
@@ -47,7 +51,7 @@ impl PyMatrixModel {
             (None, Some(damping)) => model.with_rayleigh(damping.0),
             (None, None) => model,
         };
-        let shared = Shared(Arc::new(model));
-        Ok(PyClassInitializer::from(PyStructure::copied(shared)).add_subclass(Self))
+        let base = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use basemat::structure::{DofCombination, Hysteresis, WithSprings};
 use pyo3::prelude::*;
 
-use super::hysteresis::PyHysteresis;
-use super::{PyStructure, recipe};
+use super::hysteresis::LawLike;
+use super::{DofNames, PyStructure, recipe};
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::RowLike;
 
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-/// freedom, which is the spring's deformation (m), and a :class:`Hysteresis`.
+/// freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings;
 
@@ -21,15 +21,16 @@ impl PyWithSprings {
     #[new]
     fn new(
         structure: Bound<'_, PyAny>,
-        springs: Vec<(RowLike, Bound<'_, PyHysteresis>)>,
+        springs: Vec<(RowLike, LawLike)>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let structure = recipe(&structure)?;
+        let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
+        let names = DofNames::of(&object, dofs)?;
         let springs: Vec<(DofCombination, Recipe<dyn Hysteresis>)> = springs
             .into_iter()
-            .map(|(RowLike(row, order), law)| {
+            .map(|(RowLike(row, order), LawLike(law))| {
                 order.check("the row of a spring", dofs)?;
-                Ok((row, law.get().make.clone()))
+                Ok((row, law))
             })
             .collect::<PyResult<_>>()?;
         let make = move || {
@@ -40,6 +41,7 @@ impl PyWithSprings {
             Ok(Box::new(own) as Box<_>)
         };
         make().or_raise()?;
-        Ok(PyClassInitializer::from(PyStructure { make: Arc::new(make) }).add_subclass(Self))
+        let base = PyStructure::new(Arc::new(make)).named(names);
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }

@@ -1,9 +1,11 @@
 //! Parts that users write in Python. The core calls them without the GIL, which is taken here.
 
+mod hysteresis;
 mod law;
 mod previous_contact;
 mod structure;
 
+pub(crate) use hysteresis::{hysteresis, made_springs};
 pub(crate) use law::{PyCondition, PyTolerance, UserLaw};
 pub(crate) use previous_contact::{PyContactState, PyPreviousContact};
 pub(crate) use structure::UserStructure;

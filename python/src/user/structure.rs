@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::array::{Count, Matrix, Numbers};
 use crate::error::{keep, kept, refuse, returned};
-use crate::structure::PyContactNode;
+use crate::structure::{DofNames, PyContactNode};
 
 /// Its name in errors.
 const PART: &str = "structure";
@@ -19,6 +19,7 @@ pub(crate) struct UserStructure {
     dofs: usize,
     contact: Vec<ContactNode>,
     ends: Vec<usize>,
+    names: Option<DofNames>,
     active_damping: bool,
     has_damping: bool,
     has_load: bool,
@@ -51,6 +52,7 @@ impl UserStructure {
         };
         Ok(Self {
             dofs,
+            names: DofNames::of(&object, dofs)?,
             contact: crate::structure::nodes(&nodes, dofs)?,
             ends,
             active_damping,
@@ -142,6 +144,10 @@ impl Structure for UserStructure {
 
     fn has_active_damping(&self) -> bool {
         self.active_damping
+    }
+
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
+        self.names.as_ref()?.describe(dofs)
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
