@@ -214,8 +214,8 @@ pub mod sweep;
 pub use coupled::simulation::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
-    MemoryError, Observer, Progress, RecordError, ReducedError, Result, SiteError, StabilityError,
-    StepError, SweepError, memory_limit, set_memory_limit,
+    MemoryError, Observer, PlanError, Progress, RecordError, ReducedError, Result, SiteError,
+    StabilityError, StepError, SweepError, memory_limit, set_memory_limit,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

@@ -13,6 +13,7 @@ pub mod full_plane;
 mod influence;
 mod late_exponentials;
 pub mod layered;
+pub mod plan;
 mod shared;
 mod spring;
 mod static_kernel;

@@ -10,6 +10,7 @@ mod input_file;
 mod layered;
 pub(crate) mod memory;
 mod part;
+mod plan;
 mod progress;
 mod record;
 mod site;
@@ -26,6 +27,7 @@ pub(crate) use memory::{
     all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
 };
 pub use part::{LawError, ReducedError};
+pub use plan::PlanError;
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub use record::RecordError;
@@ -339,6 +341,9 @@ pub enum Error {
     /// A layered ground that cannot be computed as asked.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),
+    /// A mat in plan that cannot be computed as asked.
+    #[error("mat in plan: {0}")]
+    Plan(#[from] PlanError),
     /// A site that cannot be iterated to strain-compatible properties.
     #[error("site response: {0}")]
     Site(#[from] SiteError),

@@ -12,5 +12,7 @@ mod layered_impedances;
 mod layered_passivity;
 mod observers;
 mod passivity;
+mod plan_cells;
+mod plan_impedances;
 mod site_response;
 mod site_round_trip;

@@ -138,6 +138,12 @@ impl Compliance {
         Some((last.modulus, last.q2, last.a2))
     }
 
+    /// μ(s), β and thickness (infinite for a half-plane) of the layers that the last evaluation went through.
+    pub(crate) fn shear_waves(&self) -> impl DoubleEndedIterator<Item = (Complex, Complex, f64)> {
+        let layers = self.layers.iter().zip(&self.roots);
+        layers.map(|(layer, [_, beta])| (layer.modulus, *beta, layer.thickness))
+    }
+
     /// C at the wavenumber `k` > 0, 1/m.
     pub(crate) fn at(&mut self, k: f64) -> Surface {
         self.roots.clear();

@@ -24,13 +24,16 @@ mod runge_kutta;
 mod static_compliance;
 mod tail;
 #[cfg(test)]
-mod test_profiles;
+pub(super) mod test_profiles;
 mod wavenumber;
 
+pub(super) use compliance::{Compliance, Surface};
 pub use cost::Cost;
+pub(super) use form_factors::{DEGREES, POINTS, legendre};
 pub(super) use impedance::rigid_strip_impedances_observed;
 pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub use kernel::LayeredKernel;
 pub(super) use kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
 pub use runge_kutta::Stages;
 pub use static_compliance::static_compliance;
+pub(super) use tail::{on_grid, surface_series};

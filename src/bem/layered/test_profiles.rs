@@ -3,7 +3,7 @@
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 
 /// The law of `gmb.json` for 5 % or 1 %.
-pub(super) fn gmb(percent: u32) -> GeneralizedMaxwell {
+pub(in crate::bem) fn gmb(percent: u32) -> GeneralizedMaxwell {
     let (long_term, moduli, frequencies) = basemat_problems::profiles::gmb_numbers(percent);
     GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()
 }
@@ -13,7 +13,7 @@ fn with_layer(profile: SoilProfile, damping: impl Relaxation + 'static) -> SoilP
     profile.with_layer(layer, 2.0).unwrap().with_damping(damping)
 }
 
-pub(super) fn p1(
+pub(in crate::bem) fn p1(
     layer_damping: impl Relaxation + 'static,
     rock_damping: impl Relaxation + 'static,
 ) -> SoilProfile {
@@ -21,6 +21,6 @@ pub(super) fn p1(
     with_layer(SoilProfile::on_half_plane(rock).with_base_damping(rock_damping), layer_damping)
 }
 
-pub(super) fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
+pub(in crate::bem) fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
     with_layer(SoilProfile::on_rigid_base(), damping)
 }

@@ -1,0 +1,296 @@
+//! Cells under a mat, or several.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::faces::Face;
+use super::lattice::Lattice;
+use crate::error::{Error, PlanError, Result, finite, memory, positive};
+
+/// How far outer cells reach beyond the outline, of their side: piecewise constant tractions under a rigid base behave
+/// like a mat whose edge lies so far inside them.
+const OVERHANG: f64 = 0.105;
+/// Part of the area that may be missing.
+const MISSING: f64 = 0.1;
+/// Relative difference of sides that counts as rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Cells of one lattice under a rigid mat, or several.
+///
+/// x points to the right, y away from the reader. Tractions are constant over each cell. Outer cells of a mat with
+/// straight edges reach 0.105 of their side beyond its outline: piecewise constant tractions under a rigid base act
+/// like a mat whose edge lies so far inside. That takes away nine tenths of the error or more, which is of first order
+/// in the size of the cells.
+///
+/// ```
+/// use basemat::bem::plan::Plan;
+/// let mat = Plan::rectangle(-10.0..10.0, -7.0..7.0, 8)?;
+/// assert_eq!(mat.count(), 11 * 8);
+/// assert!((mat.pitch()[1] - 14.0 / (8.0 - 0.21)).abs() < 1e-12);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    pub(super) lattice: Lattice,
+    /// Column and row of each cell, row by row.
+    pub(super) cells: Vec<[usize; 2]>,
+    /// Least x and y of the lattice, m.
+    corner: [f64; 2],
+    overhang: f64,
+    /// Area of the outline, m².
+    area: f64,
+    /// What it was made of: faces and cells along the shorter side.
+    faces: (Vec<Face>, usize),
+}
+
+impl Plan {
+    /// A rectangle, with `cells` along its shorter side.
+    ///
+    /// # Errors
+    /// As for [`Plan::on_faces`].
+    pub fn rectangle(x: Range<f64>, y: Range<f64>, cells: usize) -> Result<Self> {
+        positive("length of a mat along x", x.end - x.start)?;
+        positive("length of a mat along y", y.end - y.start)?;
+        let corners = [[x.start, y.start], [x.end, y.start], [x.end, y.end], [x.start, y.end]];
+        Self::on_faces(&[corners.to_vec()], cells)
+    }
+
+    /// What some faces cover: convex polygons, each by its corners (m) in either order, with `cells` along the shorter
+    /// side of all. Faces that share a corner, or have one on the other's edge, are of one mat; between mats there is
+    /// at least one empty cell. Edges inside the bounding rectangle, such as those of an L, go to the nearest line
+    /// between cells: see [`Plan::area_error`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
+    /// [`PlanError::Face`], [`PlanError::NoCells`], [`PlanError::TooClose`], [`PlanError::Uncovered`].
+    pub fn on_faces(faces: &[Vec<[f64; 2]>], cells: usize) -> Result<Self> {
+        if faces.is_empty() {
+            return Err(Error::Size { quantity: "list of faces of a mat", found: 0, needed: 1 });
+        }
+        let faces: Result<Vec<_>> =
+            faces.iter().enumerate().map(|(number, corners)| Face::new(number, corners)).collect();
+        Self::under(faces?, cells, OVERHANG)
+    }
+
+    /// A disc, as those of `cells` × `cells` whose centres lie on it, with sides for the same area.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for less than two cells, or a centre or radius that is not finite and positive;
+    /// [`Error::Memory`].
+    pub fn disc(center: [f64; 2], radius: f64, cells: usize) -> Result<Self> {
+        finite("x of the centre of a disc", center[0])?;
+        finite("y of the centre of a disc", center[1])?;
+        positive("radius of a disc", radius)?;
+        check_count(cells, [cells; 2])?;
+        let middle = 0.5 * cells as f64;
+        let from = |n: usize| n as f64 + 0.5 - middle;
+        let inside = |place: usize| {
+            from(place % cells).hypot(from(place / cells)) <= middle * (1.0 + ROUNDING)
+        };
+        let mask: Vec<bool> = (0..cells * cells).map(inside).collect();
+        let count = mask.iter().filter(|on| **on).count();
+        let side = radius * (std::f64::consts::PI / count as f64).sqrt();
+        Self::masked(center.map(|x| x - middle * side), [side; 2], cells, &mask)
+    }
+
+    /// Cells of sides `pitch` (m) where `mask` is true: row by row of `columns`, from `corner` (m) to the right, then
+    /// away. Nothing reaches beyond an outline: the cells are all there is.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a corner that is not finite or sides that are not positive; [`Error::Size`] for a mask
+    /// that is no whole number of rows; [`Error::Memory`]; [`PlanError::NoCells`].
+    pub fn masked(
+        corner: [f64; 2],
+        pitch: [f64; 2],
+        columns: usize,
+        mask: &[bool],
+    ) -> Result<Self> {
+        for axis in 0..2 {
+            finite("corner of a mask", corner[axis])?;
+            positive("side of a cell", pitch[axis])?;
+        }
+        let rows = mask.len().div_ceil(columns.max(1)).max(1);
+        if columns == 0 || rows * columns != mask.len() {
+            let (found, needed) = (mask.len(), rows * columns.max(1));
+            return Err(Error::Size { quantity: "mask of a mat", found, needed });
+        }
+        check_memory([columns, rows])?;
+        let on = (0..mask.len()).filter(|place| mask[*place]);
+        let cells: Vec<_> = on.map(|place| [place % columns, place / columns]).collect();
+        let range = |axis: usize| {
+            let places = || cells.iter().map(move |cell| cell[axis]);
+            Some([places().min()?, places().max()?])
+        };
+        let [Some([left, right]), Some([front, back])] = [0, 1].map(range) else {
+            return Err(PlanError::NoCells { mat: 0, pitch }.into());
+        };
+        let counts = [right + 1 - left, back + 1 - front];
+        let area = pitch[0] * pitch[1] * cells.len() as f64;
+        Ok(Self {
+            corner: [corner[0] + pitch[0] * left as f64, corner[1] + pitch[1] * front as f64],
+            cells: cells.into_iter().map(|[i, j]| [i - left, j - front]).collect(),
+            lattice: Lattice { pitch, counts },
+            overhang: 0.0,
+            area,
+            faces: (vec![], 0),
+        })
+    }
+
+    /// The same outline with cells that end where it does. For given pressures that is exact; of the response of a
+    /// rigid mat it leaves an error of first order. Discs and masks are as they were.
+    ///
+    /// # Errors
+    /// As for [`Plan::on_faces`].
+    pub fn without_overhang(self) -> Result<Self> {
+        let (faces, cells) = self.faces.clone();
+        if faces.is_empty() { Ok(self) } else { Self::under(faces, cells, 0.0) }
+    }
+
+    fn under(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
+        let bounds = Face::bounds(&faces);
+        let sides = bounds.map(|[least, greatest]| greatest - least);
+        let shorter = sides[0].min(sides[1]);
+        let whole = cells as f64 - 2.0 * overhang;
+        let counts = sides.map(|side| {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+            let count = (whole * side / shorter + 2.0 * overhang).round() as usize;
+            count
+        });
+        check_count(cells, counts)?;
+        let mut pitch = [0, 1].map(|axis| sides[axis] / (counts[axis] as f64 - 2.0 * overhang));
+        if (pitch[0] / pitch[1] - 1.0).abs() < ROUNDING {
+            pitch[1] = pitch[0];
+        }
+        let corner = [0, 1].map(|axis| {
+            let middle = 0.5 * (bounds[axis][0] + bounds[axis][1]);
+            middle - 0.5 * pitch[axis] * counts[axis] as f64
+        });
+        let mats = Face::mats(&faces);
+        let owners = owners(&faces, &mats, [corner, pitch], counts, overhang)?;
+        apart(&owners, counts[0], pitch)?;
+        for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
+            if !owners.contains(&Some(mat)) {
+                return Err(PlanError::NoCells { mat, pitch }.into());
+            }
+        }
+        let mask: Vec<bool> = owners.iter().map(Option::is_some).collect();
+        let area = faces.iter().map(Face::area).sum();
+        let plan = Self::masked(corner, pitch, counts[0], &mask)?;
+        let plan = Self { overhang, area, faces: (faces, cells), ..plan };
+        let found: f64 = plan.inside().iter().sum();
+        if (found - area).abs() > MISSING * area {
+            return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
+        }
+        Ok(plan)
+    }
+
+    /// Number of cells.
+    pub fn count(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Sides of a cell along x and y, m.
+    pub fn pitch(&self) -> [f64; 2] {
+        self.lattice.pitch
+    }
+
+    /// Middle of the bounding rectangle, m: what resultants and rotations refer to.
+    pub fn middle(&self) -> [f64; 2] {
+        let sides = self.lattice.sides();
+        [0, 1].map(|axis| self.corner[axis] + 0.5 * sides[axis])
+    }
+
+    /// Area of the cells inside the outline less that of the faces, relative to it: what inner edges lose or gain on
+    /// their way to the nearest line between cells.
+    pub fn area_error(&self) -> f64 {
+        self.inside().iter().sum::<f64>() / self.area - 1.0
+    }
+
+    /// Area of each cell that is inside the outline, m².
+    fn inside(&self) -> Vec<f64> {
+        let places: HashMap<_, _> = self.cells.iter().map(|cell| (*cell, ())).collect();
+        let [a, b] = self.lattice.pitch;
+        let d = self.overhang;
+        let inside = |[i, j]: [usize; 2]| {
+            let on = |right: usize, away: usize| {
+                let column = (i + right).checked_sub(1);
+                let row = (j + away).checked_sub(1);
+                column.zip(row).is_some_and(|(i, j)| places.contains_key(&[i, j]))
+            };
+            let cut = |on: bool| if on { 0.0 } else { d };
+            let width = 1.0 - cut(on(0, 1)) - cut(on(2, 1));
+            let depth = 1.0 - cut(on(1, 0)) - cut(on(1, 2));
+            let corners = [[0, 0], [0, 2], [2, 0], [2, 2]].into_iter();
+            let notches = corners.filter(|[x, y]| on(*x, 1) && on(1, *y) && !on(*x, *y)).count();
+            a * b * (width * depth - d * d * notches as f64)
+        };
+        self.cells.iter().map(|cell| inside(*cell)).collect()
+    }
+}
+
+/// Error for less than two cells along a side, or more than memory allows.
+fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
+    if cells < 2 {
+        return Err(Error::Input {
+            quantity: "number of cells along the shorter side of a mat",
+            value: cells as f64,
+            needed: "at least 2",
+        });
+    }
+    check_memory(counts)
+}
+
+/// Error for so many cells that matrices between them would not fit into memory.
+fn check_memory(counts: [usize; 2]) -> Result<()> {
+    let count = counts[0] as f64 * counts[1] as f64;
+    // Complex numbers between three components of each.
+    Ok(memory::check("cells of a mat", count, 16.0 * (3.0 * count).powi(2))?)
+}
+
+/// Mat of each cell: one that comes within the overhang of the cell's centre.
+fn owners(
+    faces: &[Face],
+    mats: &[usize],
+    [corner, pitch]: [[f64; 2]; 2],
+    [columns, rows]: [usize; 2],
+    overhang: f64,
+) -> Result<Vec<Option<usize>>> {
+    let mut owners = vec![None; columns * rows];
+    for (place, owner) in owners.iter_mut().enumerate() {
+        let cell = [place % columns, place / columns];
+        let near = |face: &Face| {
+            (0..9).any(|point| {
+                let steps = [(point % 3) as f64 - 1.0, (point / 3) as f64 - 1.0];
+                face.contains([0, 1].map(|axis| {
+                    let place = cell[axis] as f64 + 0.5 + overhang * steps[axis];
+                    corner[axis] + pitch[axis] * place
+                }))
+            })
+        };
+        for (face, mat) in faces.iter().zip(mats) {
+            if *owner != Some(*mat) && near(face) {
+                if let Some(other) = owner.replace(*mat) {
+                    return Err(PlanError::TooClose { mats: [other, *mat], pitch }.into());
+                }
+            }
+        }
+    }
+    Ok(owners)
+}
+
+/// Error for cells of two mats side by side or corner to corner.
+fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {
+    for (place, owner) in owners.iter().enumerate() {
+        let Some(owner) = owner else { continue };
+        let (left, right) = (place % columns > 0, place % columns + 1 < columns);
+        let steps = [(right, 1), (left, columns - 1), (true, columns), (right, columns + 1)];
+        for (_, step) in steps.into_iter().filter(|(there, _)| *there) {
+            if let Some(Some(other)) = owners.get(place + step)
+                && other != owner
+            {
+                return Err(PlanError::TooClose { mats: [*owner, *other], pitch }.into());
+            }
+        }
+    }
+    Ok(())
+}

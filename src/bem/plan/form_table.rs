@@ -1,0 +1,227 @@
+//! Form factors of a lattice on panels of wavenumbers, and their integrals beyond the last.
+//!
+//! Panels are so narrow that forms turn by at most 16 radians, which 16 Gauss points resolve. They are tabulated up
+//! to the largest K that is needed. Beyond K the surface sees the top layer alone, whose compliance is a power series
+//! in q₂/k², so that all integrals there come from
+//!
+//! `T_j`(K) = ∫_K^∞ k^(−2j) g dk,
+//!
+//! sums over the same points up to K*, and beyond it g for what it is in the mean, a power k⁻³. ∫₀^∞ g dk is known in
+//! closed form.
+
+use std::sync::OnceLock;
+
+use super::angular_means::{AngularMeans, FORMS};
+use super::lattice::Lattice;
+use super::static_cells;
+use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid};
+use crate::error::{Result, Watch, memory};
+use crate::linalg::add_combined_rows;
+use crate::linalg::gauss::Rule;
+
+/// Terms of the series beyond K, the static one with them.
+pub(super) const TERMS: usize = 7;
+/// Angle by which forms turn over a panel.
+const TURN: f64 = 16.0;
+/// K over the largest |√q₂|.
+const REACH: f64 = 4.0;
+/// Least K × shorter side of a cell: static forms beyond it are small enough.
+const SHORT: f64 = 8.0;
+/// K* × shorter side, where |q₂| is (2/side)²; and |√q₂| × side there.
+const END: [f64; 2] = [64.0, 2.0];
+/// Points that Legendre coefficients are made of.
+const FINE: usize = DEGREES + 8;
+
+/// Rows of forms: form by form, row by row, all classes.
+#[derive(Debug)]
+pub(super) struct Rows {
+    forms: [Vec<f64>; FORMS],
+    classes: usize,
+}
+
+impl Rows {
+    fn new(count: usize, classes: usize) -> Self {
+        Self { forms: [(); FORMS].map(|()| vec![0.0; count * classes]), classes }
+    }
+
+    /// Overwrites a row with values, form by form, all classes.
+    fn set(&mut self, row: usize, values: &[f64]) {
+        let range = row * self.classes..(row + 1) * self.classes;
+        for (form, values) in self.forms.iter_mut().zip(values.chunks_exact(self.classes)) {
+            form[range.clone()].copy_from_slice(values);
+        }
+    }
+
+    /// Adds factor × values to a row.
+    fn add(&mut self, row: usize, factor: f64, values: &[f64]) {
+        let range = row * self.classes..(row + 1) * self.classes;
+        for (form, values) in self.forms.iter_mut().zip(values.chunks_exact(self.classes)) {
+            for (sum, value) in form[range.clone()].iter_mut().zip(values) {
+                *sum += factor * value;
+            }
+        }
+    }
+
+    /// Adds Σ weight × row of one form to sums, for the first rows: `weights` has a column for each sum.
+    pub(super) fn combine(&self, form: usize, weights: &[f64], sums: &mut [f64]) {
+        let rows = weights.len() * self.classes / sums.len();
+        let rows = &self.forms[form][..rows * self.classes];
+        add_combined_rows(weights, rows, self.classes, 1.0, sums);
+    }
+}
+
+/// What wavenumbers are needed for: reach of the Laplace variables, and thickness of the top layer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Need {
+    /// Largest |√q₂|, 1/m.
+    pub(super) root: f64,
+    /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
+    pub(super) deep: f64,
+}
+
+/// Forms of a lattice, tabulated.
+#[derive(Debug)]
+pub(super) struct FormTable {
+    lattice: Lattice,
+    pub(super) classes: usize,
+    /// Width of a panel, 1/m.
+    pub(super) width: f64,
+    pub(super) rule: Rule,
+    /// Legendre polynomials at the Gauss points.
+    pub(super) polynomials: Vec<[f64; DEGREES]>,
+    /// At the Gauss points, panel by panel.
+    pub(super) values: Rows,
+    /// Legendre coefficients of a panel.
+    legendre: Vec<OnceLock<Rows>>,
+    /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
+    tails: Vec<(usize, Rows)>,
+    deep: f64,
+}
+
+impl FormTable {
+    /// Table for `lattice`.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped).
+    pub(super) fn new(lattice: &Lattice, need: Need, watch: &mut Watch) -> Result<Self> {
+        let list = lattice.classes();
+        let classes = list.len();
+        let width = TURN / lattice.diagonal();
+        let mut table = Self {
+            lattice: lattice.clone(),
+            classes,
+            width,
+            rule: Rule::new(POINTS),
+            polynomials: vec![],
+            values: Rows::new(0, classes),
+            legendre: vec![],
+            tails: vec![],
+            deep: need.deep,
+        };
+        table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
+        let least = SHORT / lattice.finest() / width;
+        let most = least.max(need.deep / width).max(REACH * need.root / width);
+        let cells = (lattice.counts[0] * lattice.counts[1]) as f64;
+        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * most;
+        memory::check("cells of a mat", cells, bytes)?;
+        let first = table.panels(0.0);
+        let last = table.panels(need.root);
+        table.values = Rows::new(last * POINTS, classes);
+        table.legendre = (0..last).map(|_| OnceLock::new()).collect();
+        table.tabulate(&list, first..=last, table.end(need.root, last), watch)?;
+        Ok(table)
+    }
+
+    /// Number of panels up to K for a |√q₂|.
+    pub(super) fn panels(&self, root: f64) -> usize {
+        let least = (SHORT / self.lattice.finest()).max(self.deep).max(REACH * root);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let count = (least / self.width).ceil() as usize;
+        on_grid(count)
+    }
+
+    /// Number of panels up to K*.
+    fn end(&self, root: f64, last: usize) -> usize {
+        let side = self.lattice.finest();
+        let end = END[0] / side * (root * side / END[1]).sqrt().min(1.0);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
+        let count = (end / self.width).ceil() as usize;
+        count.max(4 * last)
+    }
+
+    /// κ, 1/m.
+    pub(super) fn unit(&self) -> f64 {
+        1.0 / self.lattice.finest()
+    }
+
+    /// Forms at all points, from the last panel to the first; on the way the sums beyond each K.
+    fn tabulate(
+        &mut self,
+        list: &[[usize; 2]],
+        kept: std::ops::RangeInclusive<usize>,
+        end: usize,
+        watch: &mut Watch,
+    ) -> Result<()> {
+        let (classes, unit) = (self.classes, self.unit());
+        let mut means = AngularMeans::new(&self.lattice);
+        let mut sums = Rows::new(TERMS, classes);
+        for panel in (0..end).rev() {
+            watch.reach(0)?;
+            for (i, node) in self.rule.nodes.iter().enumerate() {
+                let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
+                let values = means.at(k);
+                if panel < *kept.end() {
+                    self.values.set(panel * POINTS + i, values);
+                }
+                let mut weight = 0.5 * self.width * self.rule.weights[i];
+                let terms = if panel >= *kept.start() { TERMS } else { 1 };
+                for term in 0..terms {
+                    sums.add(term, weight, values);
+                    weight *= (unit / k).powi(2);
+                }
+            }
+            if kept.contains(&panel) && on_grid(panel) == panel {
+                let forms = sums.forms.clone();
+                self.tails.push((panel, Rows { forms, classes }));
+            }
+        }
+        // What is left of all beyond K* is known, but how it is spread is not.
+        let ratio = (unit / (end as f64 * self.width)).powi(2);
+        for (class, offset) in list.iter().enumerate() {
+            let totals = static_cells::integrals(self.lattice.pitch, *offset);
+            for (form, total) in totals.into_iter().enumerate() {
+                let mut beyond = total - sums.forms[form][class];
+                for (_, rows) in &mut self.tails {
+                    rows.forms[form][class] = total;
+                }
+                for term in 1..TERMS {
+                    beyond *= ratio;
+                    for (_, rows) in &mut self.tails {
+                        rows.forms[form][term * classes + class] += beyond / (term + 1) as f64;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Integrals beyond the last of `panels`.
+    pub(super) fn tail(&self, panels: usize) -> Option<&Rows> {
+        self.tails.iter().find(|(count, _)| *count == panels).map(|(_, rows)| rows)
+    }
+
+    /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of ∫ C Pₙ dk.
+    pub(super) fn legendre(&self, panel: usize) -> &Rows {
+        self.legendre[panel].get_or_init(|| {
+            let (mut means, fine) = (AngularMeans::new(&self.lattice), Rule::new(FINE));
+            let mut rows = Rows::new(DEGREES, self.classes);
+            for (x, weight) in fine.points() {
+                let values = means.at(self.width * (panel as f64 + 0.5 * (1.0 + x)));
+                for (degree, polynomial) in legendre(x).into_iter().enumerate() {
+                    rows.add(degree, (degree as f64 + 0.5) * weight * polynomial, values);
+                }
+            }
+            rows
+        })
+    }
+}

@@ -1,0 +1,195 @@
+//! Dynamic stiffness of rigid mats in plan.
+//!
+//! Without damping poles lie on the path of the integrals at s = iω. The stiffness is analytic there all the same, so
+//! it is evaluated at iω + η, 2η, … 8η and extrapolated.
+
+use super::cells::Plan;
+use super::integrals::{Integrals, Workspace};
+use super::sectors::{MOTIONS, Sectors};
+use crate::bem::layered::StripContact;
+use crate::error::{LayeredError, Observer, PlanError, Result, Watch, not_negative};
+use crate::linalg::Complex;
+use crate::soil::SoilProfile;
+
+/// Dynamic stiffness of a rigid, massless mat for motions e^(iωt).
+///
+/// x to the right, y away from the reader, z up, rotations right-handed; forces and moments act on the soil.
+/// Reference point is [`Plan::middle`]. Several mats of one plan move together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct PlanImpedance {
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// Forces along x, y, z and moments about these axes (rows) by translations and rotations in the same order
+    /// (columns), N/m, N and N m: symmetric. The real part is stiffness (and soil that moves along), the imaginary
+    /// part damping, by radiation and in the soil.
+    pub matrix: [[Complex; MOTIONS]; MOTIONS],
+}
+
+impl PlanImpedance {
+    /// Springs Re K.
+    pub fn stiffnesses(&self) -> [[f64; MOTIONS]; MOTIONS] {
+        self.matrix.map(|row| row.map(|k| k.re))
+    }
+
+    /// Dashpots Im K/ω beside these springs, N s/m and so on; at frequency zero they are not defined (NaN).
+    pub fn dashpots(&self) -> [[f64; MOTIONS]; MOTIONS] {
+        self.matrix.map(|row| row.map(|k| k.im / (std::f64::consts::TAU * self.frequency)))
+    }
+}
+
+type Matrix = [[Complex; MOTIONS]; MOTIONS];
+
+/// Accuracy of the cells' compliances; cells themselves leave far more.
+const TOLERANCE: f64 = 1e-9;
+/// Im μ/|μ| below which a layer counts as undamped.
+const LOSSLESS: f64 = 1e-6;
+/// Points of the extrapolation.
+const POINTS: usize = 8;
+/// Their distance over ω, and over the inverse of the time that waves take.
+const SPACING: [f64; 2] = [0.04, 0.1];
+/// Largest relative difference between 8 and 7 points.
+const SETTLED: f64 = 1e-3;
+/// Cells in a wavelength at least.
+const RESOLVED: f64 = 6.0;
+
+/// Dynamic stiffness of the rigid mats of `plan` on `profile` at each of `frequencies` (Hz).
+///
+/// Frequency 0 is the static stiffness. Layers may have any damping, hysteretic too; without any they take eight times
+/// as long. Relaxed contact has vertical motions and rocking without shear, horizontal ones and torsion without
+/// pressure.
+///
+/// ```
+/// use basemat::bem::layered::StripContact;
+/// use basemat::bem::plan::{Plan, impedances_in_plan};
+/// use basemat::Soil;
+/// let soil = Soil::new(1.0, 0.25, 1.0)?;
+/// let mat = Plan::rectangle(-1.0..1.0, -1.0..1.0, 8)?;
+/// let found = impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Relaxed)?;
+/// // A square punch of side 2: 4.6092 μ/(1 − ν).
+/// assert!((found[0].matrix[2][2].re * 0.75 / 4.6092 - 1.0).abs() < 2e-3);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
+/// for less than six cells in a shear wave of the top layer; [`LayeredError::Unresolved`] without damping at a
+/// frequency at which guided waves begin; [`LayeredError::TooFine`] for a top layer too thin beside the mat;
+/// [`Error::Memory`](crate::Error::Memory).
+pub fn impedances_in_plan(
+    profile: &SoilProfile,
+    plan: &Plan,
+    frequencies: &[f64],
+    contact: StripContact,
+) -> Result<Vec<PlanImpedance>> {
+    all(profile, plan, frequencies, contact, &mut Watch::nobody())
+}
+
+/// [`impedances_in_plan`] with an observer; parts are points of the Laplace plane, eight to a frequency.
+///
+/// # Errors
+/// [`Error::Stopped`](crate::Error::Stopped); as for [`impedances_in_plan`].
+pub fn impedances_in_plan_observed(
+    profile: &SoilProfile,
+    plan: &Plan,
+    frequencies: &[f64],
+    contact: StripContact,
+    observer: &mut Observer<'_>,
+) -> Result<Vec<PlanImpedance>> {
+    let mut watch = Watch::new("impedances", POINTS * frequencies.len(), observer);
+    all(profile, plan, frequencies, contact, &mut watch)
+}
+
+fn all(
+    profile: &SoilProfile,
+    plan: &Plan,
+    frequencies: &[f64],
+    contact: StripContact,
+    watch: &mut Watch,
+) -> Result<Vec<PlanImpedance>> {
+    profile.check()?;
+    let mut lists = Vec::with_capacity(frequencies.len());
+    for frequency in frequencies {
+        not_negative("frequency of an impedance", *frequency)?;
+        check_cells(profile, plan, *frequency)?;
+        lists.push(points(profile, plan, std::f64::consts::TAU * frequency)?);
+    }
+    let list = lists.iter().flatten().copied();
+    let integrals = Integrals::new(&plan.lattice, profile, list, TOLERANCE, watch)?;
+    let parts: &[&[usize]] = match contact {
+        StripContact::Bonded => &[&[0, 1, 2]],
+        StripContact::Relaxed => &[&[0], &[1, 2]],
+    };
+    let sectors = Sectors::new(plan);
+    let (mut work, mut values) = (Workspace::default(), vec![]);
+    let mut found = Vec::with_capacity(frequencies.len());
+    for (number, (frequency, list)) in frequencies.iter().zip(lists).enumerate() {
+        let mut samples = Vec::with_capacity(list.len());
+        for (point, s) in list.iter().enumerate() {
+            integrals.compliance(profile, *s, &mut work, &mut values)?;
+            samples.push(sectors.stiffness(&values, parts)?);
+            if point + 1 < list.len() {
+                watch.reach(POINTS * number + point + 1)?;
+            }
+        }
+        found.push(PlanImpedance { frequency: *frequency, matrix: limit(&samples, list[0].im)? });
+        watch.reach(POINTS * (number + 1))?;
+    }
+    Ok(found)
+}
+
+/// Error for cells that do not resolve the waves of a frequency.
+fn check_cells(profile: &SoilProfile, plan: &Plan, frequency: f64) -> Result<()> {
+    let speed = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
+    let (wavelength, [a, b]) = (speed / frequency, plan.pitch());
+    let cell = a.max(b);
+    if cell * RESOLVED > wavelength {
+        let needed = RESOLVED;
+        return Err(PlanError::CoarseCells { cell, frequency, wavelength, needed }.into());
+    }
+    Ok(())
+}
+
+/// Laplace variables at which a frequency is evaluated: itself, or where layers are undamped some beside it.
+fn points(profile: &SoilProfile, plan: &Plan, omega: f64) -> Result<Vec<Complex>> {
+    let s = Complex::new(0.0, omega);
+    let mut moduli = vec![];
+    profile.moduli(s, &mut moduli)?;
+    let damped = moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs());
+    if damped || omega == 0.0 {
+        return Ok(vec![s]);
+    }
+    let slowest = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
+    let time = plan.lattice.diagonal() / slowest + 2.0 * profile.travel_time();
+    let step = (SPACING[0] * omega).min(SPACING[1] / time);
+    Ok((1..=POINTS).map(|j| Complex::new(step * j as f64, omega)).collect())
+}
+
+/// K at iω, from one sample there or from some beside it by Lagrange's polynomial.
+fn limit(samples: &[Matrix], omega: f64) -> Result<Matrix> {
+    let at = |count: usize| -> Matrix {
+        let mut sum = [[Complex::default(); MOTIONS]; MOTIONS];
+        for (j, sample) in (1..=count).zip(samples) {
+            let others = (1..=count).filter(|m| *m != j);
+            let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
+            for (sum, value) in sum.iter_mut().flatten().zip(sample.iter().flatten()) {
+                *sum += value.scale(weight);
+            }
+        }
+        sum
+    };
+    let found = at(samples.len());
+    if samples.len() == 1 {
+        return Ok(found);
+    }
+    let coarse = at(samples.len() - 1);
+    for i in 0..MOTIONS {
+        let change = (found[i][i] - coarse[i][i]).abs();
+        if change.is_nan() || change > SETTLED * found[i][i].abs() {
+            return Err(LayeredError::Unresolved { re: 0.0, im: omega, wavenumber: 0.0 }.into());
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,142 @@
+//! Compliances of cells against a table and themselves.
+
+use super::*;
+use crate::bem::layered::test_profiles::{gmb, p1};
+use crate::soil::Soil;
+
+fn all(
+    lattice: &Lattice,
+    profile: &SoilProfile,
+    s: Complex,
+    tolerance: f64,
+) -> (Vec<[Complex; SERIES]>, usize) {
+    let mut watch = Watch::nobody();
+    let integrals = Integrals::new(lattice, profile, [s], tolerance, &mut watch).unwrap();
+    let (mut work, mut values) = (Workspace::default(), vec![]);
+    integrals.compliance(profile, s, &mut work, &mut values).unwrap();
+    (values, work.evaluations)
+}
+
+fn half_space() -> SoilProfile {
+    SoilProfile::on_half_plane(Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap())
+}
+
+/// `compliance_4x4.csv`: another program, good to about 1e-8.
+#[test]
+fn agrees_with_the_table_of_sixteen_cells() {
+    let lattice = Lattice { pitch: [0.5; 2], counts: [4, 4] };
+    let table = include_str!("../../../../tests/data/plan/compliance_4x4.csv");
+    let mut worst = [0.0_f64; 2];
+    let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|l| l.split(',').collect()).collect();
+    for group in rows.chunk_by(|a, b| a[..3] == b[..3]) {
+        let layered = group[0][0] == "layer_rock";
+        let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
+        let number = |text: &str| text.parse::<f64>().unwrap();
+        let s = Complex::new(number(group[0][1]), number(group[0][2]));
+        let (values, evaluations) = all(&lattice, &profile, s, 1e-10);
+        let largest = lattice.block(&values, [0, 0])[1][1].abs();
+        let mut own = [0.0_f64; SERIES];
+        for row in group {
+            let [i, j] = [4, 5].map(|column| row[column].parse::<isize>().unwrap());
+            let block = lattice.block(&values, [i, j]);
+            let place = |letter: char| "zxy".find(letter).unwrap();
+            let [to, from] = [0, 1].map(|at| place(row[3].chars().nth(at).unwrap()));
+            let wanted = Complex::new(number(row[6]), number(row[7]));
+            let error = (block[to][from] - wanted).abs() / largest;
+            own[(2 * to + from).min(5)] = own[(2 * to + from).min(5)].max(error);
+            worst[usize::from(layered)] = worst[usize::from(layered)].max(error);
+        }
+        println!("{} {s:?} {own:?} {evaluations}", group[0][0]);
+    }
+    println!("{worst:?}");
+    assert!(worst[0].max(worst[1]) < 1e-7, "{worst:?}");
+}
+
+fn largest_difference(one: &[[Complex; SERIES]], two: &[[Complex; SERIES]]) -> f64 {
+    let pairs = one.as_flattened().iter().zip(two.as_flattened());
+    pairs.map(|(one, two)| (*one - *two).abs()).fold(0.0, f64::max) / one[0][1].abs()
+}
+
+/// A half-space cut into layers is integrated further, and its tail begins elsewhere, but it is the same.
+#[test]
+fn cut_half_space_is_whole() {
+    let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+    let one = SoilProfile::on_half_plane(soil);
+    let lattice = Lattice { pitch: [0.5, 0.4], counts: [4, 3] };
+    for s in
+        [Complex::new(0.2, 1.5), Complex::new(3.0, 8.0), Complex::real(12.0), Complex::default()]
+    {
+        let (wanted, _) = all(&lattice, &one, s, 1e-11);
+        for thickness in [0.25, 3.0] {
+            let cut = one.clone().with_layer(soil, thickness).unwrap();
+            let (found, _) = all(&lattice, &cut.with_layer(soil, 0.6).unwrap(), s, 1e-11);
+            let error = largest_difference(&wanted, &found);
+            println!("{s:?} {thickness} {error:e}");
+            assert!(error < 5e-9, "{s:?} {thickness} {error:e}");
+        }
+    }
+}
+
+/// Slow motions tend to statics, which a layer stiffens.
+#[test]
+fn statics_are_the_limit_of_slow_motions() {
+    let lattice = Lattice { pitch: [0.5; 2], counts: [5, 3] };
+    let profile = p1(gmb(5), gmb(1));
+    let (still, _) = all(&lattice, &profile, Complex::default(), 1e-11);
+    let (slow, _) = all(&lattice, &profile, Complex::real(1e-6), 1e-11);
+    let error = largest_difference(&still, &slow);
+    assert!(error < 1e-5, "{error:e}");
+    assert!(still.as_flattened().iter().all(|value| value.im == 0.0));
+}
+
+/// Herm(sF) ≥ 0 for Re s > 0: random layers, damping, lattices; of masks and unions it is a congruence.
+#[test]
+fn mobility_is_passive() {
+    let mut state = 7_u64;
+    let mut random = move |least: f64, most: f64| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        least * (most / least).powf((state >> 11) as f64 / (1_u64 << 53) as f64)
+    };
+    let mut least = f64::INFINITY;
+    for case in 0..200 {
+        let soil = |random: &mut dyn FnMut(f64, f64) -> f64| {
+            Soil::new(random(0.1, 10.0), random(0.05, 0.49), random(0.8, 1.25)).unwrap()
+        };
+        let mut profile = if case % 4 == 0 {
+            SoilProfile::on_rigid_base()
+        } else {
+            SoilProfile::on_half_plane(soil(&mut random))
+        };
+        for layer in 0..1 + case % 3 {
+            let soil = soil(&mut random);
+            profile = profile.with_layer(soil, random(0.3, 3.0)).unwrap();
+            if (case + layer) % 2 == 0 {
+                profile = profile.with_damping(gmb(5));
+            }
+        }
+        let pitch = [0.5, if case % 2 == 0 { 0.5 } else { random(0.25, 1.0) }];
+        let lattice = Lattice { pitch, counts: [2 + case % 3, 1 + case % 4] };
+        let s = Complex::new(random(0.02, 5.0), random(0.02, 20.0));
+        let (values, _) = all(&lattice, &profile, s, 1e-11);
+        let count = lattice.counts[0] * lattice.counts[1];
+        let cell = |n: usize| [n % lattice.counts[0], n / lattice.counts[0]];
+        let order = 3 * count;
+        let mut matrix = vec![Complex::default().inner(); order * order];
+        for p in 0..count {
+            for q in 0..count {
+                let offset = [0, 1].map(|axis| cell(p)[axis] as isize - cell(q)[axis] as isize);
+                for (i, row) in lattice.block(&values, offset).into_iter().enumerate() {
+                    for (j, value) in row.into_iter().enumerate() {
+                        matrix[(3 * p + i) * order + 3 * q + j] = (s * value).inner();
+                    }
+                }
+            }
+        }
+        let [low, high] = crate::linalg::hermitian_range(&matrix, order).unwrap();
+        least = least.min(low / high);
+        assert!(low > -1e-10 * high, "{case} {s:?} {low:e} {high:e}");
+    }
+    println!("least/greatest {least:e}");
+    assert!(least > 0.0);
+}

@@ -1,0 +1,124 @@
+//! Cells of equal size in rows and columns, and the offsets between them.
+
+use crate::linalg::Complex;
+
+/// Series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
+pub(super) const SERIES: usize = 6;
+
+/// A lattice of cells. Compliances depend on the offset alone, and its signs.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lattice {
+    /// Sides of a cell along x and y, m.
+    pub(super) pitch: [f64; 2],
+    /// Cells along x and y.
+    pub(super) counts: [usize; 2],
+}
+
+impl Lattice {
+    /// Diagonal of all cells, m.
+    pub(super) fn diagonal(&self) -> f64 {
+        let [a, b] = self.sides();
+        a.hypot(b)
+    }
+
+    /// Sides of all cells together, m.
+    pub(super) fn sides(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.pitch[axis] * self.counts[axis] as f64)
+    }
+
+    /// Shorter side of a cell, m.
+    pub(super) fn finest(&self) -> f64 {
+        self.pitch[0].min(self.pitch[1])
+    }
+
+    /// Whether x and y may be exchanged.
+    fn is_square(&self) -> bool {
+        self.pitch[0] == self.pitch[1]
+    }
+
+    /// Offsets along x and y that are integrated, with the most columns second if cells are square.
+    pub(super) fn extent(&self) -> [usize; 2] {
+        let [i, j] = self.counts;
+        if self.is_square() { [i.min(j), i.max(j)] } else { [i, j] }
+    }
+
+    /// Offsets that stand for all others, both not negative; of square cells those with i ≤ j.
+    pub(super) fn classes(&self) -> Vec<[usize; 2]> {
+        let [columns, rows] = self.extent();
+        let square = self.is_square();
+        let all = (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j]));
+        all.filter(|[i, j]| !square || i <= j).collect()
+    }
+
+    /// Number of the class of an offset (absolute), and whether x and y are exchanged there.
+    fn class(&self, [i, j]: [usize; 2]) -> (usize, bool) {
+        let [_, rows] = self.extent();
+        if !self.is_square() {
+            return (i * rows + j, false);
+        }
+        let (i, j, exchanged) = if i <= j { (i, j, false) } else { (j, i, true) };
+        // Rows of j = i, i + 1, …
+        (i * rows - i * (i + 1) / 2 + j, exchanged)
+    }
+
+    /// 3 × 3 compliances (components: down, along x, along y) of a receiver that is `offset` cells from the source.
+    pub(super) fn block(
+        &self,
+        values: &[[Complex; SERIES]],
+        offset: [isize; 2],
+    ) -> [[Complex; 3]; 3] {
+        let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
+        let [zz, mut xx, mut yy, xy, mut zx, mut zy] = values[class];
+        if exchanged {
+            (xx, yy, zx, zy) = (yy, xx, zy, zx);
+        }
+        let [right, away] = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
+        let (xy, zx, zy) = (xy.scale(right * away), zx.scale(right), zy.scale(away));
+        [[zz, zx, zy], [-zx, xx, xy], [-zy, xy, yy]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_are_numbered_as_listed() {
+        for (pitch, counts) in
+            [([1.0, 1.0], [4, 4]), ([1.0, 1.0], [5, 3]), ([1.0, 1.0], [2, 6]), ([1.0, 1.5], [4, 3])]
+        {
+            let lattice = Lattice { pitch, counts };
+            let classes = lattice.classes();
+            let mut met = vec![false; classes.len()];
+            for i in 0..counts[0] {
+                for j in 0..counts[1] {
+                    let (class, exchanged) = lattice.class([i, j]);
+                    assert_eq!(classes[class], if exchanged { [j, i] } else { [i, j] });
+                    met[class] = true;
+                }
+            }
+            assert!(met.into_iter().all(|met| met), "{counts:?}");
+        }
+    }
+
+    /// Betti: exchanging receiver and source transposes the block.
+    #[test]
+    fn blocks_are_reciprocal() {
+        let lattice = Lattice { pitch: [1.0; 2], counts: [4, 5] };
+        let number = |class: usize, series: usize| Complex::new(class as f64, 1.0 + series as f64);
+        let values: Vec<[Complex; SERIES]> = (0..lattice.classes().len())
+            .map(|class| std::array::from_fn(|series| number(class, series)))
+            .collect();
+        for offset in [[0_isize, 3], [3, 1], [-2, 4], [-3, -1]] {
+            let there = lattice.block(&values, offset);
+            let back = lattice.block(&values, offset.map(|n| -n));
+            for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+                if offset.contains(&0) && row != column {
+                    continue;
+                }
+                assert_eq!(there[row][column], back[column][row], "{offset:?}");
+                assert_eq!(there[column][row], back[row][column], "{offset:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Ground under rigid mats in plan, in three dimensions.
+//!
+//! Mats lie on the cells of one lattice. Every coefficient is an integral over the wavenumber of the compliance of the
+//! [layered ground](super::layered) in its plane, and of one scalar more for waves across it, with form factors that
+//! are means over the direction of the wavenumber.
+//!
+//! x points to the right, y away from the reader, z up; rotations are right-handed about these axes.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | cells, faces | plan: cells on a lattice under faces, discs, masks |
+//! | lattice | offsets between cells, and their signs |
+//! | sh | surface compliance across the wavenumber |
+//! | angular_means, static_cells, form_table | form factors, and their integrals |
+//! | integrals | compliances of cells at a Laplace variable |
+//! | sectors, impedance | rigid mats at one frequency |
+
+mod angular_means;
+mod cells;
+mod faces;
+mod form_table;
+mod impedance;
+mod integrals;
+mod lattice;
+mod sectors;
+mod sh;
+mod static_cells;
+
+pub use cells::Plan;
+pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};

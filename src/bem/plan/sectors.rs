@@ -1,0 +1,225 @@
+//! Resultants on a rigid mat, solved by symmetry.
+//!
+//! Where the cells are their own mirror image in x or y, tractions fall into sectors, even or odd in each, that do
+//! not act on each other. With the group G of reflections h and its characters χ (a shear along x changes its sign
+//! with x), vectors e_p = Σ χ(h) e_hp of one cell p from each orbit have
+//!
+//! e_pᵀ F e_q = |G| Σ χ(h) `F`_(p, hq)
+//!
+//! so that a quarter of the cells is left of a rectangle, in four systems.
+
+use realfft::num_complex::Complex64;
+
+use super::cells::Plan;
+use super::lattice::SERIES;
+use crate::error::{Error, Result};
+use crate::linalg::{Complex, DenseFactor};
+
+/// Rigid motions: along x, y, z (up) and about these axes.
+pub(super) const MOTIONS: usize = 6;
+/// Components of a cell: down, along x, along y.
+const COMPONENTS: usize = 3;
+
+/// Symmetry of a plan.
+#[derive(Debug)]
+pub(super) struct Sectors<'a> {
+    plan: &'a Plan,
+    /// Reflections (in x, in y), the identity first.
+    group: Vec<[bool; 2]>,
+    /// One cell of each orbit.
+    cells: Vec<[usize; 2]>,
+}
+
+impl<'a> Sectors<'a> {
+    pub(super) fn new(plan: &'a Plan) -> Self {
+        let counts = plan.lattice.counts;
+        let mut on = vec![false; counts[0] * counts[1]];
+        for [i, j] in &plan.cells {
+            on[j * counts[0] + i] = true;
+        }
+        let kept = |h: &[bool; 2]| {
+            let image = |cell: &[usize; 2]| mirrored(*h, *cell, counts);
+            plan.cells.iter().map(image).all(|[i, j]| on[j * counts[0] + i])
+        };
+        let all = [[false, false], [true, false], [false, true], [true, true]];
+        let mut group: Vec<_> = all.into_iter().filter(kept).collect();
+        // Half a turn alone is no reflection.
+        if group.len() == 2 && group[1] == [true, true] {
+            group.pop();
+        }
+        let first =
+            |cell: &&[usize; 2]| group.iter().all(|h| mirrored(*h, **cell, counts) >= **cell);
+        let cells = plan.cells.iter().filter(first).copied().collect();
+        Self { plan, group, cells }
+    }
+
+    /// Forces and moments on the soil by unit rigid motions, AᵀF⁻¹A, for compliances of all classes. Components of a
+    /// list in `parts` act on each other, those of different lists do not.
+    ///
+    /// # Errors
+    /// [`Error::Singular`].
+    pub(super) fn stiffness(
+        &self,
+        values: &[[Complex; SERIES]],
+        parts: &[&[usize]],
+    ) -> Result<[[Complex; MOTIONS]; MOTIONS]> {
+        let mut sum = [[Complex64::default(); MOTIONS]; MOTIONS];
+        let has = |axis: usize| self.group.iter().any(|h| h[axis]);
+        let signs = |axis: usize| if has(axis) { &[1.0, -1.0][..] } else { &[1.0][..] };
+        for x in signs(0) {
+            for y in signs(1) {
+                for components in parts {
+                    self.add_sector([*x, *y], components, values, &mut sum)?;
+                }
+            }
+        }
+        // Rounding leaves it unsymmetric.
+        Ok(std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let mean = 0.5 * (sum[i][j] + sum[j][i]);
+                Complex::new(mean.re, mean.im)
+            })
+        }))
+    }
+
+    fn add_sector(
+        &self,
+        parity: [f64; 2],
+        components: &[usize],
+        values: &[[Complex; SERIES]],
+        sum: &mut [[Complex64; MOTIONS]; MOTIONS],
+    ) -> Result<()> {
+        let counts = self.plan.lattice.counts;
+        let character = |h: [bool; 2], component: usize| {
+            let sign = |axis: usize| {
+                let turned = if component == axis + 1 { -1.0 } else { 1.0 };
+                if h[axis] { parity[axis] * turned } else { 1.0 }
+            };
+            sign(0) * sign(1)
+        };
+        // Place of each component of each cell; a cell on an axis has no odd ones.
+        let mut order = 0;
+        let places: Vec<[Option<usize>; COMPONENTS]> = self
+            .cells
+            .iter()
+            .map(|cell| {
+                let mut places = [None; COMPONENTS];
+                for component in components {
+                    let fixed = |h: &&[bool; 2]| mirrored(**h, *cell, counts) == *cell;
+                    if self.group.iter().filter(fixed).all(|h| character(*h, *component) > 0.0) {
+                        places[*component] = Some(order);
+                        order += 1;
+                    }
+                }
+                places
+            })
+            .collect();
+        let mut matrix = vec![Complex64::default(); order * order];
+        let mut loads = vec![Complex64::default(); order * MOTIONS];
+        let size = self.group.len() as f64;
+        for (receiver, rows) in self.cells.iter().zip(&places) {
+            for h in &self.group {
+                let resultants = self.resultants(mirrored(*h, *receiver, counts));
+                for (component, row) in rows.iter().enumerate() {
+                    let Some(row) = row else { continue };
+                    let loads = &mut loads[row * MOTIONS..(row + 1) * MOTIONS];
+                    for (load, value) in loads.iter_mut().zip(resultants[component]) {
+                        load.re += character(*h, component) * value;
+                    }
+                }
+            }
+            for (source, columns) in self.cells.iter().zip(&places) {
+                for h in &self.group {
+                    let image = mirrored(*h, *source, counts);
+                    let offset = [0, 1].map(|axis| receiver[axis] as isize - image[axis] as isize);
+                    let block = self.plan.lattice.block(values, offset);
+                    for (row, block) in rows.iter().zip(block) {
+                        let Some(row) = row else { continue };
+                        for (component, column) in columns.iter().enumerate() {
+                            let Some(column) = column else { continue };
+                            let value = block[component].scale(size * character(*h, component));
+                            matrix[row * order + column] += value.inner();
+                        }
+                    }
+                }
+            }
+        }
+        let mut tractions = loads.clone();
+        let mut factor = DenseFactor::with_columns(order, MOTIONS);
+        if !factor.factor(&matrix, order) {
+            return Err(Error::Singular { matrix: "compliance of a mat in plan", order });
+        }
+        factor.solve_columns(&mut tractions, MOTIONS);
+        for (load, traction) in loads.chunks_exact(MOTIONS).zip(tractions.chunks_exact(MOTIONS)) {
+            for (sum, load) in sum.iter_mut().zip(load) {
+                for (sum, traction) in sum.iter_mut().zip(traction) {
+                    *sum += load * traction;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Per component of a cell: what a unit traction does on each rigid motion, N or N m.
+    fn resultants(&self, cell: [usize; 2]) -> [[f64; MOTIONS]; COMPONENTS] {
+        let lattice = &self.plan.lattice;
+        let area = lattice.pitch[0] * lattice.pitch[1];
+        let [x, y] = [0, 1].map(|axis| {
+            let steps = 2.0 * cell[axis] as f64 + 1.0 - lattice.counts[axis] as f64;
+            0.5 * steps * lattice.pitch[axis]
+        });
+        // u = θ × r, and down is −z.
+        let down = [0.0, 0.0, -1.0, -y, x, 0.0];
+        let along = [1.0, 0.0, 0.0, 0.0, 0.0, -y];
+        let across = [0.0, 1.0, 0.0, 0.0, 0.0, x];
+        [down, along, across].map(|row| row.map(|value| area * value))
+    }
+}
+
+/// A cell's mirror image.
+fn mirrored(h: [bool; 2], cell: [usize; 2], counts: [usize; 2]) -> [usize; 2] {
+    std::array::from_fn(|axis| if h[axis] { counts[axis] - 1 - cell[axis] } else { cell[axis] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::plan::integrals::{Integrals, Workspace};
+    use crate::error::Watch;
+    use crate::soil::{Soil, SoilProfile};
+
+    /// Symmetry is no more than a shorter way: even and odd numbers of cells, one axis, half a turn, none.
+    #[test]
+    fn sectors_are_the_whole() {
+        let masks = [
+            ("####\n####", 4),
+            ("###\n###\n###", 4),
+            ("###\n.#.\n.#.", 2),
+            ("#..\n##.\n###\n##.\n#..", 2),
+            ("##.\n.##", 1),
+            ("##\n#.", 1),
+            ("###\n#.#\n###", 4),
+        ];
+        let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
+        for (text, order) in masks {
+            let columns = text.lines().next().unwrap().len();
+            let mask: Vec<bool> = text.lines().flat_map(str::chars).map(|c| c == '#').collect();
+            let plan = Plan::masked([0.0; 2], [1.0, 0.8], columns, &mask).unwrap();
+            let s = Complex::new(0.1, 0.8);
+            let mut watch = Watch::nobody();
+            let integrals = Integrals::new(&plan.lattice, &profile, [s], 1e-9, &mut watch).unwrap();
+            let (mut work, mut values) = (Workspace::default(), vec![]);
+            integrals.compliance(&profile, s, &mut work, &mut values).unwrap();
+            let sectors = Sectors::new(&plan);
+            assert_eq!(sectors.group.len(), order, "{text}");
+            let whole = Sectors { plan: &plan, group: vec![[false; 2]], cells: plan.cells.clone() };
+            for parts in [&[&[0, 1, 2][..]][..], &[&[0], &[1, 2]]] {
+                let found = sectors.stiffness(&values, parts).unwrap();
+                let wanted = whole.stiffness(&values, parts).unwrap();
+                for (found, wanted) in found.iter().flatten().zip(wanted.iter().flatten()) {
+                    assert!((*found - *wanted).abs() < 1e-11, "{text} {found:?} {wanted:?}");
+                }
+            }
+        }
+    }
+}
