@@ -88,7 +88,7 @@ fn layers() -> Result<Timed> {
     let mut ground = ElasticGround::new(profile, Strip::graded(-5.0..5.0, 8)?)?;
     Ok(Box::new(move || {
         ground.prepare(5.0e-3)?;
-        ground.reserve(200)
+        ground.expect_steps(200, None)
     }))
 }
 

@@ -76,7 +76,7 @@ fn half_plane(structure: &dyn Structure) -> Result<ElasticGround> {
 /// A block that uplifts and slides on a half-plane with one kind of history.
 fn by_history(kind: HistoryMethod, grading: Grading) -> Result<SimulationBuilder> {
     let strip = Strip::new(-2.0..2.0, 8, grading)?;
-    let ground = ElasticGround::new(soil()?, strip)?.with_history_kind(kind);
+    let ground = ElasticGround::new(soil()?, strip)?.with_history(kind)?;
     Ok(on(block()?, ground).interface(Coulomb::new(0.4)?))
 }
 

@@ -85,7 +85,7 @@ fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
 fn main() -> Result<()> {
     let out = Path::new("target/containment");
     // Runs are independent: with the feature `rayon`, as many at a time as there are processors.
-    let runs = Sweep::new(CASES.len()).collect(|case| shake(CASES[case.index()].1));
+    let runs = Sweep::new(CASES.len()).collect(|case| shake(CASES[case.index].1));
     let runs: Vec<_> = runs.into_iter().collect::<std::result::Result<_, _>>()?;
     println!(
         "{:<14}{:>7}{:>17}{:>9}{:>8}{:>10}{:>11}{:>9}{:>8}",

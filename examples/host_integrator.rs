@@ -51,7 +51,7 @@ fn main() -> Result<()> {
     let (count, size) = (centers.len(), 2 * centers.len());
 
     ground.prepare(STEP)?;
-    ground.reserve(STEPS)?;
+    ground.expect_steps(STEPS, None)?;
     let mut delassus = vec![0.0; size * size];
     ground.step_compliance(&mut delassus)?;
     for column in 0..size {

@@ -111,7 +111,7 @@ fn steps_do_not_allocate() {
     let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
     let direct = || {
         let ground = ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, 8).unwrap()).unwrap();
-        base().ground(ground.with_history_kind(HistoryMethod::Direct))
+        base().ground(ground.with_history(HistoryMethod::Direct).unwrap())
     };
     let bed = || SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
     let modes = Coordinates::Modes;

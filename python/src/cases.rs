@@ -62,7 +62,7 @@ pub(crate) fn save_cases(
 #[pyfunction(name = "_merge_cases")]
 pub(crate) fn merge_cases(paths: Vec<PathBuf>, grid: Grid<'_>) -> PyResult<Merged> {
     let table = sweep(grid, None)?.merge(paths).or_raise()?;
-    let outcomes = table.rows().map(|row| match row.results() {
+    let outcomes = table.rows().map(|row| match row.results {
         Ok(results) => (Some(results.to_vec()), None),
         Err(reason) => (None, Some(reason.to_owned())),
     });

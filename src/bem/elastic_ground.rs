@@ -12,7 +12,7 @@ use super::{
 };
 use crate::error::{Observer, Result, positive};
 use crate::geometry::{ContactElement, check_order};
-use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod};
+use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};
 use crate::structure::Structure;
@@ -231,33 +231,21 @@ impl ElasticGround {
         Ok(self.changed(|source| source.limit = limit))
     }
 
-    /// As [`WeightsGround::with_history_kind`]; only the closed form has exponentials.
-    #[must_use]
-    pub fn with_history_kind(self, history: HistoryMethod) -> Self {
-        Self { ground: self.ground.with_history_kind(history), ..self }
-    }
-
-    /// As [`WeightsGround::with_history_tolerance`]; only the closed form makes use of it.
+    /// With other options of its history, or another method alone; only the closed form has exponentials.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
-    pub fn with_history_tolerance(self, tolerance: f64) -> Result<Self> {
-        Ok(Self { ground: self.ground.with_history_tolerance(tolerance)?, ..self })
+    pub fn with_history(self, options: impl Into<HistoryOptions>) -> Result<Self> {
+        Ok(Self { ground: self.ground.with_history(options)?, ..self })
     }
 
-    /// As [`WeightsGround::with_history_memory`].
+    /// As [`WeightsGround::with_own_history`].
     #[must_use]
-    pub fn with_history_memory(self, bytes: usize) -> Self {
-        Self { ground: self.ground.with_history_memory(bytes), ..self }
-    }
-
-    /// As [`WeightsGround::with_history`].
-    #[must_use]
-    pub fn with_history(
+    pub fn with_own_history(
         self,
         make: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
-        Self { ground: self.ground.with_history(make), ..self }
+        Self { ground: self.ground.with_own_history(make), ..self }
     }
 
     /// As [`WeightsGround::with_shared_kernels`].
@@ -351,9 +339,7 @@ impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
-        fn expect_steps(&mut self, steps: usize) -> Result<()>;
-        fn reserve(&mut self, steps: usize) -> Result<()>;
-        fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()>;
+        fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);

@@ -60,31 +60,17 @@ pub trait Ground: Any + Send {
     /// error of a ground of your own.
     fn prepare(&mut self, time_step: f64) -> Result<()>;
 
-    /// Announces that up to `steps` steps will have been made in all, those so far included: what
-    /// depends on their number may be chosen, but no memory is reserved, as an observer may stop
-    /// the run long before.
+    /// Hint that up to `steps` steps will have been made in all, those so far included; zero if that is not known.
+    /// Results do not depend on it, but for rounding where it decides how the history is computed.
     ///
-    /// # Errors
-    /// As for [`Ground::history`].
-    fn expect_steps(&mut self, _steps: usize) -> Result<()> {
-        Ok(())
-    }
-
-    /// The same, with kernels evaluated and memory reserved.
-    ///
-    /// # Errors
-    /// As for [`Ground::history`].
-    fn reserve(&mut self, _steps: usize) -> Result<()> {
-        Ok(())
-    }
-
-    /// Computes the convolution weights of the first `steps` steps with an observer, so that those find them there.
-    /// Nothing else changes; the default has nothing to compute.
+    /// What depends on the number of steps is chosen, and memory reserved for them; not for more than 100 000 steps to
+    /// come, as a run without end may be stopped long before. With an `observer` the convolution weights of all `steps`
+    /// are computed first, those of the first step if `steps` is zero. The default does nothing.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped) by the observer, and the ground is as it was; as for
     /// [`Ground::history`].
-    fn precompute(&mut self, _steps: usize, _observer: &mut Observer<'_>) -> Result<()> {
+    fn expect_steps(&mut self, _steps: usize, _observer: Option<&mut Observer<'_>>) -> Result<()> {
         Ok(())
     }
 

@@ -6,8 +6,8 @@ use super::{Ground, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::{ContactElement, check_order};
 use crate::history::{
-    ChosenHistory, ConvolutionHistory, ConvolutionWeights, ExponentialHistory, HistoryChoice,
-    HistoryMethod, HistoryOptions, SavedChoice,
+    ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
+    HistoryOptions, RESERVED_STEPS, SavedChoice,
 };
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
@@ -191,42 +191,19 @@ impl WeightsGround {
         Ok(Self { source, elements, options, own_history: None, shared, prepared: None })
     }
 
-    /// With a history of this kind; [`HistoryMethod::Auto`] unless called.
-    #[must_use]
-    pub fn with_history_kind(mut self, history: HistoryMethod) -> Self {
-        (self.options.kind, self.own_history) = (history, None);
-        self
-    }
-
-    /// Allows a history whose coefficients are within `tolerance` (relative, 1e-12 to 1e-2) of the
-    /// exact ones: exponentials take it instead of 1e-12 ([`HistoryMethod::Auto`]) or 1e-10
-    /// ([`HistoryMethod::Exponentials`]).
+    /// With other options of its history, or another method alone.
     ///
     /// # Errors
-    /// [`Error::Input`] for a tolerance outside this range.
-    pub fn with_history_tolerance(mut self, tolerance: f64) -> Result<Self> {
-        self.options.tolerance = Some(ExponentialHistory::check_tolerance(tolerance)?);
+    /// [`Error::Input`] for a tolerance not from 1e-12 to 1e-2.
+    pub fn with_history(mut self, options: impl Into<HistoryOptions>) -> Result<Self> {
+        (self.options, self.own_history) = (options.into().checked()?, None);
         Ok(self)
-    }
-
-    /// With a limit (bytes) on the memory of the history; 1 GiB unless called.
-    ///
-    /// [`HistoryMethod::Auto`] goes by it and by the steps announced ([`Ground::expect_steps`] or
-    /// [`Ground::reserve`]: of a simulation,
-    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
-    /// first run). Beyond those steps, or where none are known, it holds for every history: that which
-    /// was chosen goes over to the exponentials when it reaches the limit; where they cannot be had, or
-    /// an exact history was asked for, the step fails with [`Error::Memory`] and is not made.
-    #[must_use]
-    pub fn with_history_memory(mut self, bytes: usize) -> Self {
-        self.options.memory = bytes;
-        self
     }
 
     /// With a history of one's own: `make` is called with the coefficients once the time step is
     /// known.
     #[must_use]
-    pub fn with_history(
+    pub fn with_own_history(
         mut self,
         make: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
@@ -251,7 +228,7 @@ impl WeightsGround {
     fn begin(&self, kernel: Arc<dyn ConvolutionWeights>) -> Result<Prepared> {
         let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
         let mut prepared = Prepared { kernel, history };
-        if self.options.kind != HistoryMethod::Auto {
+        if self.options.method != HistoryMethod::Auto {
             prepared.history(self.options, None)?;
         }
         Ok(prepared)
@@ -269,26 +246,26 @@ impl Ground for WeightsGround {
         Ok(())
     }
 
-    fn expect_steps(&mut self, steps: usize) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, Some(steps)).map(|_| ()),
-            None => Err(NOT_PREPARED),
+    fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
+        let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
+        let exponentials =
+            prepared.choice().is_some_and(|choice| choice.kind == HistoryMethod::Exponentials);
+        // Exponentials have all weights that they need.
+        if let Some(observer) = observer.filter(|_| !exponentials) {
+            let kernel = &*prepared.kernel;
+            let method = HistoryMethod::RelaxedFft;
+            let lags = self.options.prepared_steps(method, kernel, steps.max(1))?;
+            // As many as a history takes, by a power of two.
+            kernel.prepare_observed(lags.checked_next_power_of_two().unwrap_or(lags), observer)?;
         }
-    }
-
-    fn reserve(&mut self, steps: usize) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, Some(steps))?.reserve(steps),
-            None => Err(NOT_PREPARED),
+        if steps == 0 {
+            return Ok(());
         }
-    }
-
-    /// As many lags as a history takes, by a power of two.
-    fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let Some(Prepared { kernel, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
-        let steps = self.options.prepared_steps(HistoryMethod::RelaxedFft, &**kernel, steps)?;
-        let lags = steps.checked_next_power_of_two().unwrap_or(steps);
-        kernel.prepare_observed(lags, observer)
+        let history = prepared.history(self.options, Some(steps))?;
+        if steps > history.steps().saturating_add(RESERVED_STEPS) {
+            return Ok(());
+        }
+        history.reserve(steps)
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {

@@ -48,9 +48,6 @@ short_debug! {
     time: self.state.time,
 }
 
-/// Longest run that is prepared for at once; in longer ones, memory grows as they go.
-const RESERVED_STEPS: usize = 100_000;
-
 impl Simulation {
     /// Makes one step and returns the new state.
     ///
@@ -174,13 +171,13 @@ impl Simulation {
         steps
     }
 
-    /// Computes the ground's convolution weights for `steps` further steps with an observer, so that a run of them
-    /// begins at once. Results are the same without.
+    /// Computes the ground's convolution weights for `steps` further steps with an observer, so that a run of as many
+    /// begins at once; the results are those of such a run without.
     ///
     /// # Errors
     /// [`Error::Stopped`] by the observer, and the simulation is as it was; as for [`Ground::history`].
     pub fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        self.ground.precompute(self.state.step.saturating_add(steps), observer)
+        self.ground.expect_steps(self.state.step.saturating_add(steps), Some(observer))
     }
 
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
@@ -197,12 +194,8 @@ impl Simulation {
         steps: usize,
         mut observe: impl FnMut(&State) -> R,
     ) -> Result<Run> {
-        // Of so many steps an observer may well stop the run: histories grow by doubling then.
         let announced = self.state.step.saturating_add(steps);
-        self.ground.expect_steps(announced)?;
-        if steps <= RESERVED_STEPS {
-            self.ground.reserve(announced)?;
-        }
+        self.ground.expect_steps(announced, None)?;
         let mut run = self.begin_run();
         for _ in 0..steps {
             self.step()?;

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::{Error, Result};
 
 /// A size for which more memory would be needed than is allowed: by [`memory_limit`](crate::memory_limit) for what is
-/// given, by [`with_history_memory`](crate::bem::WeightsGround::with_history_memory) for a convolution history. Nothing was
+/// given, by [`HistoryOptions::memory`](crate::history::HistoryOptions::memory) for a convolution history. Nothing was
 /// allocated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(

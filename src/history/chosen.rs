@@ -85,10 +85,10 @@ impl ChosenHistory {
             needed: exact.memory as f64,
             limit: self.options.memory as f64,
             remedy: "announce the steps with `expected_steps`, or allow more with \
-                     `with_history_memory`: a checkpoint can go on there",
+                     `HistoryOptions::memory`: a checkpoint can go on there",
         });
         let exponentials = estimate(HistoryMethod::Exponentials, most)?;
-        if self.options.kind != HistoryMethod::Auto || exponentials.memory >= exact.memory {
+        if self.options.method != HistoryMethod::Auto || exponentials.memory >= exact.memory {
             return Err(refused);
         }
         let horizon = ExponentialHistory::HORIZON.max(most.saturating_mul(AHEAD));
@@ -174,6 +174,10 @@ impl ConvolutionHistory for ChosenHistory {
         self.any_mut().push(traction);
     }
 
+    fn memory(&self) -> usize {
+        self.any().memory()
+    }
+
     fn increment_error_bound(&self) -> f64 {
         self.any().increment_error_bound()
     }
@@ -195,13 +199,42 @@ const UNKNOWN_STEPS: usize = 100_000;
 /// Error of coefficients that is taken without being allowed: results then differ by rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Options of a ground's history.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct HistoryOptions {
-    pub(crate) kind: HistoryMethod,
-    pub(crate) tolerance: Option<f64>,
-    /// Bytes.
-    pub(crate) memory: usize,
+/// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::bem::{ElasticGround, Strip};
+/// use basemat::history::{HistoryMethod, HistoryOptions};
+///
+/// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+/// let ground = || ElasticGround::new(soil, Strip::graded(-3.0..3.0, 8)?);
+/// let direct = ground()?.with_history(HistoryMethod::Direct)?;
+/// let coarse = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
+/// let approximate = ground()?.with_history(coarse)?;
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryOptions {
+    /// Method; [`HistoryMethod::Auto`] by default.
+    pub method: HistoryMethod,
+    /// Relative error that coefficients may have, 1e-12 to 1e-2. Exponentials take it instead of 1e-12
+    /// ([`HistoryMethod::Auto`]) or 1e-10 ([`HistoryMethod::Exponentials`]); only the half-plane's closed form has
+    /// them.
+    pub tolerance: Option<f64>,
+    /// Memory that the history may take, bytes; 1 GiB by default.
+    ///
+    /// [`HistoryMethod::Auto`] goes by it and by the expected steps: those of
+    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or of the first run. Beyond them, or where
+    /// none are known, it holds for every history: a history that was chosen is replaced by exponentials when it
+    /// reaches the limit; without exponentials, or with an exact history as the method, the step returns
+    /// [`Error::Memory`] and is not made.
+    pub memory: usize,
+}
+
+impl From<HistoryMethod> for HistoryOptions {
+    fn from(method: HistoryMethod) -> Self {
+        Self { method, ..Self::default() }
+    }
 }
 
 /// A history that was made of them.
@@ -212,11 +245,17 @@ pub(super) enum Kept {
 
 impl Default for HistoryOptions {
     fn default() -> Self {
-        Self { kind: HistoryMethod::Auto, tolerance: None, memory: MEMORY }
+        Self { method: HistoryMethod::Auto, tolerance: None, memory: MEMORY }
     }
 }
 
 impl HistoryOptions {
+    /// The options, if the tolerance can be reached.
+    pub(crate) fn checked(self) -> Result<Self> {
+        self.tolerance.map_or(Ok(0.0), ExponentialHistory::check_tolerance)?;
+        Ok(self)
+    }
+
     /// An empty history for this many steps, if that is known, and why it is this one.
     pub(super) fn make(
         self,
@@ -256,7 +295,7 @@ impl HistoryOptions {
         };
         let asked = ChoiceReason::Asked;
         let tolerance = self.tolerance();
-        let reason = match self.kind {
+        let reason = match self.method {
             HistoryMethod::Direct => {
                 fits(Estimate::new(HistoryMethod::Direct, &**kernel, LEAF)?.memory)?;
                 let choice = choice(HistoryMethod::Direct, asked, estimate(HistoryMethod::Direct)?);

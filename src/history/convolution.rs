@@ -31,6 +31,11 @@ pub trait ConvolutionHistory: Send {
     /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
     fn push(&mut self, traction: &[f64]);
 
+    /// Bytes held in coefficients, tractions and scratch; zero (the default) if that is not known.
+    fn memory(&self) -> usize {
+        0
+    }
+
     /// Bound on what is wrong with the change of any element's history displacement over the next
     /// step, m, for the tractions so far; zero (the default) for an exact history.
     fn increment_error_bound(&self) -> f64 {
@@ -209,7 +214,7 @@ pub trait LateWeights: Send + Sync {
 const CHUNK: usize = 512;
 
 /// Steps ahead that a hint prepares for, at most; beyond, memory grows as it goes.
-const RESERVED_STEPS: usize = 100_000;
+pub(crate) const RESERVED_STEPS: usize = 100_000;
 
 /// Direct summation of the history: the oracle for all others.
 ///
@@ -274,6 +279,12 @@ fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
 impl ConvolutionHistory for DirectHistory {
     fn steps(&self) -> usize {
         self.steps
+    }
+
+    fn memory(&self) -> usize {
+        let coefficients: usize = self.kinds.iter().flatten().map(Vec::capacity).sum();
+        let traction: usize = self.traction.iter().map(Vec::capacity).sum();
+        (coefficients + traction) * size_of::<f64>()
     }
 
     /// Prepares for 100 000 further steps at most: a larger hint may stand for a run without end.

@@ -13,9 +13,11 @@ mod relaxed_fft;
 
 pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, HistoryChoice, HistoryMethod};
-pub(crate) use chosen::{ChosenHistory, HistoryOptions};
+pub(crate) use chosen::ChosenHistory;
+pub use chosen::HistoryOptions;
+pub(crate) use convolution::RESERVED_STEPS;
 pub use convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, LateWeights};
-pub use exponentials::{ExponentialHistory, ExponentialSum, TailProduct};
+pub use exponentials::{ExponentialFit, ExponentialHistory, ExponentialSum, TailProduct};
 pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};
 pub use relaxed_fft::{RelaxedFftHistory, SharedSpectra};

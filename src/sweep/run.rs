@@ -15,7 +15,7 @@ use crate::error::{CaseError, Error, Result};
 /// use basemat::CaseError;
 /// use basemat::sweep::Sweep;
 ///
-/// let roots = Sweep::new(4).collect(|case| match case.index() {
+/// let roots = Sweep::new(4).collect(|case| match case.index {
 ///     1 => Err("no one"),
 ///     2 => panic!("no two"),
 ///     index => Ok((index as f64).sqrt()),
@@ -53,8 +53,10 @@ short_debug! {
 }
 
 /// One case of a [`Sweep`], while it runs.
+#[non_exhaustive]
 pub struct SweepCase<'a> {
-    index: usize,
+    /// Number of the case in the whole sweep, from 0.
+    pub index: usize,
     grid: &'a Grid,
     progress: &'a (dyn Fn(usize, f64) + Sync),
 }
@@ -62,11 +64,6 @@ pub struct SweepCase<'a> {
 short_debug! { SweepCase<'_>; self; index: self.index }
 
 impl SweepCase<'_> {
-    /// Number of the case in the whole sweep, from 0.
-    pub fn index(&self) -> usize {
-        self.index
-    }
-
     /// Value of a parameter with numbers.
     ///
     /// # Errors

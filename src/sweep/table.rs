@@ -114,40 +114,31 @@ pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
 
 /// A row of a [`CaseTable`].
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct CaseRow<'a> {
+    /// Number of the case in the whole sweep, from 0.
+    pub index: usize,
+    /// The results in the order of [`CaseTable::columns`], or the text of the error if the case failed or panicked.
+    pub results: std::result::Result<&'a [f64], &'a str>,
     table: &'a CaseTable,
-    row: &'a Row,
 }
 
 impl<'a> CaseRow<'a> {
-    /// Number of the case in the whole sweep, from 0.
-    pub fn index(&self) -> usize {
-        self.row.case
-    }
-
-    /// The results in the order of [`CaseTable::columns`], or the text of the error.
-    ///
-    /// # Errors
-    /// The text of the error, if the case failed or panicked.
-    pub fn results(&self) -> std::result::Result<&'a [f64], &'a str> {
-        self.row.outcome.as_deref().map_err(String::as_str)
-    }
-
     /// A result, or the value of a parameter with numbers.
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no column of numbers is called so;
     /// [`SweepError::Failed`] for a result of a case that failed.
     pub fn value(&self, column: &str) -> Result<f64> {
-        if let Some(number) = self.table.grid.number(self.row.case, column) {
+        if let Some(number) = self.table.grid.number(self.index, column) {
             return Ok(number);
         }
         let index = self.table.columns.iter().position(|name| name == column);
         let index = index.ok_or_else(|| no_name("column of numbers", column))?;
-        match self.results() {
+        match self.results {
             Ok(results) => Ok(results[index]),
             Err(reason) => {
-                Err(SweepError::Failed { case: self.row.case, reason: reason.to_owned() }.into())
+                Err(SweepError::Failed { case: self.index, reason: reason.to_owned() }.into())
             }
         }
     }
@@ -157,7 +148,7 @@ impl<'a> CaseRow<'a> {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is none of this name.
     pub fn text(&self, parameter: &str) -> Result<&'a str> {
-        self.table.grid.text(self.row.case, parameter)
+        self.table.grid.text(self.index, parameter)
     }
 
     /// Place of the case's value among all of a parameter, from 0.
@@ -165,14 +156,17 @@ impl<'a> CaseRow<'a> {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is no parameter of this name.
     pub fn place(&self, parameter: &str) -> Result<usize> {
-        self.table.grid.place(self.row.case, parameter)
+        self.table.grid.place(self.index, parameter)
     }
 }
 
 impl CaseTable {
     /// The rows, ascending by case.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = CaseRow<'_>> {
-        self.rows.iter().map(|row| CaseRow { table: self, row })
+        self.rows.iter().map(|row| {
+            let results = row.outcome.as_deref().map_err(String::as_str);
+            CaseRow { index: row.case, results, table: self }
+        })
     }
 
     /// Names of the results.

@@ -128,7 +128,7 @@ fn steps_of_a_duration() {
 
 #[test]
 fn a_sweep_collects_in_order() {
-    let found = Sweep::new(20).collect(|case| match case.index() {
+    let found = Sweep::new(20).collect(|case| match case.index {
         7 => Err("seven"),
         index => Ok(3 * index),
     });

@@ -69,7 +69,7 @@ fn one_undamped_half_plane_is_the_closed_form_to_the_last_bit() {
 #[test]
 fn cut_and_resumed_runs_have_the_same_bits() {
     for history in [HistoryMethod::Direct, HistoryMethod::RelaxedFft] {
-        let make = || shaken(layered(6).with_history_kind(history)).build().unwrap();
+        let make = || shaken(layered(6).with_history(history).unwrap()).build().unwrap();
         let mut whole = make();
         let wanted = states(&mut whole, 300);
         for cut in [1, 127, 129, 200] {
@@ -124,7 +124,7 @@ fn the_stages_are_said_and_follow_the_rule() {
     let choice = |ground: ElasticGround, step: f64| {
         let mut ground = ground;
         ground.prepare(step).unwrap();
-        ground.expect_steps(100).unwrap();
+        ground.expect_steps(100, None).unwrap();
         ground.history_choice().unwrap()
     };
     let found = choice(layered(3), 0.002);
@@ -137,7 +137,7 @@ fn the_stages_are_said_and_follow_the_rule() {
 
 #[test]
 fn exponentials_are_refused() {
-    let mut ground = layered(3).with_history_kind(HistoryMethod::Exponentials);
+    let mut ground = layered(3).with_history(HistoryMethod::Exponentials).unwrap();
     let found = ground.prepare(0.002).unwrap_err();
     assert!(matches!(found, Error::NoExponentials { .. }), "{found}");
 }
@@ -153,7 +153,7 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
     let (shared, list) = (SharedKernels::default(), [0.2, 0.4, f64::INFINITY]);
     let mut results = vec![vec![]; list.len()];
     Sweep::new(list.len()).run(
-        |now| Ok::<_, Error>(run(&shared, list[now.index()])),
+        |now| Ok::<_, Error>(run(&shared, list[now.index])),
         |index, states| results[index] = states.unwrap(),
     );
     assert_eq!(shared.count(), 1);

@@ -30,7 +30,7 @@ fn sweep_is_bitwise_sequential_and_outlives_errors() {
     sweep.run(
         |now| {
             now.report(0.25);
-            case(now.index())
+            case(now.index)
         },
         |index, result| assert!(results[index].replace(result).is_none(), "{index} came twice"),
     );
@@ -58,7 +58,7 @@ fn spoilt(index: usize) -> Result<Vec<State>, Error> {
 fn a_case_that_panics_leaves_the_others() {
     let progress = Mutex::new(0);
     let sweep = Sweep::new(FRICTION.len()).on_progress(|_, _| *progress.lock().unwrap() += 1);
-    let found = sweep.collect(|now| spoilt(now.index()));
+    let found = sweep.collect(|now| spoilt(now.index));
     drop(sweep);
     assert_eq!(progress.into_inner().unwrap(), FRICTION.len());
     assert_eq!(found.len(), FRICTION.len());
@@ -96,7 +96,7 @@ fn shared_kernels_change_no_bit() {
         let (shared, lengths) = (SharedKernels::default(), [150, 40, 700, 90]);
         let mut results = vec![Vec::new(); lengths.len()];
         Sweep::new(lengths.len()).run(
-            |now| Ok::<_, Error>(run(&shared, lengths[now.index()])),
+            |now| Ok::<_, Error>(run(&shared, lengths[now.index])),
             |index, states| results[index] = states.unwrap(),
         );
         assert_eq!(shared.count(), 1);

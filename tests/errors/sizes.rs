@@ -8,7 +8,7 @@
 use basemat::bem::full_plane::Boundary;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::fem::{Layer, Material, Mesh};
-use basemat::history::HistoryMethod;
+use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::motion::{Record, el_centro_1940};
 use basemat::structure::{MatrixModel, Triplets};
 use basemat::sweep::{Parameter, Sweep};
@@ -95,9 +95,10 @@ fn hints_without_end_take_what_a_history_may() {
     ] {
         let before = peak();
         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 16).unwrap()).unwrap();
-        let mut ground = ground.with_history_kind(kind).with_history_memory(1 << 24);
+        let mut ground =
+            ground.with_history(HistoryOptions { memory: 1 << 24, ..kind.into() }).unwrap();
         ground.prepare(0.002).unwrap();
-        ground.reserve(steps).unwrap();
+        ground.expect_steps(steps, None).unwrap();
         ground.history(&mut displacement).unwrap();
         if let (Some(before), Some(after)) = (before, peak()) {
             assert!(after - before < 3e8, "{kind:?}: {before:e}, then {after:e} bytes");

@@ -67,7 +67,7 @@ fn an_unprepared_half_plane_says_so() {
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     error_with("prepare", ground.step_compliance(&mut [0.0; 4]));
     error_with("prepare", ground.history(&mut [0.0; 2]));
-    error_with("prepare", ground.reserve(10));
+    error_with("prepare", ground.expect_steps(10, None));
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn absurd_counts_do_not_panic() {
     }
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     ground.prepare(0.01).unwrap();
-    ground.reserve(usize::MAX).unwrap();
+    ground.expect_steps(usize::MAX, None).unwrap();
 
     // Steps beside which the fronts' passage is no time at all must not split pieces without end.
     for step in [1e200, 1e300] {

@@ -50,7 +50,7 @@ fn bad_input_is_refused() {
     let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));
     assert!(matches!(ground.step_compliance(&mut [0.0; 16]), Err(Error::Scene { .. })));
-    assert!(matches!(ground.reserve(9), Err(Error::Scene { .. })));
+    assert!(matches!(ground.expect_steps(9, None), Err(Error::Scene { .. })));
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(ground.prepare(step), Err(Error::Input { .. })));
     }

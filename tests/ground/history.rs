@@ -103,7 +103,7 @@ fn ground_does_not_depend_on_the_hint() {
         let mut ground = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
         ground.prepare(2e-3).unwrap();
         if let Some(steps) = hint {
-            ground.reserve(steps).unwrap();
+            ground.expect_steps(steps, None).unwrap();
         }
         let mut random = Random(5);
         let mut out = vec![f64::NAN; 8];

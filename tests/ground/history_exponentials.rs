@@ -7,7 +7,7 @@ use std::sync::Arc;
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    HistoryMethod,
+    HistoryMethod, HistoryOptions,
 };
 use basemat::{Error, MemoryError, Soil};
 
@@ -45,7 +45,7 @@ struct March {
 fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> March {
     let mut history = ExponentialHistory::new(Arc::clone(kernel), tolerance).unwrap();
     let mut direct = DirectHistory::new(Arc::clone(kernel));
-    let steps = 4 * history.window() + 200;
+    let steps = 4 * history.fit().window + 200;
     let count = kernel.classes().elements().len();
     let size = 2 * count;
     let mut instantaneous = vec![0.0; size * size];
@@ -123,13 +123,13 @@ fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it(
     for tolerance in [1e-5, 1e-9] {
         let mut history =
             ExponentialHistory::with_horizon(Arc::clone(&kernel), tolerance, horizon).unwrap();
-        let bound = history.error_bound();
+        let bound = history.fit().error_bound;
         assert!(bound <= tolerance && bound > 0.0);
         let mut out = [0.0; 4];
         let mut beyond = 0.0_f64;
         history.push(&[1.0, 0.0, 0.0, 1.0]);
         for lag in 2..=100_000_usize {
-            if lag > 40 && lag % (1 + lag / 40) == 0 || lag == history.window() + 1 {
+            if lag > 40 && lag % (1 + lag / 40) == 0 || lag == history.fit().window + 1 {
                 history.evaluate(&mut out).unwrap();
                 let pairs = kernel.classes().pairs();
                 let of = |pair: usize| {
@@ -192,7 +192,7 @@ fn margins_are_positive_and_do_not_depend_on_the_tolerance() {
         let kernel = kernel(poisson, beta, strip(5, Grading::Cosine));
         let margin = |tolerance| {
             let history = ExponentialHistory::new(Arc::clone(&kernel), tolerance).unwrap();
-            history.passivity_margin()
+            history.fit().passivity_margin
         };
         let (coarse, fine) = (margin(1e-5), margin(1e-11));
         println!("ν = {poisson}, β = {beta}: {coarse:.6} {fine:.6}");
@@ -224,19 +224,20 @@ fn bad_input_is_an_error() {
     }
     let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
     let ground = || ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
-    assert!(ground().with_history_tolerance(f64::NAN).is_err());
+    let options = HistoryOptions::default();
+    assert!(
+        ground().with_history(HistoryOptions { tolerance: Some(f64::NAN), ..options }).is_err()
+    );
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
-    let mut short = ground().with_history_kind(HistoryMethod::Exponentials);
+    let mut short = ground().with_history(HistoryMethod::Exponentials).unwrap();
     assert!(matches!(short.prepare(1e-7), Err(Error::Input { .. })));
     // So is what takes more memory than allowed, before any of it is taken.
     let begin = std::time::Instant::now();
     for (step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
         let asked = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 24).unwrap()).unwrap();
-        let asked = asked.with_history_kind(HistoryMethod::Exponentials);
-        let mut asked = match memory {
-            Some(memory) => asked.with_history_memory(memory),
-            None => asked,
-        };
+        let mut own = HistoryOptions::from(HistoryMethod::Exponentials);
+        own.memory = memory.unwrap_or(own.memory);
+        let mut asked = asked.with_history(own).unwrap();
         let refused = asked.prepare(step).unwrap_err();
         let Error::Memory(MemoryError { needed, limit, .. }) = refused else { panic!("{refused}") };
         assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{refused}");
@@ -256,17 +257,14 @@ fn the_choice_is_made_and_explained() {
 
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {
-        let mut ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap();
-        if let Some(tolerance) = tolerance {
-            ground = ground.with_history_tolerance(tolerance).unwrap();
-        }
-        if let Some(memory) = memory {
-            ground = ground.with_history_memory(memory);
-        }
+        let ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap();
+        let mut options = HistoryOptions { tolerance, ..HistoryOptions::default() };
+        options.memory = memory.unwrap_or(options.memory);
+        let mut ground = ground.with_history(options).unwrap();
         ground.prepare(dt).unwrap();
         assert_eq!(ground.history_choice(), None);
         match steps {
-            Some(steps) => ground.reserve(steps).unwrap(),
+            Some(steps) => ground.expect_steps(steps, None).unwrap(),
             None => ground.history(&mut [0.0; 12]).unwrap(),
         }
         let choice = ground.history_choice().unwrap();
@@ -290,14 +288,17 @@ fn the_choice_is_made_and_explained() {
     {
         let ground =
             ElasticGround::new(soil, Strip::uniform(-4.0..4.0, elements).unwrap()).unwrap();
-        let mut ground = ground.with_history_tolerance(1e-8).unwrap();
+        let mut ground = ground
+            .with_history(HistoryOptions { tolerance: Some(1e-8), ..HistoryOptions::default() })
+            .unwrap();
         ground.prepare(1e-3).unwrap();
-        ground.reserve(steps).unwrap();
+        ground.expect_steps(steps, None).unwrap();
         assert_eq!(ground.history_choice().unwrap().kind, wanted, "{elements}, {steps}");
     }
     let mut asked = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap())
         .unwrap()
-        .with_history_kind(Exponentials);
+        .with_history(Exponentials)
+        .unwrap();
     asked.prepare(1e-3).unwrap();
     let choice = asked.history_choice().unwrap();
     assert_eq!((choice.kind, choice.reason), (Exponentials, ChoiceReason::Asked));

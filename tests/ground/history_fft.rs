@@ -196,7 +196,7 @@ fn grounds_with_either_history_agree() {
     let ground = |history| {
         let ground = ElasticGround::new(soil, Strip::graded(-3.0..3.0, 4).unwrap()).unwrap();
         let mut ground = match history {
-            Some(history) => ground.with_history_kind(history),
+            Some(history) => ground.with_history(history).unwrap(),
             None => ground,
         };
         ground.prepare(1e-3).unwrap();

@@ -72,7 +72,7 @@ fn own_history() {
     let scene = || Simulation::builder(1e-2).motion(push()).gravity(9.81);
     let plain =
         |kernel| Box::new(Plain { kernel, past: Vec::new() }) as Box<dyn ConvolutionHistory>;
-    let own = march(scene().ground(inner().with_history(plain)));
+    let own = march(scene().ground(inner().with_own_history(plain)));
     let crate_history = march(scene().ground(inner()));
     assert_same_motion(&own, &crate_history, 1e-6);
 }

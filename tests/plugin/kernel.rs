@@ -8,8 +8,8 @@ use basemat::bem::{
 };
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    ExponentialSum, HistoryMethod, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
-    TailProduct,
+    ExponentialSum, HistoryMethod, HistoryOptions, LateWeights, PairClasses, RelaxedFftHistory,
+    SharedSpectra, TailProduct,
 };
 use basemat::interface::Coulomb;
 use basemat::results::Run;
@@ -311,7 +311,7 @@ fn a_held_pressure_on_the_voigt_bed() {
     let elements = strips(Grading::Cosine);
     let kernel: Arc<dyn ConvolutionWeights> = Arc::new(VoigtKernel::new(VOIGT, &elements, 1e-4));
     let exponentials = ExponentialHistory::with_horizon(Arc::clone(&kernel), 1e-10, 3000).unwrap();
-    assert_eq!((exponentials.poles(), exponentials.functions()), (1, 10));
+    assert_eq!((exponentials.fit().poles, exponentials.fit().functions), (1, 10));
     let histories: [Box<dyn ConvolutionHistory>; 3] = [
         Box::new(DirectHistory::new(Arc::clone(&kernel))),
         Box::new(RelaxedFftHistory::new(Arc::clone(&kernel))),
@@ -354,7 +354,7 @@ fn bed() -> WeightsGround {
 fn a_block_on_the_voigt_bed() {
     let kinds = [HistoryMethod::Auto, HistoryMethod::Direct, HistoryMethod::Exponentials];
     let [auto, direct, exponentials] =
-        kinds.map(|kind| run(bed().with_history_kind(kind), 2e-3, 600));
+        kinds.map(|kind| run(bed().with_history(kind).unwrap(), 2e-3, 600));
     assert_eq!(auto.0.ground().history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
     for (simulation, run) in [&auto, &direct, &exponentials] {
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
@@ -429,12 +429,13 @@ impl ConvolutionWeights for Coupled {
 fn without_late_weights_exponentials_are_refused() {
     let none = Voigt { late: false, ..VOIGT };
     let ground = || WeightsGround::new(none, strips(Grading::Uniform)).unwrap();
-    let refused = ground().with_history_kind(HistoryMethod::Exponentials).prepare(1e-3);
+    let refused = ground().with_history(HistoryMethod::Exponentials).unwrap().prepare(1e-3);
     assert!(matches!(refused, Err(Error::NoExponentials { .. })), "{refused:?}");
     // Auto takes the transforms, in any memory.
-    let mut auto = ground().with_history_memory(1000).with_history_tolerance(1e-6).unwrap();
+    let few = HistoryOptions { tolerance: Some(1e-6), memory: 1000, ..HistoryOptions::default() };
+    let mut auto = ground().with_history(few).unwrap();
     auto.prepare(1e-3).unwrap();
-    auto.expect_steps(5000).unwrap();
+    auto.expect_steps(5000, None).unwrap();
     let choice = auto.history_choice().unwrap();
     let wanted = (HistoryMethod::RelaxedFft, ChoiceReason::NoExponentials);
     assert_eq!((choice.kind, choice.reason), wanted);

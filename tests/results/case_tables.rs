@@ -36,7 +36,7 @@ fn sweep() -> Sweep<'static> {
 /// Results that a formula gives, and every kind of trouble.
 fn compute(case: &basemat::sweep::SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
     let (friction, width) = (case.value("friction").unwrap(), case.value("width_m").unwrap());
-    match case.index() {
+    match case.index {
         3 => Err("no, \"not\" this,\r\none; µ".to_owned()),
         8 => panic!("eight, and\nmore"),
         11 => Err(String::new()),
@@ -91,7 +91,7 @@ fn cases_are_numbered_by_their_place() {
         for (r, record) in RECORDS.into_iter().enumerate() {
             for (w, width) in [4.0, 1e300].into_iter().enumerate() {
                 let row = table.rows().nth(index).unwrap();
-                assert_eq!(row.index(), index);
+                assert_eq!(row.index, index);
                 assert_eq!(row.value("friction").unwrap().to_bits(), f64::to_bits(friction));
                 assert_eq!(
                     (row.text("record").unwrap(), row.value("width_m").unwrap()),
@@ -100,12 +100,12 @@ fn cases_are_numbered_by_their_place() {
                 let places = ["friction", "record", "width_m"].map(|name| row.place(name).unwrap());
                 assert_eq!(places, [f, r, w]);
                 match index {
-                    3 => assert_eq!(row.results(), Err("no, \"not\" this,\r\none; µ")),
-                    8 => assert_eq!(row.results(), Err("the case panicked: eight, and\nmore")),
-                    11 => assert_eq!(row.results(), Err("failed")),
-                    5 | 6 => assert!(row.results().unwrap().iter().any(|value| value.is_nan())),
+                    3 => assert_eq!(row.results, Err("no, \"not\" this,\r\none; µ")),
+                    8 => assert_eq!(row.results, Err("the case panicked: eight, and\nmore")),
+                    11 => assert_eq!(row.results, Err("failed")),
+                    5 | 6 => assert!(row.results.unwrap().iter().any(|value| value.is_nan())),
                     _ => {
-                        assert_eq!(row.results().unwrap()[0], friction / width);
+                        assert_eq!(row.results.unwrap()[0], friction / width);
                         assert_eq!(row.value("ratio, -").unwrap(), friction / width);
                     }
                 }
@@ -162,7 +162,7 @@ fn merged_shards_are_the_whole() {
     // One bit less is another table.
     let other = sweep().table(COLUMNS, |case| {
         let [ratio, slip] = compute(case)?;
-        Ok::<_, String>([ratio, if case.index() == 2 { slip.next_up() } else { slip }])
+        Ok::<_, String>([ratio, if case.index == 2 { slip.next_up() } else { slip }])
     });
     assert_ne!(other.unwrap(), whole);
 }
@@ -361,7 +361,7 @@ fn a_killed_sweep_goes_on() {
         told.fetch_add(1, Ordering::Relaxed);
     });
     let again = again.table_in(&path, COLUMNS, |case| {
-        assert_eq!(case.index(), 3);
+        assert_eq!(case.index, 3);
         compute(case)
     });
     assert_eq!((again.unwrap(), told.load(Ordering::Relaxed)), (whole(), 24));
@@ -457,7 +457,7 @@ fn lines_stay_below_a_hundred_characters() {
     let long = "a-record-with-a-name-that-goes-on-".repeat(6);
     let grid =
         [Parameter::texts("record", [long.as_str(), "short"]), Parameter::numbers("x", [1.5])];
-    let table = Sweep::grid(grid).unwrap().table(columns, |case| match case.index() {
+    let table = Sweep::grid(grid).unwrap().table(columns, |case| match case.index {
         0 => Ok([1.25e7; 12]),
         _ => Err(format!("{} {long}", "words ".repeat(50))),
     });
@@ -499,7 +499,7 @@ proptest! {
             let parameters = [Parameter::texts(&*name, &texts), Parameter::numbers("x", [1.0, 2.0])];
             Sweep::grid(parameters).unwrap()
         };
-        let table = sweep().table(["y", "z", "w"], |case| match case.index() {
+        let table = sweep().table(["y", "z", "w"], |case| match case.index {
             1 => Err(reason.clone()),
             _ => Ok([0, 1, 2].map(|k| f64::from_bits(numbers[k]))),
         }).unwrap();
@@ -513,7 +513,7 @@ proptest! {
         for (record, row) in reader.records().zip(table.rows()) {
             let record = record.unwrap();
             prop_assert_eq!(&record[1], row.text(&name).unwrap());
-            match row.results() {
+            match row.results {
                 Err(text) => prop_assert_eq!(&record[6], text),
                 Ok(results) => for (cell, wanted) in record.iter().skip(3).zip(results) {
                     let found = if cell.is_empty() { f64::NAN } else { cell.parse::<f64>().unwrap() };

@@ -37,7 +37,7 @@ fn sweep(count: u32) -> Sweep<'static> {
 }
 
 fn compute(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
-    match case.index() {
+    match case.index {
         3 => Err("of \"two\"\nlines".to_owned()),
         4 => Ok([f64::NAN, -0.0]),
         index => Ok([(index as f64).sqrt(), case.value("friction").unwrap() / 3.0]),
@@ -60,10 +60,10 @@ fn the_check_is_that_of_the_row() {
     for (row, cells) in table.rows().zip(reader.records()) {
         let cells = cells.unwrap();
         let mut words = names.clone();
-        words.push(row.index() as u64);
+        words.push(row.index as u64);
         words.extend(text_words(&cells[1]));
         words.extend(text_words(&cells[2]));
-        match row.results() {
+        match row.results {
             Ok(results) => {
                 words.push(results.len() as u64);
                 words.extend(results.iter().map(|value| value.to_bits()));
@@ -130,7 +130,7 @@ fn a_stray_quotation_mark_drops_no_rows() {
         let friction = (0..50).map(|k| 0.1 * f64::from(k));
         Sweep::grid([Parameter::numbers("friction", friction)]).unwrap()
     };
-    let first = |case: &SweepCase<'_>| Ok::<_, String>([1.0 / 3.0, case.index() as f64]);
+    let first = |case: &SweepCase<'_>| Ok::<_, String>([1.0 / 3.0, case.index as f64]);
     for (name, sweep, compute) in [
         ("quoted", &(|| sweep(25)) as &dyn Fn() -> Sweep<'static>, &compute as &Compute),
         ("plain", &plain, &first),
@@ -176,7 +176,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
     const CASES: u32 = 200;
     const NAME: &str = "damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
     let (begin, end) = ("rows begin\n", "rows end\n");
-    let compute = |case: &SweepCase<'_>| Result::Ok([case.index() as f64, 0.5]);
+    let compute = |case: &SweepCase<'_>| Result::Ok([case.index as f64, 0.5]);
     if let Some(path) = std::env::var_os("BASEMAT_FULL_DISK") {
         let runs = AtomicUsize::new(0);
         let fault = sweep(CASES).table_in(path, COLUMNS, |case| {

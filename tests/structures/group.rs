@@ -274,7 +274,7 @@ fn nonlinear_members_keep_to_their_places() {
     let group = || StructureGroup::new().with(block(), 0.0).unwrap().with(soft(), 5.0).unwrap();
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     let build = || {
-        let ground = half_plane(&strips).with_history_kind(HistoryMethod::Direct);
+        let ground = half_plane(&strips).with_history(HistoryMethod::Direct).unwrap();
         base().structure(group()).ground(ground).build().unwrap()
     };
     let mut simulation = build();

@@ -154,11 +154,11 @@ pub(crate) fn exponentials(options: &Exponentials) -> std::result::Result<(), An
         let [total, _] = march(&mut history, size, steps, |_| ())?;
         println!(
             "{tolerance:>9.0e} {:>10.1e} {:>7} {:>6} {:>9} {:>10.4} {setup:>8.3} {:>9.2} {:>8.0} {error:>12.1e}",
-            history.error_bound(),
-            history.window(),
-            history.poles(),
-            history.functions(),
-            history.passivity_margin(),
+            history.fit().error_bound,
+            history.fit().window,
+            history.fit().poles,
+            history.fit().functions,
+            history.fit().passivity_margin,
             1e6 * total / steps as f64,
             history.memory() as f64 / 1e3,
         );

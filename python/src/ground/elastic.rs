@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, SharedKernels, Strip};
-use basemat::history::HistoryMethod;
+use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -105,13 +105,10 @@ impl Options {
     }
 
     fn of(&self, ground: ElasticGround) -> basemat::Result<ElasticGround> {
-        let mut ground = ground.with_history_kind(self.kind);
-        if let Some(tolerance) = self.history_tolerance {
-            ground = ground.with_history_tolerance(tolerance)?;
-        }
-        if let Some(memory) = self.memory {
-            ground = ground.with_history_memory(memory);
-        }
+        let mut options =
+            HistoryOptions { tolerance: self.history_tolerance, ..self.kind.into() };
+        options.memory = self.memory.unwrap_or(options.memory);
+        let mut ground = ground.with_history(options)?;
         if let Some(stages) = self.stages {
             ground = ground.with_stages(stages);
         }

@@ -6,8 +6,9 @@ use super::convolution::{Prepared, component};
 use super::laplace::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
 use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
-use crate::error::{Error, Result, same_length};
+use crate::error::{Error, Observer, Result, same_length};
 use crate::geometry::ContactLayout;
+use crate::history::RESERVED_STEPS;
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -266,9 +267,10 @@ impl Ground for FullPlaneGround {
         Some(self.soil.shear_wave_speed())
     }
 
-    fn reserve(&mut self, steps: usize) -> Result<()> {
+    fn expect_steps(&mut self, steps: usize, _observer: Option<&mut Observer<'_>>) -> Result<()> {
         match &mut self.prepared {
-            Some(prepared) => prepared.history.reserve(steps),
+            Some(prepared) if steps <= RESERVED_STEPS => prepared.history.reserve(steps),
+            Some(_) => Ok(()),
             None => Err(NOT_PREPARED),
         }
     }

@@ -178,7 +178,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// About how many steps will be made: kernels and memory are then ready before the first, and
+    /// About how many steps will be made: weights and memory are then ready before the first (of up to 100 000), and
     /// the ground's history and the structure's coordinates are chosen for this number (if not given,
     /// for that of the first run and for 4 000).
     #[must_use]
@@ -235,8 +235,8 @@ impl SimulationBuilder {
         self.built(None)
     }
 
-    /// The same, with an observer of the ground's convolution weights: for the expected steps, or those that the
-    /// build itself needs.
+    /// As [`SimulationBuilder::build`], with an observer of the ground's convolution weights: those of the expected
+    /// steps, or those that the build itself needs.
     ///
     /// # Errors
     /// [`crate::Error::Stopped`] by the observer; as for [`SimulationBuilder::build`].

@@ -182,12 +182,7 @@ impl Parts {
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", given.moment_center.unwrap_or(middle))?;
         ground.prepare(time_step)?;
-        if let Some(observer) = observer {
-            ground.precompute(given.steps.max(1), observer)?;
-        }
-        if given.steps > 0 {
-            ground.reserve(given.steps)?;
-        }
+        ground.expect_steps(given.steps, observer)?;
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
         let mut start_motion = vec![0.0; ContactLayout::new(count).len()];
         ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);

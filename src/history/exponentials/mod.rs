@@ -47,7 +47,7 @@ const ATTEMPTS: usize = 10;
 /// the same lag, up to a horizon: 2²⁰ steps, unless another one is asked for. The number of steps
 /// need not be known; beyond the horizon the relative error grows in proportion to the lag, as the
 /// slowest pole stays what it is. The error is measured against the exact coefficients when the
-/// history is made ([`ExponentialHistory::error_bound`]), poles are put closer together until it is small enough, and
+/// history is made ([`ExponentialFit::error_bound`]), poles are put closer together until it is small enough, and
 /// what it can do to a run's energies is bounded in the energy balance
 /// ([`EnergyBalance::soil_error_bound`](crate::coupled::EnergyBalance::soil_error_bound)).
 ///
@@ -57,7 +57,7 @@ const ATTEMPTS: usize = 10;
 /// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
 /// exponentials in closed form, is looked for. If it is negative, more poles are taken, closer
 /// together, until it is not; a fit that stays active is refused ([`Error::NotPassive`]). The
-/// discrete operator has plenty to spare (see [`ExponentialHistory::passivity_margin`]): a tenth or
+/// discrete operator has plenty to spare ([`ExponentialFit::passivity_margin`]): a tenth or
 /// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
 /// incompressible soil, very short steps) need the additional poles.
 pub struct ExponentialHistory {
@@ -74,6 +74,24 @@ pub struct ExponentialHistory {
     largest: f64,
 }
 
+/// Fit of an [`ExponentialHistory`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ExponentialFit {
+    /// Lags that are exact.
+    pub window: usize,
+    /// Exponentials that carry the rest.
+    pub poles: usize,
+    /// Functions over the patch that carry it in space.
+    pub functions: usize,
+    /// Largest error of any coefficient up to the horizon over the largest coefficient of its lag, measured when the
+    /// history was made; at most the tolerance given.
+    pub error_bound: f64,
+    /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, over that of a displacement that comes at once
+    /// (G¹ alone, element by element): not negative.
+    pub passivity_margin: f64,
+}
+
 short_debug! {
     ExponentialHistory;
     self;
@@ -81,7 +99,7 @@ short_debug! {
     steps: self.steps,
     lags: self.window(),
     horizon: self.fit.request.horizon,
-    tolerance: self.tolerance(),
+    tolerance: self.fit.request.tolerance,
 }
 
 impl ExponentialHistory {
@@ -133,7 +151,7 @@ impl ExponentialHistory {
                 needed,
                 limit: memory as f64,
                 remedy: "take a longer time step or fewer elements, or allow more with \
-                         `with_history_memory`",
+                         `HistoryOptions::memory`",
             }));
         }
         let horizon = horizon.clamp(2 * lags, LONGEST);
@@ -164,41 +182,23 @@ impl ExponentialHistory {
         })
     }
 
-    /// Largest error of any coefficient up to the horizon over the largest coefficient of its
-    /// lag, measured when the history was made; at most the tolerance that was asked for.
-    pub fn error_bound(&self) -> f64 {
+    /// What stands for the coefficients: exact lags, exponentials, and how good they are.
+    pub fn fit(&self) -> ExponentialFit {
+        ExponentialFit {
+            window: self.window(),
+            poles: self.tail.poles(),
+            functions: self.tail.functions(),
+            error_bound: self.error_bound(),
+            passivity_margin: self.fit.margin,
+        }
+    }
+
+    pub(crate) fn error_bound(&self) -> f64 {
         self.fit.accuracy.relative
     }
 
-    /// The tolerance that was asked for.
-    pub(crate) fn tolerance(&self) -> f64 {
-        self.fit.request.tolerance
-    }
-
-    /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, over that of a
-    /// displacement that comes at once (G¹ alone, element by element): not negative.
-    pub fn passivity_margin(&self) -> f64 {
-        self.fit.margin
-    }
-
-    /// Lags that are exact.
-    pub fn window(&self) -> usize {
+    fn window(&self) -> usize {
         self.fit.request.lags
-    }
-
-    /// Exponentials that carry the rest.
-    pub fn poles(&self) -> usize {
-        self.tail.poles()
-    }
-
-    /// Functions over the patch that carry it in space.
-    pub fn functions(&self) -> usize {
-        self.tail.functions()
-    }
-
-    /// Bytes held in coefficients, state and scratch.
-    pub fn memory(&self) -> usize {
-        self.tail.memory() + (self.window.numbers() + self.recent.len()) * size_of::<f64>()
     }
 
     /// `tolerance` if it can be reached.
@@ -337,6 +337,10 @@ impl ConvolutionHistory for ExponentialHistory {
         self.window.read(self.steps, displacement);
         self.tail.add(displacement);
         Ok(())
+    }
+
+    fn memory(&self) -> usize {
+        self.tail.memory() + (self.window.numbers() + self.recent.len()) * size_of::<f64>()
     }
 
     fn push(&mut self, traction: &[f64]) {

@@ -127,11 +127,6 @@ impl RelaxedFftHistory {
         self
     }
 
-    /// Bytes held in coefficients, tractions and scratch.
-    pub fn memory(&self) -> usize {
-        self.blocks.as_ref().map_or(0, |blocks| blocks.numbers()) * size_of::<f64>()
-    }
-
     /// Makes ready for at least `steps` steps.
     fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
         let kernel = &*self.kernel;
@@ -196,6 +191,10 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let now = self.steps;
         self.settle()?.read(now, displacement);
         Ok(())
+    }
+
+    fn memory(&self) -> usize {
+        self.blocks.as_ref().map_or(0, |blocks| blocks.numbers()) * size_of::<f64>()
     }
 
     fn push(&mut self, traction: &[f64]) {

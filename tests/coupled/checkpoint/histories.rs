@@ -9,13 +9,18 @@ use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    HistoryMethod, RelaxedFftHistory,
+    HistoryMethod, HistoryOptions, RelaxedFftHistory,
 };
 use basemat::soil::SoilProfile;
 use basemat::{CheckpointError, Error, MemoryError, StepError};
 
 use super::{STEPS, carried, half_plane, refusal};
 use basemat_problems::scenes::{SI, block, friction, scene, soil, states};
+
+/// A chosen history in at most these bytes.
+fn within(memory: usize) -> HistoryOptions {
+    HistoryOptions { memory, ..HistoryOptions::default() }
+}
 
 /// A block on equal elements whose ground chooses its history, in at most these bytes.
 pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
@@ -24,7 +29,7 @@ pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
     // Not chosen by the number of steps.
     let base = base.coordinates(Coordinates::Physical);
-    base.ground(ground.with_history_memory(memory))
+    base.ground(ground.with_history(within(memory)).unwrap())
 }
 
 #[test]
@@ -251,9 +256,11 @@ fn beyond_the_memory_exact_histories_stop() {
     let layers = |memory| {
         let profile = SoilProfile::on_rigid_base().with_layer(soil(SI), 6.0).unwrap();
         let ground = ElasticGround::new(profile, Strip::uniform(-2.0..2.0, 2).unwrap()).unwrap();
-        over(Box::new(ground.with_history_memory(memory)))
+        over(Box::new(ground.with_history(within(memory)).unwrap()))
     };
-    let asked = |history, memory| over(Box::new(half_plane(history).with_history_memory(memory)));
+    let asked = |history, memory| {
+        over(Box::new(half_plane(HistoryOptions { memory, ..HistoryOptions::from(history) })))
+    };
     let scenes: [(usize, &dyn Fn(usize) -> SimulationBuilder); 3] = [
         (30_000, &layers),
         (100_000, &|memory| asked(HistoryMethod::RelaxedFft, memory)),
@@ -330,7 +337,10 @@ fn a_step_count_without_tractions_takes_no_memory() {
 #[test]
 fn an_approximate_history_is_in_the_energy_balance() {
     let run = |history, tolerance| {
-        let ground = half_plane(history).with_history_tolerance(tolerance).unwrap();
+        let ground = half_plane(HistoryOptions {
+            tolerance: Some(tolerance),
+            ..HistoryOptions::from(history)
+        });
         let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
         base.ground(ground).build().unwrap().run(STEPS, |_| {}).unwrap()
     };

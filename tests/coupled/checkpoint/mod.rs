@@ -15,7 +15,7 @@ mod text;
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::Checkpoint;
-use basemat::history::HistoryMethod;
+use basemat::history::HistoryOptions;
 use basemat::{CheckpointError, Error, Simulation};
 
 use basemat_problems::scenes::{SI, soil};
@@ -23,10 +23,11 @@ use basemat_problems::scenes::{SI, soil};
 /// Longer than the window of the exponentials and several leaves of the transforms.
 const STEPS: usize = 260;
 
-fn half_plane(history: HistoryMethod) -> ElasticGround {
+fn half_plane(history: impl Into<HistoryOptions>) -> ElasticGround {
     ElasticGround::new(soil(SI), Strip::graded(-2.0..2.0, 6).unwrap())
         .unwrap()
-        .with_history_kind(history)
+        .with_history(history)
+        .unwrap()
 }
 
 fn spring_bed() -> SpringGround {

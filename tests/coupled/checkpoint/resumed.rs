@@ -81,7 +81,9 @@ fn kinds() -> Vec<Kind> {
         kind("transforms along the surface", move || {
             let ground =
                 ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, 9).unwrap()).unwrap();
-            base().structure(block(SI)).ground(ground.with_history_kind(HistoryMethod::RelaxedFft))
+            base()
+                .structure(block(SI))
+                .ground(ground.with_history(HistoryMethod::RelaxedFft).unwrap())
         }),
         kind("exponentials", move || {
             base().structure(tower(SI, None)).ground(half_plane(HistoryMethod::Exponentials))

@@ -244,7 +244,7 @@ impl Recipe {
             Bed::HalfPlane { graded, history, .. } => {
                 let grading = if graded { Grading::Cosine } else { Grading::Uniform };
                 let strip = Strip::new(-half..half, self.elements, grading)?;
-                builder.ground(ElasticGround::new(soil, strip)?.with_history_kind(history))
+                builder.ground(ElasticGround::new(soil, strip)?.with_history(history).unwrap())
             }
             Bed::Springs { dashpots } => {
                 let stiffness = soil.shear_modulus() / frame.length;

@@ -165,18 +165,8 @@ impl Ground for Double {
         Err(refusal())
     }
 
-    fn precompute(&mut self, _: usize, _: &mut basemat::Observer<'_>) -> Result<()> {
-        self.0.asked("precompute");
-        Err(refusal())
-    }
-
-    fn expect_steps(&mut self, _: usize) -> Result<()> {
+    fn expect_steps(&mut self, _: usize, _: Option<&mut basemat::Observer<'_>>) -> Result<()> {
         self.0.asked("expect_steps");
-        Err(refusal())
-    }
-
-    fn reserve(&mut self, _: usize) -> Result<()> {
-        self.0.asked("reserve");
         Err(refusal())
     }
 
@@ -267,6 +257,11 @@ impl ConvolutionHistory for Double {
     fn steps(&self) -> usize {
         self.0.asked("steps");
         7
+    }
+
+    fn memory(&self) -> usize {
+        self.0.asked("memory");
+        5
     }
 
     fn reserve(&mut self, _: usize) -> Result<()> {

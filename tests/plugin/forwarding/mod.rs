@@ -80,10 +80,7 @@ fn boxed_grounds() {
         let mut matrix = [0.0; 4];
         assert_eq!(part.elements().len(), 1);
         assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
-        assert_eq!(part.expect_steps(3), Err(doubles::refusal()));
-        assert_eq!(part.reserve(3), Err(doubles::refusal()));
-        let mut goes_on = |_| std::ops::ControlFlow::Continue(());
-        assert_eq!(part.precompute(3, &mut goes_on), Err(doubles::refusal()));
+        assert_eq!(part.expect_steps(3, None), Err(doubles::refusal()));
         part.step_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [CORRECT; 4]);
         part.history(&mut matrix[..2]).unwrap();
@@ -133,7 +130,7 @@ fn boxed_incident_fields() {
 fn boxed_histories() {
     fn ask(mut part: impl ConvolutionHistory) {
         let mut values = [0.0; 2];
-        assert_eq!(part.steps(), 7);
+        assert_eq!((part.steps(), part.memory()), (7, 5));
         assert_eq!(part.reserve(3), Err(doubles::refusal()));
         part.evaluate(&mut values).unwrap();
         assert_eq!(values, [CORRECT; 2]);

@@ -2,7 +2,7 @@
 
 use basemat::Soil;
 use basemat::bem::{ElasticGround, Ground, Strip};
-use basemat::history::HistoryMethod;
+use basemat::history::{HistoryMethod, HistoryOptions};
 
 use super::dense::inverse;
 use super::random::Random;
@@ -27,13 +27,12 @@ impl Scene {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
         let strip = if self.graded { Strip::graded } else { Strip::uniform };
         let strip = strip(-1.0..1.0, self.elements).unwrap();
-        let mut ground = ElasticGround::new(soil, strip).unwrap().with_history_kind(self.history);
-        if self.tolerance > 0.0 {
-            ground = ground.with_history_tolerance(self.tolerance).unwrap();
-        }
+        let tolerance = (self.tolerance > 0.0).then_some(self.tolerance);
+        let options = HistoryOptions { tolerance, ..self.history.into() };
+        let mut ground = ElasticGround::new(soil, strip).unwrap().with_history(options).unwrap();
         let length = 2.0 / self.elements as f64;
         ground.prepare(self.beta * length / soil.pressure_wave_speed()).unwrap();
-        ground.reserve(self.steps).unwrap();
+        ground.expect_steps(self.steps, None).unwrap();
         ground
     }
 

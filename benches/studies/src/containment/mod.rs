@@ -89,7 +89,7 @@ pub(crate) fn run_all(
     scene: Containment,
     duration: f64,
 ) -> Result<Vec<Outcome>, AnyError> {
-    let runs = Sweep::new(cases.len()).collect(|now| cases[now.index()].run(scene, duration));
+    let runs = Sweep::new(cases.len()).collect(|now| cases[now.index].run(scene, duration));
     let named = |(case, run): (&Case, Result<_, _>)| {
         run.map_err(|error| format!("{}: {error}", case.name).into())
     };

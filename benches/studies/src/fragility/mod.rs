@@ -184,7 +184,7 @@ fn compute(sweep: Sweep<'_>, path: &Path, motions: &[Motion]) -> Result<CaseTabl
 }
 
 fn failures(table: &CaseTable) -> usize {
-    table.rows().filter(|row| row.results().is_err()).count()
+    table.rows().filter(|row| row.results.is_err()).count()
 }
 
 /// Files of shards in a folder.
@@ -214,7 +214,7 @@ fn group(
     for row in table.rows() {
         if row.value("friction")? == friction && row.value("width_m")? == width {
             let place = [row.place("motion")?, row.place("peak_velocity_m_per_s")?];
-            if row.results().is_ok() {
+            if row.results.is_ok() {
                 let demand = row.value(&options.demand)?;
                 outcomes[place[0]][place[1]] = (!demand.is_nan()).then_some(demand > options.limit);
             }

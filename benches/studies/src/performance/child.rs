@@ -100,7 +100,7 @@ fn sweep(steps: usize) -> Result<[f64; 2]> {
             let (builder, ground) = headline(COUNT)?;
             let builder = builder
                 .ground(ground.with_shared_kernels(&kernels))
-                .interface(Coulomb::new(0.1 * (case.index() + 1) as f64)?);
+                .interface(Coulomb::new(0.1 * (case.index + 1) as f64)?);
             builder.expected_steps(steps).build()?.run(steps, |_| ()).map(|_| ())
         },
         |_, result| {

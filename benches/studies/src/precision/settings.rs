@@ -2,7 +2,7 @@
 
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
-use basemat::history::HistoryMethod;
+use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::{Result, Soil};
 
 /// How the past is summed.
@@ -83,10 +83,8 @@ impl Settings {
     /// Half-plane under a base between −`half` and `half`.
     pub(crate) fn ground(&self, soil: Soil, half: f64) -> Result<ElasticGround> {
         let strip = Strip::new(-half..half, self.elements, self.grading)?;
-        let ground = ElasticGround::new(soil, strip)?.with_history_kind(self.history.kind);
-        match self.history.tolerance {
-            Some(tolerance) => ground.with_history_tolerance(tolerance),
-            None => Ok(ground),
-        }
+        let options =
+            HistoryOptions { tolerance: self.history.tolerance, ..self.history.kind.into() };
+        ElasticGround::new(soil, strip)?.with_history(options)
     }
 }

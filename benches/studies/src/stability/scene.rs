@@ -162,7 +162,7 @@ impl Scene {
     fn with_ground(&self, builder: SimulationBuilder, soil: Soil) -> Result<SimulationBuilder> {
         if self.scheme.is_half_plane() {
             let strip = Strip::from_nodes(self.nodes())?;
-            let ground = ElasticGround::new(soil, strip)?.with_history_kind(self.history);
+            let ground = ElasticGround::new(soil, strip)?.with_history(self.history)?;
             let builder = builder.ground(ground);
             return Ok(match self.scheme {
                 Scheme::Dissipative => builder.scheme(DissipativeMidpoint::default()),

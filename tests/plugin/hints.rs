@@ -1,0 +1,136 @@
+//! GOAL: a hint of steps makes no more convolution weights than the steps need.
+//! SCENE: four elements on the half-plane, with late weights as exponentials and without (as with damping).
+//! REFERENCE: the lags that the march asks for without a hint.
+
+use std::ops::ControlFlow::Continue;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use basemat::bem::{ContactElement, Ground, PatchKernel, Strip, WeightsGround, WeightsSource};
+use basemat::history::{
+    ConvolutionWeights, HistoryMethod, LateWeights, PairClasses, SharedSpectra,
+};
+use basemat::{Observer, Result};
+
+use super::soil;
+
+/// The closed form, and what it was asked for.
+#[derive(Clone)]
+struct Counted {
+    late: bool,
+    /// Coefficients of one kind, of all classes together.
+    made: Arc<AtomicUsize>,
+    /// Latest lag that was announced.
+    prepared: Arc<AtomicUsize>,
+    kernel: Option<Arc<PatchKernel>>,
+}
+
+impl Counted {
+    fn own(&self) -> &PatchKernel {
+        self.kernel.as_ref().unwrap()
+    }
+}
+
+impl ConvolutionWeights for Counted {
+    fn classes(&self) -> &PairClasses {
+        self.own().classes()
+    }
+
+    fn prepare(&self, lags: usize) -> Result<()> {
+        self.prepared.fetch_max(lags, Ordering::Relaxed);
+        Ok(())
+    }
+
+    fn prepare_observed(&self, lags: usize, _: &mut Observer<'_>) -> Result<()> {
+        self.prepare(lags)
+    }
+
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        self.made.fetch_add(values[0].len(), Ordering::Relaxed);
+        self.own().coefficients(class, first_lag, values)
+    }
+
+    fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
+        self.own().last_coupling_lag(class)
+    }
+
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
+        self.own().late_weights().filter(|_| self.late)
+    }
+
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        None
+    }
+}
+
+impl WeightsSource for Counted {
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
+        let kernel = Some(Arc::new(PatchKernel::new(soil(), elements.to_vec(), time_step)?));
+        Ok(Arc::new(Self { kernel, ..self.clone() }))
+    }
+
+    fn static_compliance(&self, _: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        matrix.fill(0.0);
+        Ok(())
+    }
+}
+
+/// What a march has asked for.
+struct March {
+    /// Coefficients before the first step and in all.
+    made: [usize; 2],
+    prepared: usize,
+    history: HistoryMethod,
+}
+
+fn march(late: bool, steps: usize, hint: bool, observed: bool) -> March {
+    let counter = || Arc::new(AtomicUsize::new(0));
+    let source = Counted { late, made: counter(), prepared: counter(), kernel: None };
+    let elements = Strip::uniform(-2.0..2.0, 4).unwrap().elements();
+    let mut ground = WeightsGround::new(source.clone(), elements).unwrap();
+    ground.prepare(2e-3).unwrap();
+    if hint {
+        let mut goes_on = |_| Continue(());
+        let observer: Option<&mut Observer<'_>> = if observed { Some(&mut goes_on) } else { None };
+        ground.expect_steps(steps, observer).unwrap();
+    }
+    let made = || source.made.load(Ordering::Relaxed);
+    let before = made();
+    let mut displacement = [0.0; 8];
+    for step in 0..steps {
+        ground.history(&mut displacement).unwrap();
+        ground.commit(&[1.0 + step as f64; 8]);
+    }
+    let prepared = source.prepared.load(Ordering::Relaxed);
+    let history = ground.history_choice().unwrap().kind;
+    March { made: [before, made()], prepared, history }
+}
+
+#[test]
+fn hints_make_no_more_weights_than_steps_need() {
+    for late in [true, false] {
+        for steps in [2_000_usize, 200_000] {
+            let (without, with) =
+                (march(late, steps, false, false), march(late, steps, true, false));
+            let March { made, history, .. } = with;
+            println!("late {late}, {steps} steps: {:?}, told {made:?} {history}", without.made);
+            assert_eq!((without.made[0], without.history), (0, HistoryMethod::RelaxedFft));
+            let exact = history == HistoryMethod::RelaxedFft;
+            assert_eq!(exact, !late || steps < 10_000);
+            if exact {
+                assert_eq!(made[1], without.made[1]);
+                // For more than 100 000 steps nothing is made before it is needed.
+                assert_eq!(made[0], if steps > 100_000 { 0 } else { made[1] });
+            } else {
+                assert!(made[0] == made[1] && 10 * made[1] < without.made[1], "{made:?}");
+            }
+        }
+        // With an observer, all that an exact history needs is announced, and no more.
+        let (observed, plain) = (march(late, 2_000, true, true), march(late, 2_000, false, false));
+        assert_eq!((observed.made[1], observed.prepared), (plain.made[1], plain.prepared));
+    }
+}
