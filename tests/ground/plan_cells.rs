@@ -127,7 +127,8 @@ fn numbers_that_are_no_mat_are_errors() {
 
 #[test]
 fn impedances_say_what_they_cannot() {
-    let profile: SoilProfile = Soil::from_shear_wave_speed(100.0, 0.3, 1800.0).unwrap().into();
+    let soil = Soil::from_shear_wave_speed(100.0, 0.3, 1800.0).unwrap();
+    let profile: SoilProfile = soil.into();
     let plan = Plan::rectangle(-5.0..5.0, -5.0..5.0, 4).unwrap();
     let bonded = StripContact::Bonded;
     let at = |frequency: f64| impedances_in_plan(&profile, &plan, &[1.0, frequency], bonded);
@@ -141,7 +142,6 @@ fn impedances_say_what_they_cannot() {
     }
     assert!(impedances_in_plan(&SoilProfile::on_rigid_base(), &plan, &[1.0], bonded).is_err());
     assert!(impedances_in_plan(&profile, &plan, &[], bonded).unwrap().is_empty());
-    let soil = profile.surface().unwrap();
     let skin = profile.clone().with_layer(soil, 1e-4).unwrap();
     let found = impedances_in_plan(&skin, &plan, &[1.0], bonded);
     assert!(matches!(found, Err(Error::Layered(_))), "{found:?}");

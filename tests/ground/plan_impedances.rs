@@ -169,7 +169,7 @@ fn long_mats_are_strips() {
         // rx lowers the end at −y: the strip's rotation is −rx.
         ([1, 3], -strip.coupling),
     ] {
-        let found = (long[i][j] - short[i][j]).scale(0.25);
+        let found = (long[i][j] - short[i][j]) * 0.25;
         let error = (found - wanted).abs() / wanted.abs();
         println!("{i}{j} {found:?} {wanted:?} {error:.1e}");
         let gate = if i == j { 0.04 } else { 0.3 };
@@ -224,7 +224,7 @@ fn turned_plans_have_turned_stiffness() {
         for j in 0..6 {
             let ((row, one), (column, two)) = (to(i), to(j));
             let size = (mat[i][i].abs() * mat[j][j].abs()).sqrt();
-            let error = (turned[row][column].scale(one * two) - mat[i][j]).abs() / size;
+            let error = (turned[row][column] * (one * two) - mat[i][j]).abs() / size;
             assert!(error < 1e-10, "{i}{j} {error:e}");
             assert_eq!(mat[i][j], mat[j][i]);
         }

@@ -12,7 +12,7 @@ use basemat::history::{
 };
 use basemat::{Observer, Result};
 
-use super::soil;
+use super::scene::soil;
 
 /// The closed form, and what it was asked for.
 #[derive(Clone)]
