@@ -12,6 +12,8 @@ use crate::error::{Error, PlanError, Result, finite, memory, positive};
 const OVERHANG: f64 = 0.105;
 /// Part of the area that may be missing.
 const MISSING: f64 = 0.1;
+/// Memory for a cell, bytes.
+const CELL: f64 = 1000.0;
 /// Relative difference of sides that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -240,11 +242,10 @@ fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
     check_memory(counts)
 }
 
-/// Error for so many cells that matrices between them would not fit into memory.
+/// Error for so many cells that what is kept of each would not fit into memory.
 fn check_memory(counts: [usize; 2]) -> Result<()> {
     let count = counts[0] as f64 * counts[1] as f64;
-    // Complex numbers between three components of each.
-    Ok(memory::check("cells of a mat", count, 16.0 * (3.0 * count).powi(2))?)
+    Ok(memory::check("cells of a mat", count, CELL * count)?)
 }
 
 /// Mat of each cell: one that comes within the overhang of the cell's centre.

@@ -12,7 +12,7 @@ use realfft::num_complex::Complex64;
 
 use super::cells::Plan;
 use super::lattice::SERIES;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, memory};
 use crate::linalg::{Complex, DenseFactor};
 
 /// Rigid motions: along x, y, z (up) and about these axes.
@@ -57,7 +57,7 @@ impl<'a> Sectors<'a> {
     /// list in `parts` act on each other, those of different lists do not.
     ///
     /// # Errors
-    /// [`Error::Singular`].
+    /// [`Error::Memory`], [`Error::Singular`].
     pub(super) fn stiffness(
         &self,
         values: &[[Complex; SERIES]],
@@ -114,6 +114,9 @@ impl<'a> Sectors<'a> {
                 places
             })
             .collect();
+        // The matrix and its factor.
+        let cells = self.plan.cells.len() as f64;
+        memory::check("cells of a mat", cells, 32.0 * (order as f64).powi(2))?;
         let mut matrix = vec![Complex64::default(); order * order];
         let mut loads = vec![Complex64::default(); order * MOTIONS];
         let size = self.group.len() as f64;
