@@ -2,11 +2,13 @@
 //! SCENE: bad numbers, laws that are not causal or passive, scales and contrasts out of reach.
 //! REFERENCE: the fields of the error, and the clock.
 
+use std::ops::ControlFlow;
+
 use basemat::bem::layered::{
     LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
 };
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
-use basemat::history::ConvolutionWeights;
+use basemat::history::{ConvolutionWeights, HistoryMethod};
 use basemat::interface::Bonded;
 use basemat::soil::{
     Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,
@@ -165,6 +167,52 @@ fn what_takes_too_long_is_refused_beforehand() {
     let short = short.with_time_limit(0.01).unwrap();
     let LayeredError::TooCostly { cure, .. } = refused(&short, 1 << 20) else { unreachable!() };
     assert_eq!(cure, "a longer time step");
+    assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
+}
+
+/// Two thousand million lags, by themselves and for a ground whose history may have all of them: before anything is
+/// computed. Exponentials need none of that, and a run of nobody knows how many steps only what its history holds.
+#[test]
+fn what_takes_too_much_memory_is_refused_beforehand() {
+    let begin = std::time::Instant::now();
+    let profile = || SoilProfile::on_half_plane(soil()).with_layer(soil(), 3.0).unwrap();
+    let refused = |found: basemat::Result<()>, lags: f64| match found.unwrap_err() {
+        Error::Memory(error) => {
+            assert_eq!((error.asked, error.limit), (lags, basemat::memory_limit() as f64));
+            // Three numbers for each of three distances, and the transform's beside them.
+            let numbers = error.needed / (9.0 * lags);
+            assert!(error.needed > error.limit && (20.0..30.0).contains(&numbers), "{error}");
+            assert!(error.to_string().contains("set_memory_limit"), "{error}");
+        }
+        other => panic!("{other}"),
+    };
+    let kernel = LayeredKernel::new(profile(), elements(), 0.005).unwrap();
+    let kernel = kernel.with_time_limit(f64::INFINITY).unwrap();
+    let most = 2.0_f64.powi(31);
+    refused(kernel.prepare(1 << 31), most);
+    refused(kernel.prepare_observed(1 << 31, &mut |_| ControlFlow::Continue(())), most);
+    let mut list = [0.0; 1];
+    refused(kernel.coefficients(0, 1 << 31, [&mut list, &mut [0.0], &mut [0.0]]), most);
+    let cost = kernel.cost(1 << 20).unwrap();
+    assert!((20.0 * 9.0..30.0 * 9.0).contains(&(cost.memory / 2.0_f64.powi(20))), "{cost}");
+
+    let strip = Strip::uniform(-3.0..3.0, 3).unwrap();
+    let ground = |profile: SoilProfile, bytes: usize| {
+        let ground = ElasticGround::new(profile, &strip).unwrap().with_stages(Stages::Two);
+        let ground = ground.with_time_limit(f64::INFINITY).unwrap();
+        let mut ground = ground.with_history_memory(bytes);
+        ground.prepare(0.005).unwrap();
+        ground
+    };
+    let mut watched = |_: basemat::Progress| ControlFlow::Break(());
+    refused(ground(profile(), usize::MAX).precompute(1 << 31, &mut watched), most);
+    // As many lags as a history of a megabyte has: they are begun.
+    let begun = ground(profile(), 1 << 20).precompute(1 << 31, &mut watched);
+    assert!(matches!(begun, Err(Error::Stopped(_))), "{begun:?}");
+    let mut plain = ElasticGround::new(soil(), &strip).unwrap();
+    plain.prepare(0.005).unwrap();
+    plain.expect_steps(1 << 31).unwrap();
+    assert_eq!(plain.history_choice().unwrap().kind, HistoryMethod::Exponentials);
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
 

@@ -6,14 +6,14 @@
 //! cargo study layered-cost
 //! ```
 //!
-//! Processor time of one thread; coefficients alone, without the histories' transforms of them.
+//! Processor time of all threads; coefficients alone, without the histories' transforms of them.
 
 use basemat::bem::layered::{LayeredKernel, Stages};
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::history::ConvolutionWeights;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Result, Soil};
-use cpu_time::ThreadTime;
+use cpu_time::ProcessTime;
 
 use crate::AnyError;
 
@@ -137,7 +137,7 @@ pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
         let steps = if options.short { 100 } else { steps };
         let strip = Strip::new(-3.0..3.0, elements, grading)?;
         let ground = ElasticGround::new(profile.clone(), strip)?.with_stages(stages);
-        let begin = ThreadTime::try_now()?;
+        let begin = ProcessTime::try_now()?;
         let cost = ground.cost(time_step, steps)?;
         let asked = begin.try_elapsed()?.as_secs_f64();
         if options.short && cost.seconds > 2.0 {
@@ -151,7 +151,7 @@ pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
         }
         let strip = Strip::new(-3.0..3.0, elements, grading)?;
         let kernel = LayeredKernel::new(profile, strip.elements(), time_step)?.with_stages(stages);
-        let begin = ThreadTime::try_now()?;
+        let begin = ProcessTime::try_now()?;
         kernel.prepare(steps.next_power_of_two())?;
         let taken = begin.try_elapsed()?.as_secs_f64();
         println!(

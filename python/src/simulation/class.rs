@@ -264,6 +264,14 @@ impl PySimulation {
         take_raised();
         py.detach(|| {
             let mut simulation = self.lock()?;
+            // Coefficients come by powers of two of steps, and Ctrl-C while they do; errors are the step's.
+            let done = simulation.state().step;
+            if done == 0 || done.is_power_of_two() {
+                watched(None, |observer| match simulation.precompute(1, observer) {
+                    Err(Error::Stopped(progress)) => Err(Error::Stopped(progress)),
+                    _ => Ok(()),
+                })?;
+            }
             settled(simulation.step().cloned()).map(PyState)
         })
     }

@@ -14,11 +14,11 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use realfft::RealFftPlanner;
 
-use super::contour::{Circle, POINTS, Panels, Place, evaluate, factor, is_resolved, transformed};
+use super::contour::{Circle, POINTS, Panels, Place, Polynomials, evaluate, factor};
 use super::runge_kutta::{Node, Stages, on_circle};
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::error::{Error, Result, Watch};
@@ -271,9 +271,8 @@ impl Quadrature {
         }
         let mut kept = panels.kept();
         for (place, values) in missing.into_iter().zip(values.chunks(POINTS * self.classes)) {
-            let coefficients = transformed(values.as_flattened());
-            let resolved = is_resolved(&coefficients, &panels.own, self.tolerance);
-            kept.insert(*place, resolved.then(|| coefficients.into()));
+            let found = Polynomials::through(values.as_flattened(), &panels.own, self.tolerance);
+            kept.insert(*place, found.map(Arc::new));
         }
         Ok(())
     }

@@ -9,8 +9,11 @@
 //! All singularities lie on |z| ≥ 1, those of undamped layers on the unit circle itself. Panels lie beside it,
 //! ln |z| = −w/20 for a width w, so that none is missed between two points; as polynomials of the complex
 //! variable ln z they are good on every circle from there to |z| = 1. One panel thus serves all
-//! blocks of lags. Where a panel would need more than half as many points as a circle has on it, and may be
-//! tried in vain, the circle's points themselves are evaluated: always at cut-off frequencies of undamped layers.
+//! blocks of lags. Where panels would have more points than a circle has on them, the circle's points themselves are
+//! evaluated: always at cut-off frequencies of undamped layers.
+//!
+//! What comes up to m lags late is polynomials in z of degree m, and turns by up to mw over a panel; divided by
+//! the power of z in the middle, by half of that. Panels that are not resolved as they are may be so.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -30,6 +33,9 @@ const COARSEST: u32 = 2;
 const ASIDE: f64 = 1.0 / 20.0;
 /// Last Chebyshev coefficients over the tolerance: errors grow with the lag where those of F do not.
 const LAST: f64 = 0.3;
+/// Turns over half a panel of what functions on it are divided by, one after the other: what waves leave behind comes
+/// late and never early, a power of z at least.
+const TURNS: [f64; 2] = [0.0, 4.0];
 /// Points of a circle that are evaluated together.
 const LANES: usize = 32;
 
@@ -66,12 +72,41 @@ pub(crate) fn factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
     if node == 0 { Complex::real(1.0) } else { rest * rest }
 }
 
-/// Panels met so far: Chebyshev coefficients, degree by degree, of those that are resolved.
+/// Panels met so far, with polynomials on those that are resolved.
 #[derive(Debug)]
 pub(crate) struct Panels {
-    kept: Mutex<HashMap<Place, Option<Arc<[Complex]>>>>,
+    kept: Mutex<HashMap<Place, Option<Arc<Polynomials>>>>,
     /// Per class: those of its two elements on themselves.
     pub(super) own: Arc<[[usize; 2]]>,
+}
+
+/// Functions on a panel over a power of z, by Chebyshev coefficients.
+#[derive(Debug)]
+pub(crate) struct Polynomials {
+    /// Degree by degree, one column for each function.
+    coefficients: Vec<Complex>,
+    /// Angle by which the power turns over half the panel.
+    turn: f64,
+}
+
+impl Polynomials {
+    /// Through `values` at the points of a panel, one column for each function; `None` if they are resolved over no
+    /// power. `own` and `tolerance` are those of [`is_resolved`].
+    pub(crate) fn through(values: &[Complex], own: &[[usize; 2]], tolerance: f64) -> Option<Self> {
+        TURNS.into_iter().find_map(|turn| {
+            let mut values = values.to_vec();
+            let count = values.len() / POINTS;
+            for (x, row) in nodes().zip(values.chunks_exact_mut(count)) {
+                let back = Complex::polar(1.0, -turn * x);
+                for value in row {
+                    *value = *value * back;
+                }
+            }
+            let coefficients = transformed(&values);
+            let resolved = is_resolved(&coefficients, own, tolerance, turn);
+            resolved.then_some(Self { coefficients, turn })
+        })
+    }
 }
 
 /// A panel: the `index`-th of 2^`depth`.
@@ -109,7 +144,7 @@ fn nodes() -> impl Iterator<Item = f64> {
 }
 
 /// Chebyshev coefficients of values at the points, one column for each function.
-pub(crate) fn transformed(values: &[Complex]) -> Vec<Complex> {
+fn transformed(values: &[Complex]) -> Vec<Complex> {
     let count = values.len() / POINTS;
     let mut coefficients = vec![Complex::default(); values.len()];
     for (degree, row) in coefficients.chunks_exact_mut(count).enumerate() {
@@ -136,7 +171,7 @@ impl Panels {
         Self { kept: Mutex::default(), own: own.into() }
     }
 
-    pub(super) fn kept(&self) -> MutexGuard<'_, HashMap<Place, Option<Arc<[Complex]>>>> {
+    pub(super) fn kept(&self) -> MutexGuard<'_, HashMap<Place, Option<Arc<Polynomials>>>> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -147,11 +182,11 @@ impl Panels {
 }
 
 /// Whether the last two of the `coefficients` are small beside those of the elements themselves, up to the unit
-/// circle; `own` has, per class, the classes of its two elements.
-pub(crate) fn is_resolved(coefficients: &[Complex], own: &[[usize; 2]], tolerance: f64) -> bool {
+/// circle; `own` has, per class, the classes of its two elements, `turn` belongs to the coefficients.
+fn is_resolved(coefficients: &[Complex], own: &[[usize; 2]], tolerance: f64, turn: f64) -> bool {
     let shift = 2.0 * ASIDE;
     let growth = shift + (1.0 + shift * shift).sqrt();
-    let most = LAST * tolerance / growth.powf((POINTS - 1) as f64);
+    let most = LAST * tolerance / growth.powf((POINTS - 1) as f64) / (turn * shift).exp();
     let degrees: Vec<_> = coefficients
         .chunks_exact(own.len() * KINDS)
         .map(|row| row.as_chunks::<KINDS>().0)
@@ -181,7 +216,7 @@ impl Circle {
             (0..1 << COARSEST).map(|index| Place { depth: COARSEST, index }).collect();
         let serves = |panel: &Place| {
             let beside = -self.logarithm <= 2.0 * ASIDE * panel.width();
-            beside && panel.points_of(self).len() > 2 * POINTS
+            beside && panel.points_of(self).len() > POINTS
         };
         while panels.first().is_some_and(serves) {
             // The branch point of long waves.
@@ -207,12 +242,13 @@ const HEARD: usize = LANES << 9;
 /// An error of `heard` ends it.
 pub(super) fn evaluate(
     node: usize,
-    panel: &[Complex],
+    panel: &Polynomials,
     place: Place,
     circle: Circle,
     spectra: &mut [Complex],
     mut heard: impl FnMut() -> Result<()>,
 ) -> Result<()> {
+    let Polynomials { coefficients: panel, turn } = panel;
     let count = panel.len() / POINTS;
     let points = place.points_of(circle);
     // The polynomials of the panel's line in that of the circle, x − iy.
@@ -244,7 +280,8 @@ pub(super) fn evaluate(
                 std::array::from_fn(|lane| 2.0 * x[lane] * last[lane] - before[lane]);
         }
         let factors: [Complex; LANES] = std::array::from_fn(|lane| {
-            factor(node, [circle.logarithm, circle.angle(first + lane)])
+            let turned = Complex::polar((-turn * shift).exp(), turn * x[lane]);
+            turned * factor(node, [circle.logarithm, circle.angle(first + lane)])
         });
         let end = points.end.min(first + LANES);
         for (function, row) in spectra.chunks_exact_mut(circle.points()).enumerate() {

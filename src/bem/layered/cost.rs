@@ -1,8 +1,9 @@
 //! What the coefficients of a layered ground cost, before it is paid.
 //!
 //! Work is counted and not timed. Where the contours are sampled is found by the rule of `contour`, with the
-//! surface compliance at two wavenumbers for the mobility: it has the same resonances and the same
-//! reflections, and costs a hundredth. What samples cost is found at some of them, by all that an integral
+//! surface compliance at a small wavenumber for the mobility: waves that go straight down have the
+//! reflections, and their resonances are where the mobility has branch points (those at other wavenumbers are smooth
+//! in the integral), and cost a hundredth. What samples cost is found at some of them, by all that an integral
 //! needs but its pairs.
 
 use std::collections::HashMap;
@@ -10,11 +11,12 @@ use std::fmt;
 use std::ops::Range;
 
 use super::coefficients::{Block, Quadrature};
-use super::contour::{self, Circle, Panels, Place};
-use super::form_factors::{DEGREES, FormRow, LANES, POINTS};
+use super::contour::{self, Circle, Panels, Place, Polynomials};
+use super::form_factors::{DEGREES, FormRow, LANES, POINTS, Panel};
 use super::passivity;
-use super::wavenumber::{Counts, Workspace};
+use super::wavenumber::{Counts, Wavenumbers, Workspace};
 use crate::error::{LayeredError, Result};
+use crate::history::KINDS;
 use crate::linalg::Complex;
 use crate::soil::{Elastic, Relaxation};
 
@@ -24,16 +26,17 @@ use crate::soil::{Elastic, Relaxation};
 /// Measured (`benches/studies/src/layered_cost.rs`).
 const EVALUATION: f64 = 95.0;
 const LAYER: f64 = 130.0;
-const MOMENTS: f64 = 110.0;
+const MOMENTS: f64 = 20.0;
 const FORM_FACTOR: f64 = 50.0;
 const PRODUCT: f64 = 0.25;
 const WIDE: f64 = 2500.0;
-const POINT: f64 = 200.0;
+const POINT: f64 = 170.0;
 
 /// Samples of each eigenvalue that are looked at.
 const LOOKED_AT: usize = 16;
-/// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch.
-const WAVENUMBERS: [f64; 2] = [0.5, 2.0];
+/// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
+/// the others where a slab carries waves along.
+const WAVENUMBERS: [f64; 3] = [0.01, 0.5, 2.0];
 /// Halving makes no integral so many times as long as its panels, as a rule.
 const MOST_HALVING: f64 = 50.0;
 
@@ -61,11 +64,38 @@ impl fmt::Display for Cost {
     }
 }
 
-/// Counts of a whole, and the most of any one Laplace variable.
+/// Counts of a whole.
 #[derive(Default)]
 struct Total {
     sum: Counts,
-    most: Counts,
+    /// Panels, and whether they are halved, of the samples that were looked at.
+    met: HashMap<(Panel, bool), Met>,
+}
+
+/// Samples of each eigenvalue, block by block: ln |z| and angle.
+pub(super) struct Outlook(Vec<Vec<Vec<[f64; 2]>>>);
+
+impl Outlook {
+    /// Numbers of samples of all eigenvalues, block by block.
+    pub(super) fn counts(&self) -> impl Iterator<Item = usize> {
+        let blocks = self.0.first().map_or(0, Vec::len);
+        (0..blocks).map(|place| self.0.iter().map(|blocks| blocks[place].len()).sum())
+    }
+}
+
+/// Looks that met a panel, and how often all samples do.
+#[derive(Clone, Copy, Default)]
+struct Met {
+    looks: usize,
+    uses: f64,
+}
+
+/// Number of all kinds of which some were met, by those that were met once and twice (Chao, Scand. J. Statist. 11, 1984).
+fn distinct(met: &[Met]) -> f64 {
+    let of = |looks: usize| met.iter().filter(|met| met.looks == looks).count() as f64;
+    let (once, twice) = (of(1), of(2));
+    let uses: f64 = met.iter().map(|met| met.uses).sum();
+    uses.min(met.len() as f64 + once * (once - 1.0) / (2.0 * (twice + 1.0)))
 }
 
 impl Quadrature {
@@ -75,8 +105,14 @@ impl Quadrature {
         Ok(self.priced(&total, missing))
     }
 
-    /// Error if that is more than `limit` seconds.
-    pub(super) fn afford(&self, missing: Range<usize>, open: bool, limit: f64) -> Result<()> {
+    /// Error if that is more than `limit` seconds, with the `outlook` of these blocks if it is known.
+    pub(super) fn afford(
+        &self,
+        missing: Range<usize>,
+        open: bool,
+        limit: f64,
+        outlook: Option<&Outlook>,
+    ) -> Result<()> {
         // Most grounds are told without an evaluation: as if every point of the circles were sampled.
         let circles = missing.clone().map(|number| Block::circle(number, self.tolerance));
         let points: usize = circles.map(Circle::points).sum();
@@ -89,7 +125,11 @@ impl Quadrature {
         if 1e-9 * MOST_HALVING * samples * each <= limit {
             return Ok(());
         }
-        let total = self.counted(missing.clone(), open, &mut Workspace::default())?;
+        let mut work = Workspace::default();
+        let total = match outlook {
+            Some(outlook) => self.total(outlook, open, &mut work)?,
+            None => self.counted(missing.clone(), open, &mut work)?,
+        };
         let seconds = self.priced(&total, missing.clone()).seconds;
         if seconds <= limit {
             return Ok(());
@@ -117,37 +157,35 @@ impl Quadrature {
 
     /// Counts of all samples, by a look at some of each eigenvalue.
     fn counted(&self, missing: Range<usize>, open: bool, work: &mut Workspace) -> Result<Total> {
+        let outlook = self.outlook(missing, work)?;
+        self.total(&outlook, open, work)
+    }
+
+    fn total(&self, outlook: &Outlook, open: bool, work: &mut Workspace) -> Result<Total> {
         let mut total = Total::default();
         let gate = || passivity::places().filter(|_| open);
-        for (node, blocks) in self.samples(missing, work)?.into_iter().enumerate() {
-            let mut samples: Vec<_> = gate().chain(blocks.into_iter().flatten()).collect();
+        for (node, blocks) in outlook.0.iter().enumerate() {
+            let mut samples: Vec<_> = gate().chain(blocks.iter().flatten().copied()).collect();
             samples.sort_by(|[one, a], [two, b]| a.total_cmp(b).then(one.total_cmp(two)));
             let stride = samples.len().div_ceil(LOOKED_AT).max(1);
             for some in samples.chunks(stride) {
                 for node in self.nodes(some[some.len() / 2]).skip(node).take(1) {
-                    let counts = self.integrals.counts(&self.profile, self.variable(node), work)?;
+                    let met = &mut total.met;
+                    let meet = |panel: Panel, halved: bool| {
+                        let met = met.entry((panel, halved)).or_default();
+                        *met = Met { looks: met.looks + 1, uses: met.uses + some.len() as f64 };
+                    };
+                    let s = self.variable(node);
+                    let counts = self.integrals.counts(&self.profile, s, work, meet)?;
                     total.sum = total.sum.with(&counts, |sum, one| sum + some.len() as f64 * one);
-                    total.most = total.most.with(&counts, f64::max);
                 }
             }
         }
         Ok(total)
     }
 
-    /// Numbers of samples of all eigenvalues, block by block.
-    pub(super) fn expected(&self, missing: Range<usize>) -> Result<Vec<usize>> {
-        let samples = self.samples(missing.clone(), &mut Workspace::default())?;
-        let of_block = |place: usize| samples.iter().map(|blocks| blocks[place].len()).sum();
-        Ok((0..missing.len()).map(of_block).collect())
-    }
-
-    /// Where shares of the eigenvalues in the mobility will be evaluated, as far as two wavenumbers tell: ln |z| and
-    /// angle, block by block.
-    fn samples(
-        &self,
-        missing: Range<usize>,
-        work: &mut Workspace,
-    ) -> Result<Vec<Vec<Vec<[f64; 2]>>>> {
+    /// Where shares of the eigenvalues in the mobility will be evaluated, as far as one wavenumber tells.
+    pub(super) fn outlook(&self, missing: Range<usize>, work: &mut Workspace) -> Result<Outlook> {
         let of_node = |(node, panels): (usize, &Panels)| {
             let mut met: HashMap<Place, bool> = HashMap::new();
             let of_block = |number: usize| {
@@ -171,71 +209,96 @@ impl Quadrature {
             };
             missing.clone().map(of_block).collect()
         };
-        self.panels.iter().enumerate().map(of_node).collect()
+        self.panels.iter().enumerate().map(of_node).collect::<Result<_>>().map(Outlook)
     }
 
-    /// Whether a panel is resolved for the surface compliance at two wavenumbers, and for waves along the patch.
+    /// Whether a panel is resolved for the surface compliance at a small wavenumber, and for waves along the shortest
+    /// element and the patch.
     fn looks_resolved(&self, node: usize, place: Place, work: &mut Workspace) -> Result<bool> {
-        let span = self.integrals.span;
+        let Wavenumbers { span, shortest, .. } = self.integrals;
         let mut values = vec![];
+        let wavenumbers = if self.has_slab() { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
         for point in place.places() {
             let over = contour::factor(node, point).inverse();
             for node in self.nodes(point).skip(node).take(1) {
                 work.compliance.set(&self.profile, self.variable(node))?;
-                work.evaluations += WAVENUMBERS.len();
+                work.evaluations += wavenumbers.len();
                 let (_, q2, _) = work.compliance.top();
-                let turn = q2.sqrt().scale(span);
                 let one = Complex::real(1.0);
-                let weight = node.weight * over * (one + (-turn).exp() / (one + turn));
-                for wavenumber in WAVENUMBERS {
+                let waves = [shortest, span].map(|way| {
+                    let turn = q2.sqrt().scale(way);
+                    (-turn).exp() / (one + turn)
+                });
+                let weight = node.weight * over * (one + waves[0] + waves[1]);
+                for wavenumber in wavenumbers {
                     let c = work.compliance.at(wavenumber / span);
                     values.extend([c.zz, c.xx, c.xz].map(|value| weight * value));
                 }
             }
         }
-        let coefficients = contour::transformed(&values);
-        Ok(contour::is_resolved(&coefficients, &[[0; 2], [1; 2]], self.tolerance))
+        let own: Vec<_> = (0..wavenumbers.len()).map(|place| [place; 2]).collect();
+        Ok(Polynomials::through(&values, &own, self.tolerance).is_some())
     }
 
-    fn priced(&self, Total { sum, most }: &Total, missing: Range<usize>) -> Cost {
+    /// Whether the top layer carries more along the patch than the ground below it.
+    fn has_slab(&self) -> bool {
+        let top = self.profile.layers().first();
+        top.zip(self.profile.soils().nth(1)).is_some_and(|(top, (below, _))| {
+            let carried = top.soil.shear_modulus() * top.thickness;
+            carried > below.shear_modulus() * self.integrals.span
+        })
+    }
+
+    /// Tables of the narrowest panels, wide and halved ones: those that are kept, and how often they are made.
+    fn tables(&self, met: &HashMap<(Panel, bool), Met>) -> [[f64; 2]; 3] {
+        let forms = &self.integrals.forms;
+        [(false, false), (true, false), (false, true)].map(|kind| {
+            let mut beyond = 0.0;
+            let mut kept = vec![];
+            for ((panel, halved), met) in met {
+                if (panel.level > 0, *halved) != kind {
+                } else if forms.keeps(*panel, *halved) {
+                    kept.push(*met);
+                } else {
+                    beyond += met.uses;
+                }
+            }
+            // Made once as far as there is room, and again for every use beyond.
+            [distinct(&kept), distinct(&kept) + beyond]
+        })
+    }
+
+    fn priced(&self, Total { sum, met }: &Total, missing: Range<usize>) -> Cost {
         const ROW: f64 = size_of::<FormRow>() as f64;
         let forms = &self.integrals.forms;
         let (classes, blocks) = (self.classes as f64, forms.blocks() as f64);
         let (points, degrees) = (POINTS as f64, DEGREES as f64);
-        // Tables are made once as far as there is room, and again for every use beyond.
-        let mut factors = 0.0;
-        let mut tables = 0.0;
-        let narrow = sum.panels - sum.wide;
-        let rows = [
-            (points, points, narrow - sum.halved, most.panels - most.wide),
-            (degrees, forms.projection(), sum.halved, most.halved),
-        ];
-        for ((rows, made, panels, longest), room) in rows.into_iter().zip(forms.room()) {
-            let kept = longest.min(room as f64);
-            let again = if longest > kept { panels * (1.0 - kept / longest) } else { 0.0 };
-            factors += (kept + again) * made * classes;
-            tables += kept * rows * blocks * ROW;
-        }
-        // No more wide panels than narrow ones up to K.
-        let wide = sum.wide.min(most.reach);
+        let [narrow, wide, halved] = self.tables(met);
+        let factors = (points * narrow[1] + forms.projection() * halved[1]) * classes;
+        let rows = points * (narrow[0] + wide[0]) + degrees * halved[0];
         let products = 6.0
             * LANES as f64
             * blocks
             * (points * (sum.panels - sum.halved) + degrees * sum.halved);
-        let circle = |number| Block::circle(number, self.tolerance);
-        let on_circles: usize = missing.clone().map(|number| circle(number).points()).sum();
+        let circles = missing.clone().map(|number| Block::circle(number, self.tolerance));
+        let on_circles: usize = circles.map(Circle::points).sum();
         let nanoseconds = LAYER * sum.layers
             + EVALUATION * sum.evaluations
             + MOMENTS * sum.halves
             + FORM_FACTOR * factors
-            + WIDE * wide * classes
+            + WIDE * wide[1] * classes
             + PRODUCT * products
             + POINT * on_circles as f64 * classes;
-        let last = circle(missing.end.saturating_sub(1));
-        let lags = missing.end.checked_sub(1).map_or(0, Block::last);
-        let numbers = 24.0 * classes * lags as f64 + 48.0 * classes * last.points() as f64;
-        let memory = tables + wide * points * blocks * ROW + numbers;
+        let memory = rows * blocks * ROW + self.memory(missing.end);
         Cost { seconds: 1e-9 * nanoseconds, evaluations: sum.evaluations, memory }
+    }
+
+    /// Most bytes of the first `blocks` blocks while the last is made.
+    pub(super) fn memory(&self, blocks: usize) -> f64 {
+        let Some(last) = blocks.checked_sub(1) else { return 0.0 };
+        let points = Block::circle(last, self.tolerance).points() as f64;
+        let own = 8.0 * Block::last(last) as f64 + size_of::<Complex>() as f64 * points;
+        own * (KINDS * self.classes) as f64
     }
 }
 

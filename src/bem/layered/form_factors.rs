@@ -82,7 +82,7 @@ impl PairShape {
 }
 
 /// A panel of wavenumbers: the `index`-th of those that are 2^`level` times as long as the narrowest.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Panel {
     pub(crate) level: u32,
     pub(crate) index: usize,
@@ -141,14 +141,32 @@ impl FormFactors {
         self.shapes.len().div_ceil(LANES)
     }
 
-    /// Panels whose tables are kept, at Gauss points and by Legendre coefficients.
-    pub(crate) fn room(&self) -> [usize; 2] {
-        [self.values.len(), self.legendre.len()]
+    /// Whether the table of a panel, at Gauss points or of a halved one by Legendre coefficients, is kept.
+    pub(crate) fn keeps(&self, panel: Panel, halved: bool) -> bool {
+        let room = match (panel.level, halved) {
+            (_, true) => self.legendre.len(),
+            (0, false) => self.values.len(),
+            (level, false) => self.wide_room(level),
+        };
+        panel.index < room
     }
 
     /// Points that Legendre coefficients are made of.
     pub(crate) fn projection(&self) -> f64 {
         self.fine.nodes.len() as f64
+    }
+
+    /// Tables made of the narrowest panels, wide and halved ones.
+    #[cfg(test)]
+    pub(crate) fn made(&self) -> [usize; 3] {
+        let made = |tables: &[OnceLock<_>]| tables.iter().filter(|it| it.get().is_some()).count();
+        let wide = self.wide.iter().filter_map(OnceLock::get).map(|tables| made(tables)).sum();
+        [made(&self.values), wide, made(&self.legendre)]
+    }
+
+    /// Wide panels of a level whose tables are kept.
+    fn wide_room(&self, level: u32) -> usize {
+        self.room.min((1 << 17) >> level)
     }
 
     /// Left end of a panel and its width, 1/m.
@@ -163,10 +181,8 @@ impl FormFactors {
         if panel.level == 0 {
             return Self::with(&self.values, index, || self.table(index, &self.rule), apply);
         }
-        let level = panel.level as usize;
-        let count = self.room.min((1 << 17) >> level);
-        let empty = || (0..count).map(|_| OnceLock::new()).collect();
-        let tables = self.wide[level.min(LEVELS - 1)].get_or_init(empty);
+        let empty = || (0..self.wide_room(panel.level)).map(|_| OnceLock::new()).collect();
+        let tables = self.wide[(panel.level as usize).min(LEVELS - 1)].get_or_init(empty);
         Self::with(tables, index, || self.wide_table(panel), apply);
     }
 
@@ -298,11 +314,18 @@ fn spherical_bessel(t: f64) -> [f64; POINTS] {
 
 /// Legendre polynomials at x.
 pub(crate) fn legendre(x: f64) -> [f64; DEGREES] {
-    let mut values = [1.0; DEGREES];
+    legendre_at([x]).map(|[value]| value)
+}
+
+/// Legendre polynomials at several x.
+pub(crate) fn legendre_at<const N: usize>(x: [f64; N]) -> [[f64; N]; DEGREES] {
+    let mut values = [[1.0; N]; DEGREES];
     values[1] = x;
     for n in 2..DEGREES {
         let [one, two] = RECURRENCE[n];
-        values[n] = one * x * values[n - 1] - two * values[n - 2];
+        for i in 0..N {
+            values[n][i] = one * x[i] * values[n - 1][i] - two * values[n - 2][i];
+        }
     }
     values
 }

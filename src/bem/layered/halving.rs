@@ -1,7 +1,7 @@
 //! Panels of wavenumbers, halved until the surface compliance is a polynomial on each.
 
 use super::compliance::Surface;
-use super::form_factors::{DEGREES, POINTS, Panel, legendre};
+use super::form_factors::{DEGREES, POINTS, Panel, legendre_at};
 use super::tail::grid;
 use super::wavenumber::{Found, SHORT, Wavenumbers, Workspace, parts};
 use crate::history::KINDS;
@@ -146,10 +146,15 @@ impl Wavenumbers {
             let samples = self.sampled(left, width, symbol);
             work.evaluations += POINTS;
             if self.resolved(&samples, left, width, allowed) {
-                for (i, sample) in samples.iter().enumerate() {
-                    let x = 2.0 * (place + 0.5 * size * (1.0 + self.forms.rule.nodes[i])) - 1.0;
-                    let c = parts(sample, 0.5 * width * self.forms.rule.weights[i]);
-                    for (moment, polynomial) in moments.iter_mut().zip(legendre(x)) {
+                let rule = &self.forms.rule;
+                let x: [f64; POINTS] = std::array::from_fn(|i| {
+                    2.0 * (place + 0.5 * size * (1.0 + rule.nodes[i])) - 1.0
+                });
+                let polynomials = legendre_at(x);
+                let c: [[f64; 6]; POINTS] =
+                    std::array::from_fn(|i| parts(&samples[i], 0.5 * width * rule.weights[i]));
+                for (moment, polynomials) in moments.iter_mut().zip(&polynomials) {
+                    for (polynomial, c) in polynomials.iter().zip(&c) {
                         for (moment, c) in moment.iter_mut().zip(c) {
                             *moment += polynomial * c;
                         }

@@ -6,10 +6,11 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::coefficients::{BLOCKS, Block, FIRST, Quadrature, Samples};
-use super::cost::Cost;
+use super::cost::{Cost, Outlook};
 use super::runge_kutta::Stages;
+use super::wavenumber::Workspace;
 use super::{file, passivity};
-use crate::error::{Error, Observer, Result, Watch, positive, same_length};
+use crate::error::{Error, Observer, Result, Watch, memory, positive, same_length};
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, KINDS, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
@@ -212,21 +213,32 @@ impl LayeredKernel {
         Ok(self.making.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Passes the gate, and refuses what is missing of the blocks of `wanted` if it costs too much.
-    fn admit(&self, wanted: Range<usize>, watch: &mut Watch) -> Result<u64> {
-        let afford = |missing: Range<usize>| {
-            let open = self.checked.get().is_none();
-            if missing.is_empty() && !open {
-                return Ok(());
-            }
-            self.quadrature.afford(missing, open, self.limit)
-        };
-        if self.checked.get().is_none() {
-            // A file may hold all that is wanted.
-            afford(if self.file.is_some() { 0..0 } else { self.missing(wanted.clone()) })?;
+    /// Passes the gate, and refuses what is missing of the blocks of `wanted` if it costs too much; `outlook` are the
+    /// samples of these.
+    fn admit(
+        &self,
+        wanted: Range<usize>,
+        outlook: Option<&Outlook>,
+        watch: &mut Watch,
+    ) -> Result<u64> {
+        let missing = self.missing(wanted.clone());
+        if !missing.is_empty() {
+            let (lags, needed) =
+                (Block::last(missing.end - 1), self.quadrature.memory(missing.end));
+            memory::check("lags of a layered ground", lags as f64, needed)?;
+        }
+        let open = self.checked.get().is_none();
+        // A file may hold all that is wanted.
+        let late = open && self.file.is_some();
+        let first = if late { 0..0 } else { missing };
+        if open || !first.is_empty() {
+            self.quadrature.afford(first, open, self.limit, outlook.filter(|_| !late))?;
         }
         let fingerprint = *self.once(&self.checked, watch, |watch| self.check(watch))?;
-        afford(self.missing(wanted))?;
+        let rest = self.missing(wanted);
+        if late && !rest.is_empty() {
+            self.quadrature.afford(rest, false, self.limit, None)?;
+        }
         Ok(fingerprint)
     }
 
@@ -253,15 +265,17 @@ impl LayeredKernel {
         let last = last_block(lags.max(1))?;
         let mut expected = vec![0; last + 1];
         let mut watch = Watch::nobody();
+        let mut outlook = None;
         if let Some(observer) = observer {
             let missing = self.missing(0..last + 1);
             // What cannot be counted beforehand fails as it does without an observer.
-            let counts = self.quadrature.expected(missing.clone()).unwrap_or_default();
+            outlook = self.quadrature.outlook(missing.clone(), &mut Workspace::default()).ok();
+            let counts = outlook.iter().flat_map(Outlook::counts);
             expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);
             let total = passivity::POINTS + expected.iter().sum::<usize>();
             watch = Watch::new("step coefficients of layered ground", total, observer);
         }
-        let fingerprint = self.admit(0..last + 1, &mut watch)?;
+        let fingerprint = self.admit(0..last + 1, outlook.as_ref(), &mut watch)?;
         let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
         let mut done = passivity::POINTS;
         watch.reach(done)?;
@@ -316,7 +330,7 @@ impl ConvolutionWeights for LayeredKernel {
         while done < lags {
             let (number, place) = Block::place(first_lag + done);
             if self.blocks[number].get().is_none() {
-                self.admit(number..number + 1, &mut Watch::nobody())?;
+                self.admit(number..number + 1, None, &mut Watch::nobody())?;
             }
             let found = self.block(number, &mut Watch::nobody(), 0..0)?.from(class, place);
             let count = found[0].len().min(lags - done);

@@ -59,12 +59,8 @@ pub(crate) struct Workspace {
 pub(crate) struct Counts {
     /// Panels that are summed.
     pub(crate) panels: f64,
-    /// Those that are wide.
-    pub(crate) wide: f64,
     /// Those that are halved below the narrowest.
     pub(crate) halved: f64,
-    /// Narrowest panels up to K.
-    pub(crate) reach: f64,
     /// Integrals, and those whose K is for the thickness of the top layer's sake.
     pub(crate) integrals: f64,
     pub(crate) deep: f64,
@@ -81,9 +77,7 @@ impl Counts {
     pub(crate) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             panels: combine(self.panels, other.panels),
-            wide: combine(self.wide, other.wide),
             halved: combine(self.halved, other.halved),
-            reach: combine(self.reach, other.reach),
             integrals: combine(self.integrals, other.integrals),
             deep: combine(self.deep, other.deep),
             evaluations: combine(self.evaluations, other.evaluations),
@@ -140,7 +134,8 @@ impl Wavenumbers {
         Ok(())
     }
 
-    /// Work for the compliances at `s`: all of it but the pairs'.
+    /// Work for the compliances at `s`: all of it but the pairs'. `meet` is called with each panel, and whether it
+    /// is halved.
     ///
     /// # Errors
     /// As for [`Wavenumbers::compliance`].
@@ -149,13 +144,13 @@ impl Wavenumbers {
         profile: &SoilProfile,
         s: Complex,
         work: &mut Workspace,
+        mut meet: impl FnMut(Panel, bool),
     ) -> Result<Counts> {
         let mut compliance = std::mem::take(&mut work.compliance);
         let outcome = compliance.set(profile, s).and_then(|()| {
             let (reach, deep) = (Self::reach(&compliance), Self::deep(profile));
             let panels = self.panels(reach.max(deep))?;
             let mut counts = Counts {
-                reach: panels as f64,
                 integrals: 1.0,
                 deep: if deep > reach { 1.0 } else { 0.0 },
                 ..Counts::default()
@@ -169,8 +164,9 @@ impl Wavenumbers {
                 &mut |k| compliance.at(k),
                 &mut |panel, found, evaluations| {
                     counts.panels += 1.0;
-                    counts.wide += if panel.level > 0 { 1.0 } else { 0.0 };
-                    if let Found::Moments(_) = found {
+                    let halved = matches!(found, Found::Moments(_));
+                    meet(panel, halved);
+                    if halved {
                         counts.halved += 1.0;
                         halves += evaluations;
                     }
@@ -180,7 +176,9 @@ impl Wavenumbers {
             let evaluations = work.evaluations - before;
             counts.evaluations = evaluations as f64;
             counts.halves = halves as f64;
-            counts.layers = (compliance.visited - evaluations) as f64;
+            // The lowest is a half-plane, or half as dear as another layer on a rigid base.
+            let lowest = if compliance.half_plane().is_some() { 1.0 } else { 0.5 };
+            counts.layers = compliance.visited as f64 - lowest * evaluations as f64;
             Ok(counts)
         });
         work.compliance = compliance;

@@ -58,6 +58,41 @@ fn panels_give_what_points_give() {
     }
 }
 
+/// Lags from panels against lags from every point of their circles, relative to the largest of a component.
+#[test]
+fn lags_are_those_of_all_points() {
+    for (name, profile) in [
+        ("damped", p1(gmb(5), gmb(1))),
+        ("elastic", p1(Elastic, Elastic)),
+        ("rigid base, elastic", p3(Elastic)),
+    ] {
+        let panels = quadrature(profile.clone(), Stages::Two);
+        let points = quadrature(profile, Stages::Two);
+        let mut largest = [0.0_f64; KINDS];
+        let mut worst = 0.0_f64;
+        for number in 0..4 {
+            // None of the panels that there could be.
+            for (node, panels) in points.panels.iter().enumerate() {
+                let unresolved = |places: &[Place]| {
+                    places.iter().for_each(|place| drop(panels.kept().insert(*place, None)));
+                    Ok(vec![false; places.len()])
+                };
+                Block::circle(number, 1e-10).covered(node, unresolved).unwrap();
+            }
+            let [one, two] = [&panels, &points].map(|quadrature| block(quadrature, number, 1));
+            for (one, two) in one.values.iter().zip(&two.values) {
+                for ((one, two), largest) in one.iter().zip(two).zip(&mut largest) {
+                    *largest = two.iter().fold(*largest, |size, x| size.max(x.abs()));
+                    let error = one.iter().zip(two).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                    worst = worst.max(error / *largest);
+                }
+            }
+        }
+        println!("{name}: {worst:e}");
+        assert!(0.0 < worst && worst < 1e-9, "{name} {worst:e}");
+    }
+}
+
 /// Whatever had been sampled before, and on however many threads.
 #[test]
 fn bits_of_a_block_are_its_own() {
