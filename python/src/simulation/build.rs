@@ -6,7 +6,7 @@ use basemat::coupled::{Checkpoint, Coordinates, GravityStage, Probe, SimulationB
 use basemat::results::{Quantity, Serviceability};
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, refuse, take_raised};
+use crate::error::{self, OrRaise, refuse, take_raised};
 use crate::probe::PyProbe;
 use crate::ticker::{progress_function, watched};
 
@@ -77,5 +77,44 @@ pub(super) fn start(simulation: &Simulation) -> basemat::Result<Checkpoint> {
     match take_raised() {
         Some(reason) => Err(basemat::Error::part("structure", reason.to_string())),
         None => found,
+    }
+}
+
+/// Number of steps that last so long, rounded up.
+pub(super) fn steps_for(simulation: &Simulation, duration: f64) -> PyResult<usize> {
+    if !duration.is_finite() || duration < 0.0 {
+        return Err(refuse(format!("duration is {duration} s, but must be finite and 0 or more")));
+    }
+    Ok(simulation.steps_for(duration))
+}
+
+/// Steps asked for directly, by a duration, or to the `end` of the motion.
+pub(super) fn count(
+    py: Python<'_>,
+    simulation: &Simulation,
+    end: Option<f64>,
+    steps: Option<usize>,
+    duration: Option<f64>,
+) -> PyResult<usize> {
+    match (steps, duration, end) {
+        (Some(_), Some(_), _) => Err(refuse("give steps or a duration, not both")),
+        (Some(steps), None, _) => Ok(steps),
+        (None, Some(duration), _) => steps_for(simulation, duration),
+        (None, None, Some(end)) => {
+            let (all, made) = (steps_for(simulation, end)?, simulation.state().step);
+            if made < all {
+                return Ok(all - made);
+            }
+            let text = format!(
+                "the motion ended at {end} s, before these {all} steps: the ground does not \
+                 accelerate in them; reset() goes back to the start, and steps or a duration \
+                 say that they are meant"
+            );
+            error::warn(py, text)?;
+            Ok(all)
+        }
+        (None, None, None) => {
+            Err(refuse("give steps or a duration: no record says how long to run"))
+        }
     }
 }

@@ -75,14 +75,14 @@ pub(crate) struct PySimulation {
     hysteresis: Vec<Py<PyAny>>,
     names: Option<DofNames>,
     /// Length of the motion that it was given, s.
-    pub(super) duration: Option<f64>,
+    duration: Option<f64>,
     /// Where it began, or why it cannot go back there.
     start: basemat::Result<Checkpoint>,
 }
 
 impl PySimulation {
     /// The simulation, unless a run holds it.
-    pub(super) fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
+    fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
         self.simulation.try_lock().map_err(locked)
     }
 }
@@ -220,7 +220,7 @@ impl PySimulation {
         #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
         warn: bool,
     ) -> PyResult<PyRun> {
-        let steps = self.count(py, steps, duration)?;
+        let steps = build::count(py, &*self.lock()?, self.duration, steps, duration)?;
         if observe_every == 0 {
             return Err(refuse("observe_every is 0, but must be one or more"));
         }
@@ -284,7 +284,8 @@ impl PySimulation {
         #[pyo3(from_py_with = whole)] steps: Option<usize>,
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
-        let left = slf.get().count(slf.py(), steps, duration)?;
+        let own = slf.get();
+        let left = build::count(slf.py(), &*own.lock()?, own.duration, steps, duration)?;
         Ok(PySteps { simulation: slf.into_any().unbind(), left })
     }
 
@@ -347,13 +348,8 @@ impl PySimulation {
     }
 
     /// Number of steps that last ``duration`` (s), rounded up.
-    pub(super) fn steps_for(&self, duration: f64) -> PyResult<usize> {
-        if !duration.is_finite() || duration < 0.0 {
-            return Err(refuse(format!(
-                "duration is {duration} s, but must be finite and 0 or more"
-            )));
-        }
-        Ok(self.lock()?.steps_for(duration))
+    fn steps_for(&self, duration: f64) -> PyResult<usize> {
+        build::steps_for(&*self.lock()?, duration)
     }
 
     /// Saves what the steps so far have left behind as a :class:`Checkpoint`, for :meth:`resume`.

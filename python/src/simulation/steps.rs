@@ -2,9 +2,6 @@
 
 use pyo3::prelude::*;
 
-use super::PySimulation;
-use crate::error::{self, refuse};
-
 /// An iterator that makes a step whenever it is asked and yields the :class:`State` at its end, as long
 /// as ``len()`` of them are left: see :meth:`Simulation.steps`.
 #[pyclass(name = "Steps", module = "basemat")]
@@ -32,37 +29,5 @@ impl PySteps {
 
     fn __len__(&self) -> usize {
         self.left
-    }
-}
-
-impl PySimulation {
-    /// Steps asked for directly, by a duration, or to the end of the motion.
-    pub(super) fn count(
-        &self,
-        py: Python<'_>,
-        steps: Option<usize>,
-        duration: Option<f64>,
-    ) -> PyResult<usize> {
-        match (steps, duration, self.duration) {
-            (Some(_), Some(_), _) => Err(refuse("give steps or a duration, not both")),
-            (Some(steps), None, _) => Ok(steps),
-            (None, Some(duration), _) => self.steps_for(duration),
-            (None, None, Some(end)) => {
-                let (all, made) = (self.steps_for(end)?, self.lock()?.state().step);
-                if made < all {
-                    return Ok(all - made);
-                }
-                let text = format!(
-                    "the motion ended at {end} s, before these {all} steps: the ground does not \
-                     accelerate in them; reset() goes back to the start, and steps or a duration \
-                     say that they are meant"
-                );
-                error::warn(py, text)?;
-                Ok(all)
-            }
-            (None, None, None) => {
-                Err(refuse("give steps or a duration: no record says how long to run"))
-            }
-        }
     }
 }

@@ -18,6 +18,8 @@ const ITERATIONS: usize = 40;
 const TOLERANCE: f64 = 1e-12;
 /// The same if the iteration gets no further.
 const ENOUGH: f64 = 1e3 * TOLERANCE;
+/// Rounding errors of a displacement, in units of its last digit, that a force may come from.
+const ROUNDINGS: f64 = 32.0;
 /// Iterations without a smaller out-of-balance force, after which it counts as cycling.
 const CYCLE: usize = 15;
 
@@ -48,6 +50,8 @@ pub(super) struct Newton {
     reached: Vec<f64>,
     /// Out-of-balance force that the continuation began with.
     open: Vec<f64>,
+    /// Largest force of the last iteration.
+    scale: f64,
     /// Iterations, contact trials and most laborious method so far.
     iterations: usize,
     trials: usize,
@@ -64,6 +68,7 @@ impl Newton {
             seen: zero(),
             reached: zero(),
             open: zero(),
+            scale: 0.0,
             iterations: 0,
             trials: 0,
             method: SearchMethod::ActiveSet,
@@ -99,7 +104,7 @@ impl Newton {
                 break;
             }
         }
-        if residual.is_nan() || residual > ENOUGH {
+        if residual.is_nan() || residual > ENOUGH.max(self.rounding(linear)) {
             self.continuation(linear, data, residual, increment)?;
         }
         (increment.trials, increment.method) = (self.trials, self.method);
@@ -110,6 +115,15 @@ impl Newton {
         let translations = forcing.translations.iter().map(|translation| translation.displacement);
         scene.seen_by_force(&mut increment.seen, &mut linear.means, translations);
         Ok(())
+    }
+
+    /// Relative out-of-balance force that rounding of displacements makes: once columns have yielded, a
+    /// building comes to rest at an offset, whose last digit times their stiffness is not small beside
+    /// forces that vanish.
+    fn rounding(&self, linear: &LinearStep) -> f64 {
+        let entries = linear.operators.tangent.entries();
+        let forces = entries.map(|(_, j, stiffness)| stiffness * self.seen[j]);
+        ROUNDINGS * f64::EPSILON * forces.fold(0.0_f64, |most, f| most.max(f.abs())) / self.scale
     }
 
     /// Follows the solution from the last iterate, which solves the step with an external force
@@ -203,13 +217,13 @@ impl Newton {
         self.guess.copy_from_slice(&increment.displacement);
         self.evaluate(linear, data, increment)?;
         StepError::check_finite("nonlinear force of the structure", &increment.force)?;
-        let scale = largest(&linear.known).max(largest(&increment.force));
+        self.scale = largest(&linear.known).max(largest(&increment.force));
         let open = self
             .linearised
             .iter()
             .zip(&increment.force)
             .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        Ok(if scale > 0.0 { open / scale } else { 0.0 })
+        Ok(if self.scale > 0.0 { open / self.scale } else { 0.0 })
     }
 
     /// f at u* for the guess, less f at the static state.

@@ -272,3 +272,28 @@ fn checkpoints_carry_the_laws() {
     resumed.run(100, |_| {}).unwrap();
     assert_eq!(resumed.state(), whole.state());
 }
+
+/// Forces vanish in the end, while the offset stays: its last digit times the stiffness is more than 1e-9 of them.
+#[test]
+fn a_building_that_has_yielded_comes_to_rest() {
+    let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 3];
+    let building = ShearBuilding::new(8.0, 50.0e3, 4.0e5, &storeys)
+        .and_then(|building| building.with_stiffness_damping(0.1))
+        .and_then(|building| building.with_law(0, Bilinear::new(40.0e6, 1.0e5, 0.0)?))
+        .unwrap();
+    let ground = SpringGround::under(&building, 4, 1.0e9, 1.0e9).unwrap();
+    let drift = Probe::displacement("drift", building.drift(0).unwrap());
+    let mut simulation = Simulation::builder(0.01)
+        .structure(building)
+        .ground(ground.with_dashpots(5.0e6, 5.0e6).unwrap())
+        .interface(Bonded)
+        .probe(drift)
+        .initial_velocity(vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
+        .build()
+        .unwrap();
+    let run = simulation.run(3000, |_| ()).unwrap();
+    assert!(run.whole.base_shear.largest().value.abs() > 1.0e5);
+    let state = simulation.state();
+    assert!(state.probes[0].abs() > 2.0e-3, "offset {}", state.probes[0]);
+    assert!(state.base_shear.abs() < 1.0e-6, "shear {}", state.base_shear);
+}
