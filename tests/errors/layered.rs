@@ -8,7 +8,7 @@ use basemat::bem::layered::{
     LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
 };
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
-use basemat::history::{ConvolutionWeights, HistoryMethod};
+use basemat::history::{ConvolutionWeights, HistoryMethod, HistoryOptions};
 use basemat::interface::Bonded;
 use basemat::soil::{
     Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,
@@ -200,18 +200,19 @@ fn what_takes_too_much_memory_is_refused_beforehand() {
     let ground = |profile: SoilProfile, bytes: usize| {
         let ground = ElasticGround::new(profile, &strip).unwrap().with_stages(Stages::Two);
         let ground = ground.with_time_limit(f64::INFINITY).unwrap();
-        let mut ground = ground.with_history_memory(bytes);
+        let options = HistoryOptions { memory: bytes, ..HistoryOptions::default() };
+        let mut ground = ground.with_history(options).unwrap();
         ground.prepare(0.005).unwrap();
         ground
     };
     let mut watched = |_: basemat::Progress| ControlFlow::Break(());
-    refused(ground(profile(), usize::MAX).precompute(1 << 31, &mut watched), most);
+    refused(ground(profile(), usize::MAX).expect_steps(1 << 31, Some(&mut watched)), most);
     // As many lags as a history of a megabyte has: they are begun.
-    let begun = ground(profile(), 1 << 20).precompute(1 << 31, &mut watched);
+    let begun = ground(profile(), 1 << 20).expect_steps(1 << 31, Some(&mut watched));
     assert!(matches!(begun, Err(Error::Stopped(_))), "{begun:?}");
     let mut plain = ElasticGround::new(soil(), &strip).unwrap();
     plain.prepare(0.005).unwrap();
-    plain.expect_steps(1 << 31).unwrap();
+    plain.expect_steps(1 << 31, None).unwrap();
     assert_eq!(plain.history_choice().unwrap().kind, HistoryMethod::Exponentials);
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
