@@ -85,11 +85,14 @@ impl RayleighDamping {
 
 // Damping given mode by mode.
 
-/// Damping ratios of a structure's own modes: C = M Φ diag(2 ζ ω) Φᵀ M.
+/// Damping ratios of a structure's own modes, on its fixed base or by itself; its rigid motions are not damped.
 ///
-/// The modes are those of the structure by itself, without ground; its rigid motions have no
-/// frequency and are not damped. They stay the modes of the damped structure, so that it can be
-/// stepped in them ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)).
+/// * [`on_fixed_base`](ModalDamping::on_fixed_base): the modes that codes and tests speak of. On its foundation the
+///   first mode has the given ratio less what the ground's compliance takes from its share.
+/// * [`on`](ModalDamping::on): modes of the structure by itself, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They stay
+///   the modes of the damped structure, so that it can be stepped in them
+///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base, where
+///   the first mode gets much less than its ratio: five storeys 0.9 % of 5 %.
 ///
 /// ```
 /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
@@ -132,6 +135,19 @@ const MOST: usize = 3000;
 /// leaves them anything small, and in fine meshes the lowest modes that are not rigid are 10⁻¹² of
 /// the highest.
 const RIGID: f64 = 0.5;
+/// Springs that hold a base, over the largest stiffness: they are a millionth of it away from a fixed one.
+const HELD: f64 = 1e6;
+/// 1/ω² beside the largest that is rounding of massless degrees of freedom.
+const MASSLESS: f64 = 1e-13;
+const SYMMETRIC_AND_HEAVY: Error = Error::Scene {
+    quantity: "structure with modal damping",
+    needed: "must have symmetric matrices and mass at every degree of freedom (elements with density give mass to \
+             rotations; damping on a fixed base needs none)",
+};
+const RESISTS: Error = Error::Scene {
+    quantity: "structure with modal damping",
+    needed: "must resist every motion that is not rigid",
+};
 
 impl ModalDamping {
     /// Damping with the ratio ζ of each mode that is not rigid, from the lowest; the last ratio is
@@ -149,7 +165,51 @@ impl ModalDamping {
         Ok(Self { ratios: ratios.to_vec() })
     }
 
-    /// Gives this damping to a structure. A nonlinear one is taken with its first tangent.
+    /// Gives this damping to the modes of a structure on its fixed base, as codes and tests state it: relative to
+    /// the base, u − R N u with N u the displacements of the contact nodes and R what follows them at rest. A mode φ
+    /// of circular frequency ω moves the base by forces K φ, which rigid motions do no work on:
+    /// C = Σ (2 ζ/ω³) K φ (K φ)ᵀ. Degrees of freedom may be massless. A nonlinear structure is taken with its first
+    /// tangent.
+    ///
+    /// ```
+    /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
+    /// let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &[Storey::new(3.0, 30.0e3, 60.0e6); 5])?;
+    /// let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
+    /// assert!((damped.frequencies()[0] - 2.026).abs() < 1e-3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`ModalDamping::on`], but for massless degrees of freedom.
+    pub fn on_fixed_base(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
+        let [mass, stiffness] = matrices(&structure)?;
+        let nodes = structure.contact_nodes();
+        check_rows(&nodes, mass.order())?;
+        let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
+        let held = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+        let (values, vectors) = generalised_modes(&mass, &held).ok_or(RESISTS)?;
+        let mut found = WithModalDamping::new(structure);
+        let (n, largest) = (values.len(), values.last().copied().unwrap_or(0.0));
+        let (mut mode, mut force) = (vec![0.0; n], vec![0.0; n]);
+        // Values are 1/ω², ascending, and modes have φᵀ(K + γ NᵀN)φ = 1.
+        for (j, value) in values.iter().enumerate().rev() {
+            if *value <= MASSLESS * largest {
+                break;
+            }
+            column(&vectors, j, &mut mode);
+            force.fill(0.0);
+            stiffness.multiply_add(1.0, &mode, &mut force);
+            // Else it is the base on its springs that moves.
+            if dot(&mode, &force) > 0.5 {
+                let circular = value.sqrt().recip();
+                let ratio = self.ratio(found.frequencies.len());
+                found.add(circular, 2.0 * ratio / circular, &force);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Gives this damping to the modes of a structure by itself. A nonlinear one is taken with its first tangent.
     ///
     /// # Errors
     /// [`Error::Input`] for more than 3000 degrees of freedom, of which a
@@ -158,55 +218,73 @@ impl ModalDamping {
     /// stiffness or a negative one; [`Error::Singular`] when contact nodes at rest do not hold the
     /// structure; and what is wrong with the entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
-        let n = structure.dofs();
-        if n > MOST {
-            let (quantity, value) = ("number of degrees of freedom with modal damping", n as f64);
-            return Err(Error::Input { quantity, value, needed: "3000 or fewer: reduce it first" });
-        }
-        let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
-        let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|matrix| {
-            structure.stiffness(matrix)?;
-            structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
-        })?;
-        let scene = Error::Scene {
-            quantity: "structure with modal damping",
-            needed: "must have symmetric matrices and a positive definite mass",
-        };
-        if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRIC {
-            return Err(scene);
-        }
-        let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(scene)?;
+        let [mass, stiffness] = matrices(&structure)?;
+        let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(SYMMETRIC_AND_HEAVY)?;
         let momenta = rigid_momenta(&structure.contact_nodes(), &stiffness, &mass)?;
-        let mut damping = vec![0.0; n * n];
-        let mut frequencies = Vec::new();
-        let (mut mode, mut momentum) = (vec![0.0; n], vec![0.0; n]);
+        let mut found = WithModalDamping::new(structure);
+        let (mut mode, mut momentum) = (vec![0.0; values.len()], vec![0.0; values.len()]);
         for (j, value) in values.iter().enumerate() {
-            for (i, entry) in mode.iter_mut().enumerate() {
-                *entry = vectors[i * n + j];
-            }
+            column(&vectors, j, &mut mode);
             if momenta.iter().map(|momentum| dot(momentum, &mode).powi(2)).sum::<f64>() > RIGID {
                 continue;
             }
             if *value <= 0.0 {
-                let needed = "must resist every motion that is not rigid";
-                return Err(Error::Scene { quantity: "structure with modal damping", needed });
+                return Err(RESISTS);
             }
-            let last = self.ratios.len() - 1;
-            let ratio = self.ratios[frequencies.len().min(last)];
             let circular = value.sqrt();
-            frequencies.push(circular / std::f64::consts::TAU);
             momentum.fill(0.0);
             mass.multiply_add(1.0, &mode, &mut momentum);
-            for (row, a) in damping.chunks_exact_mut(n).zip(&momentum) {
-                let factor = 2.0 * ratio * circular * a;
-                row.iter_mut().zip(&momentum).for_each(|(entry, b)| *entry += factor * b);
-            }
+            let ratio = self.ratio(found.frequencies.len());
+            found.add(circular, 2.0 * ratio * circular, &momentum);
         }
-        Ok(WithModalDamping { structure: Box::new(structure), damping, frequencies })
+        Ok(found)
+    }
+
+    /// Ratio of the mode with this number.
+    fn ratio(&self, mode: usize) -> f64 {
+        self.ratios[mode.min(self.ratios.len() - 1)]
     }
 }
 
+/// Mass and stiffness of a structure, the latter with its first tangent.
+fn matrices(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
+    let n = structure.dofs();
+    if n > MOST {
+        let (quantity, value) = ("number of degrees of freedom with modal damping", n as f64);
+        return Err(Error::Input { quantity, value, needed: "3000 or fewer: reduce it first" });
+    }
+    let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
+    let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|matrix| {
+        structure.stiffness(matrix)?;
+        structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
+    })?;
+    if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRIC {
+        return Err(SYMMETRIC_AND_HEAVY);
+    }
+    Ok([mass, stiffness])
+}
+
+/// Overwrites `vector` with column `j` of a square matrix.
+fn column(matrix: &[f64], j: usize, vector: &mut [f64]) {
+    let n = vector.len();
+    vector.iter_mut().enumerate().for_each(|(i, entry)| *entry = matrix[i * n + j]);
+}
+
 impl WithModalDamping {
+    fn new(structure: impl Structure + 'static) -> Self {
+        let n = structure.dofs();
+        Self { structure: Box::new(structure), damping: vec![0.0; n * n], frequencies: Vec::new() }
+    }
+
+    /// Adds a mode: factor × vector vectorᵀ.
+    fn add(&mut self, circular: f64, factor: f64, vector: &[f64]) {
+        self.frequencies.push(circular / std::f64::consts::TAU);
+        for (row, a) in self.damping.chunks_exact_mut(vector.len()).zip(vector) {
+            let factor = factor * a;
+            row.iter_mut().zip(vector).for_each(|(entry, b)| *entry += factor * b);
+        }
+    }
+
     /// Frequencies of the modes that are not rigid, Hz, ascending.
     pub fn frequencies(&self) -> &[f64] {
         &self.frequencies
@@ -250,6 +328,15 @@ const NOTHING: f64 = 1e-8;
 /// Remainder of a rigid motion beside the others, if it depends on them.
 const DEPENDENT: f64 = 1e-6;
 
+/// Error for contact nodes that are made of degrees of freedom beyond the last of `n`.
+fn check_rows(contact: &[ContactNode], n: usize) -> Result<()> {
+    for node in contact {
+        node.horizontal.check("degree of freedom of a contact node", n)?;
+        node.vertical.check("degree of freedom of a contact node", n)?;
+    }
+    Ok(())
+}
+
 /// Momenta M r of the rigid motions r, with r·M r = 1 and all others zero: to the right, upwards and
 /// turning, of every part of the structure that its stiffness connects.
 ///
@@ -261,10 +348,7 @@ pub(super) fn rigid_momenta(
     mass: &SparseMatrix,
 ) -> Result<Vec<Vec<f64>>> {
     let n = mass.order();
-    for node in contact {
-        node.horizontal.check("unknown of a contact node", n)?;
-        node.vertical.check("unknown of a contact node", n)?;
-    }
+    check_rows(contact, n)?;
     let center = contact.iter().map(|node| node.x).sum::<f64>() / contact.len().max(1) as f64;
     let held = HeldBase::new(contact, stiffness, stiffest(stiffness));
     let mut factor = held.factor()?;

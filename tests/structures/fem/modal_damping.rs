@@ -4,7 +4,7 @@
 
 use basemat::bem::SpringGround;
 use basemat::coupled::Coordinates;
-use basemat::fem::{Beam, Direction, Layer, Material, Mesh};
+use basemat::fem::{Beam, Direction, Layer, LumpedMass, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
@@ -62,6 +62,82 @@ fn ratios_go_from_the_lowest_mode_and_the_last_one_stays() {
     let rayleigh = RayleighDamping::new(0.3, 0.0).unwrap();
     let both = ModalDamping::new(&[0.0]).unwrap().on(tower().with_rayleigh(rayleigh)).unwrap();
     assert_eq!(damping(&both), damping(&tower().with_rayleigh(rayleigh)));
+}
+
+/// A uniform shear building on its fixed base: ω_j = 2 √(k/m) sin α_j with α_j = (2j − 1)π/(4n + 2), and floor i of
+/// mode j moves by sin 2iα_j.
+#[test]
+fn modes_on_a_fixed_base_have_their_ratio() {
+    let (floors, mass_of_floor, spring) = (5, 30.0e3, 60.0e6_f64);
+    let storeys = [Storey::new(3.0, mass_of_floor, spring); 5];
+    let building = || ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys).unwrap();
+    let ratios = [0.05, 0.03, 0.02];
+    let damping_of = |c: &[f64], angles: [f64; 2]| -> f64 {
+        let n = building().dofs();
+        let shape = |angle: f64| {
+            let mut shape = vec![0.0; n];
+            for i in 0..floors {
+                shape[building().floor(i).unwrap()] = (2.0 * (i as f64 + 1.0) * angle).sin();
+            }
+            shape
+        };
+        let [left, right] = angles.map(shape);
+        (0..n * n).map(|at| left[at / n] * c[at] * right[at % n]).sum()
+    };
+    let damped = ModalDamping::new(&ratios).unwrap().on_fixed_base(building()).unwrap();
+    assert_eq!(damped.frequencies().len(), floors);
+    let own = damping(&damped);
+    let free = damping(&ModalDamping::new(&ratios).unwrap().on(building()).unwrap());
+    let angle = |j: usize| (2.0 * j as f64 + 1.0) * std::f64::consts::PI / 22.0;
+    // Σ sin² 2iα is (2n + 1)/4.
+    let modal_mass = mass_of_floor * 11.0 / 4.0;
+    for j in 0..floors {
+        let circular = 2.0 * (spring / mass_of_floor).sqrt() * angle(j).sin();
+        let ratio = damping_of(&own, [angle(j); 2]) / (2.0 * circular * modal_mass);
+        assert!((ratio / ratios[j.min(2)] - 1.0).abs() < 1e-4, "{j} {ratio}");
+        let found = damped.frequencies()[j] * std::f64::consts::TAU;
+        assert!((found / circular - 1.0).abs() < 1e-5, "{j} {found} {circular}");
+        for k in 0..j {
+            let both = damping_of(&own, [angle(j), angle(k)]) / (2.0 * circular * modal_mass);
+            assert!(both.abs() < 1e-5, "{j} {k} {both}");
+        }
+    }
+    let first = 2.0 * (spring / mass_of_floor).sqrt() * angle(0).sin();
+    let ratio = damping_of(&free, [angle(0); 2]) / (2.0 * first * modal_mass);
+    assert!((0.005..0.01).contains(&ratio), "by itself: {ratio}");
+}
+
+/// Rigid motions are not damped, and a frame may have massless rotations.
+#[test]
+fn damping_on_a_fixed_base_leaves_rigid_motions_alone() {
+    let model = tower();
+    let damped = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(tower()).unwrap();
+    let own = damping(&damped);
+    for direction in [Direction::X, Direction::Y, Direction::Rotation] {
+        let shift = model.rigid_motion(direction, [0.0; 2]);
+        let force = largest(&multiply(&own, &shift));
+        assert!(force < 1e-9 * largest(&own), "{direction:?} {force}");
+    }
+    assert!(eigenvalues(&own, &mass(&model)).iter().all(|rate| *rate > -1e-6));
+
+    // A massless column with a heavy top: ω² = 3 E I/(h³ m) sideways, E A/(h m) upwards.
+    let mut mesh = Mesh::new();
+    let base = [-1.0, 0.0, 1.0].map(|x| mesh.add_node(x, 0.0).unwrap());
+    let top = mesh.add_node(0.0, 4.0).unwrap();
+    for ends in [[base[0], base[1]], [base[1], base[2]]] {
+        mesh.add(Beam::new(ends, 3e10, 1e3, 1e3, 1e-3).unwrap()).unwrap();
+    }
+    mesh.add(Beam::new([base[1], top], 3e10, 0.1, 1e-3, 0.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(top, 5.0e3).unwrap()).unwrap();
+    let column = FemModel::on_base(mesh).unwrap();
+    let ratios = ModalDamping::new(&[0.05]).unwrap();
+    assert!(matches!(ratios.on(column.clone()), Err(Error::Scene { .. })));
+    let damped = ratios.on_fixed_base(column).unwrap();
+    let squares = [3.0 * 3e10 * 1e-3 / (64.0 * 5e3), 3e10 * 0.1 / (4.0 * 5e3)];
+    for (found, square) in damped.frequencies().iter().zip(squares) {
+        let expected = f64::sqrt(square) / std::f64::consts::TAU;
+        assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+    }
 }
 
 #[test]
