@@ -74,7 +74,7 @@ words! { HistoryMethod, "history", {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ChoiceReason {
-    /// It was asked for.
+    /// The options name it.
     Asked,
     /// It is exact, and fits into the memory allowed.
     Exact,
@@ -231,7 +231,7 @@ const PASSIVITY: f64 = 1200.0;
 const TAIL: f64 = 3000.0;
 
 impl Estimate {
-    /// Of a history over `steps` steps; without bound for exponentials that cannot be had.
+    /// Memory and cost of a history over `steps` steps; infinite for exponentials that the kernel does not have.
     pub(super) fn new(
         kind: HistoryMethod,
         kernel: &dyn ConvolutionWeights,
