@@ -26,7 +26,7 @@ use crate::text::column::finite;
 /// that does not name its unit, unless [`CosmosFormat::unit`] does.
 ///
 /// A file may hold several channels one after the other, and blocks of velocity and displacement,
-/// which are passed over: [`with_channel`](Self::with_channel) counts acceleration blocks.
+/// which are passed over: [`channel`](Self::channel) counts acceleration blocks.
 ///
 /// ```
 /// use basemat::motion::{CosmosFormat, Record};
