@@ -81,7 +81,7 @@ impl InfluenceKernel {
     ///
     /// # Errors
     /// [`Error::Input`] unless both elements have finite ends, the left one first.
-    pub fn pair(
+    pub(super) fn pair(
         &self,
         receiver: ContactElement,
         source: ContactElement,
@@ -152,7 +152,7 @@ impl InfluenceKernel {
 
 /// A pair of elements and its step influence coefficients.
 #[derive(Debug, Clone)]
-pub struct PairInfluence<'a> {
+pub(super) struct PairInfluence<'a> {
     kernel: &'a InfluenceKernel,
     overlap: Overlap,
     /// `M_k` over the 2k-th power of the largest offset.
@@ -161,7 +161,7 @@ pub struct PairInfluence<'a> {
 
 impl PairInfluence<'_> {
     /// The coefficients of one lag; zero for lag 0 and before the pressure wave arrives.
-    pub fn at(&self, lag: usize) -> Influence {
+    fn at(&self, lag: usize) -> Influence {
         if lag == 0 {
             return Influence::default();
         }
@@ -178,7 +178,7 @@ impl PairInfluence<'_> {
     ///
     /// # Errors
     /// [`Error::Size`] unless the slices have one length; [`Error::Input`] if `first` is 0.
-    pub fn fill(&self, first: usize, values: [&mut [f64]; KINDS]) -> Result<()> {
+    pub(super) fn fill(&self, first: usize, values: [&mut [f64]; KINDS]) -> Result<()> {
         let [zz, xx, zx] = values;
         if first == 0 {
             return Err(Error::Input { quantity: "first lag", value: 0.0, needed: "at least 1" });
@@ -193,7 +193,7 @@ impl PairInfluence<'_> {
     }
 
     /// The first lag from which zx is exactly zero: the Rayleigh wave has crossed the pair.
-    pub fn coupling_ends(&self) -> usize {
+    pub(super) fn coupling_ends(&self) -> usize {
         if !self.overlap.one_sided {
             return 1;
         }

@@ -21,10 +21,11 @@ mod strip;
 mod weights_ground;
 
 pub use elastic_ground::ElasticGround;
-pub use influence::{Influence, InfluenceKernel, PairInfluence};
+pub use influence::{Influence, InfluenceKernel};
 pub use shared::SharedKernels;
 pub use spring::SpringGround;
-pub use static_kernel::{PatchKernel, StaticKernel};
+pub use static_kernel::PatchKernel;
+pub(crate) use static_kernel::StaticKernel;
 pub use strip::{Grading, Strip};
 pub use weights_ground::WeightsGround;
 
@@ -156,7 +157,7 @@ pub trait Ground: Any + Send {
 /// [`WeightsGround`] needs.
 pub trait WeightsSource: Any + Send {
     /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`
-    /// seconds. They should be computed when they are asked for, not now: other grounds may be
+    /// seconds. They should be computed when coefficients are called for, not now: other grounds may be
     /// waiting for the same kernel.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use crate::soil::Soil;
 /// `u_zz` = `u_xx` = −(1−ν)/(πμ) ln(|x|/L₀) and `u_zx` = −`u_xz` = (1−2ν)/(4μ) sgn x
 /// (Johnson 1985, § 2.3), x from the load to the receiver, z down.
 #[derive(Debug, Clone, Copy)]
-pub struct StaticKernel {
+pub(crate) struct StaticKernel {
     logarithm: f64,
     jump: f64,
     reference: f64,
@@ -25,7 +25,7 @@ impl StaticKernel {
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless the reference length is finite and above zero.
-    pub fn new(soil: Soil, reference: f64) -> Result<Self> {
+    pub(crate) fn new(soil: Soil, reference: f64) -> Result<Self> {
         positive("reference length", reference)?;
         Ok(Self {
             logarithm: -(1.0 - soil.poisson()) / (std::f64::consts::PI * soil.shear_modulus()),
@@ -46,7 +46,7 @@ impl StaticKernel {
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless both elements have finite ends, the left one first.
-    pub fn coefficients(
+    pub(crate) fn coefficients(
         &self,
         receiver: ContactElement,
         source: ContactElement,
@@ -176,6 +176,18 @@ mod tests {
 
     fn element(left: f64, right: f64) -> ContactElement {
         ContactElement { left, right }
+    }
+
+    #[test]
+    fn bad_input_is_an_error() {
+        let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(StaticKernel::new(soil, bad).is_err());
+        }
+        let kernel = StaticKernel::new(soil, 1.0).unwrap();
+        for bad in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)] {
+            assert!(kernel.coefficients(bad, element(0.0, 1.0)).is_err());
+        }
     }
 
     #[test]

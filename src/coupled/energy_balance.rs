@@ -61,7 +61,7 @@ macro_rules! energies {
             pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
 
             /// All terms, in the order of [`EnergyTerm::ALL`].
-            pub fn terms(&self) -> [f64; ROWS.len()] {
+            pub(crate) fn terms(&self) -> [f64; ROWS.len()] {
                 [$(self.$field),+]
             }
 
@@ -119,7 +119,7 @@ energies! {
 
 impl EnergyTerm {
     /// Its name in tables and pictures. Terms of one name are shown as their sum.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         ROWS[self as usize].2
     }
 

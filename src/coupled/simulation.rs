@@ -253,7 +253,7 @@ impl Simulation {
         self.conditioning
     }
 
-    /// All that the steps so far have left behind, to be taken up by [`Simulation::resume`].
+    /// Saves the state of the run, to be restored by [`Simulation::resume`].
     ///
     /// Its size is that of the history: all tractions for exact histories, those of two windows at
     /// most for the exponentials.

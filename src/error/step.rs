@@ -18,7 +18,7 @@ pub enum StepError {
         /// Distance of the tractions of these modes from those of the modes that the laws ask for
         /// instead, relative to the largest; 1 if either set of modes is singular.
         residual: f64,
-        /// [Words](crate::interface::Mode::word) of the modes of the last trial, left to right.
+        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the modes of the last trial, left to right.
         modes: Vec<&'static str>,
         /// Number of all sets of modes, if every one was tried: the step has no solution. `None` if
         /// there are more than 65 536 of them.
@@ -35,7 +35,7 @@ pub enum StepError {
         iterations: usize,
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
-        /// [Words](crate::interface::Mode::word) of the contact modes of the last iteration, left to right.
+        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the contact modes of the last iteration, left to right.
         modes: Vec<&'static str>,
     },
     /// The ground could not give its history.

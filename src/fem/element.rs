@@ -98,7 +98,7 @@ pub trait Element: Send + Sync {
     /// Corner nodes of the area that the element fills with material, in any order. Default: none,
     /// for bars, springs and masses, which act in parallel where they lie on the same nodes.
     ///
-    /// [`Mesh::add`](super::Mesh::add) refuses a second element over the same corners.
+    /// [`Mesh::add`](super::Mesh::add) returns an error for a second element over the same corners.
     fn corners(&self) -> &[usize] {
         &[]
     }

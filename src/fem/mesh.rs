@@ -177,7 +177,7 @@ impl Mesh {
     }
 
     /// Node nearest to (`x`, `y`), however far that is, the first one when several are; `None` for
-    /// an empty mesh. [`Mesh::node_at`] refuses a point without a node.
+    /// an empty mesh. [`Mesh::node_at`] returns an error for a point without a node.
     pub fn nearest_node(&self, x: f64, y: f64) -> Option<usize> {
         let distance = |node: &[f64; 2]| (node[0] - x).hypot(node[1] - y);
         let pairs = self.nodes.iter().map(distance).enumerate();

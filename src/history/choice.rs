@@ -41,11 +41,11 @@ pub enum HistoryMethod {
     /// One of the above, chosen when the number of steps is known or the first step is made:
     ///
     /// 1. the exponentials, if they are estimated to take less time over the run than the
-    ///    transforms, their making included: with the tolerance allowed ([`HistoryOptions::tolerance`](super::HistoryOptions::tolerance)),
-    ///    or with 1e-12, which is rounding, if the number of steps is known. Memory is not asked for
+    ///    transforms, their making included: with the tolerance of [`HistoryOptions`](super::HistoryOptions),
+    ///    or with 1e-12, which is rounding, if the number of steps is known; memory does not count
     ///    then;
     /// 2. the relaxed transforms, if they fit into the memory that a history may take
-    ///    ([`HistoryOptions::memory`](super::HistoryOptions::memory)), or if the number of steps is not known, as
+    ///    (that of [`HistoryOptions`](super::HistoryOptions)), or if the number of steps is not known, as
     ///    long as they do;
     /// 3. otherwise the exponentials, with their own tolerance; or the transforms all the same,
     ///    where the exponentials cannot be had.
@@ -74,7 +74,7 @@ words! { HistoryMethod, "history", {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ChoiceReason {
-    /// It was asked for.
+    /// The options name it.
     Asked,
     /// It is exact, and fits into the memory allowed.
     Exact,
@@ -231,7 +231,7 @@ const PASSIVITY: f64 = 1200.0;
 const TAIL: f64 = 3000.0;
 
 impl Estimate {
-    /// Of a history over `steps` steps; without bound for exponentials that cannot be had.
+    /// Memory and cost of a history over `steps` steps; infinite for exponentials that the kernel does not have.
     pub(super) fn new(
         kind: HistoryMethod,
         kernel: &dyn ConvolutionWeights,

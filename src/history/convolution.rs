@@ -107,8 +107,8 @@ pub trait ConvolutionWeights: Send + Sync {
     /// The elements, and the classes of their pairs.
     fn classes(&self) -> &PairClasses;
 
-    /// Announces that lags up to `lags` will be asked for, of all classes: for kernels that compute
-    /// many at once, and on several threads. A closed form has nothing to prepare (the default).
+    /// Prepares the lags up to `lags` of all classes: kernels that compute many at once, or on several threads, do so
+    /// here. A closed form has nothing to prepare (the default).
     ///
     /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
     /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as

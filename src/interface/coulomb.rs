@@ -255,8 +255,8 @@ short_debug! { VariableFriction; self; contact: self.contact }
 
 impl VariableFriction {
     /// Law with the friction coefficient `coefficient(start)`: zero or more, infinite where nothing
-    /// slides. Where it is negative or NaN, the step is refused with a
-    /// [`LawError`](crate::LawError) that names it.
+    /// slides. Where it is negative or NaN, the step returns a [`LawError`](crate::LawError)
+    /// that names it.
     pub fn new(coefficient: impl Fn(&PreviousContact) -> f64 + Send + 'static) -> Self {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::frictionless() }
     }

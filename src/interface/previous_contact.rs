@@ -57,7 +57,7 @@ impl PreviousContact<'_> {
 
     /// The same with another memory: for a law made of others, each of which owns a part of it.
     #[must_use]
-    pub fn with_memory(self, memory: &[f64]) -> PreviousContact<'_> {
+    pub(crate) fn with_memory(self, memory: &[f64]) -> PreviousContact<'_> {
         let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = self;
         PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
     }
@@ -144,19 +144,14 @@ impl PreviousContacts {
         self.past.len()
     }
 
-    /// The start as the law of `element` sees it; `None` beyond the last one.
-    pub fn get(&self, element: usize) -> Option<PreviousContact<'_>> {
-        (element < self.len()).then(|| self.of(element))
-    }
-
-    /// All of them. Collected, they are what
+    /// The start of each element, as its law sees it. Collected, they are what
     /// [`ContactProblem::start`](crate::contact::ContactProblem::start) takes.
     pub fn iter(&self) -> impl Iterator<Item = PreviousContact<'_>> {
         (0..self.len()).map(|e| self.of(e))
     }
 
     /// Length of the step to come, s.
-    pub fn time_step(&self) -> f64 {
+    pub(crate) fn time_step(&self) -> f64 {
         self.time_step
     }
 

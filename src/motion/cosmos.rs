@@ -21,12 +21,12 @@ use crate::text::column::finite;
 /// Numbers are read in the columns of the format that the line names, in which they may touch, and
 /// free where a line does not keep to it or none is named. In its column, a number without a
 /// decimal point has the decimals of the format, as in Fortran: `12345` under `8F10.3` is 12.345. A
-/// format that is not one repeated item is refused. The unit is a whole word, such as
-/// `cm/s^2`, `cm/sec/sec`, `gal` or `g`; anything else (counts, `mgal`) is refused, and so is a file
-/// that does not name its unit, unless [`with_unit`](Self::with_unit) does.
+/// format that is not one repeated item is an error. The unit is a whole word, such as
+/// `cm/s^2`, `cm/sec/sec`, `gal` or `g`; anything else (counts, `mgal`) is an error, and so is a file
+/// that does not name its unit, unless [`CosmosFormat::unit`] does.
 ///
 /// A file may hold several channels one after the other, and blocks of velocity and displacement,
-/// which are passed over: [`with_channel`](Self::with_channel) counts acceleration blocks.
+/// which are passed over: [`channel`](Self::channel) counts acceleration blocks.
 ///
 /// ```
 /// use basemat::motion::{CosmosFormat, Record};

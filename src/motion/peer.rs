@@ -21,7 +21,7 @@ const HEADER_LINES: usize = 12;
 /// A line of the header must say that the unit is g: `ACCELERATION TIME SERIES IN UNITS OF G`, with
 /// or without text behind it (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or
 /// `ACCELERATION TIME HISTORY (G)`. Files that do not, files of velocity or displacement, other
-/// units, and fewer or more numbers than a file says are refused.
+/// units, and fewer or more numbers than a file says are errors.
 ///
 /// ```
 /// use basemat::motion::{PeerFormat, Record};

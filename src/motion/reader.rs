@@ -16,10 +16,10 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// Understood are:
 /// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it
 ///   is one separator; two commas enclose an empty field), the decimal point a `.`, the exponent
-///   after an `E` or a `D`. A decimal comma is refused where it shows: beside semicolons or spaces
+///   after an `E` or a `D`. A decimal comma is an error where it shows: beside semicolons or spaces
 ///   that separate, or before a zero, as in `0,05`;
 /// * empty lines and comment lines that start with `#`, anywhere (`#N/A` and the like, which
-///   spreadsheets write for a value, are refused);
+///   spreadsheets write for a value, are errors);
 /// * one header line, before all numbers, made of words: no field is a number, or begins like one;
 /// * line ends `\n` or `\r\n`, and a byte-order mark.
 ///
@@ -63,7 +63,7 @@ impl ColumnFormat {
     }
 
     /// A single column of acceleration in `unit` every `time_step` (s): a line with more than one
-    /// number is refused, unless `acceleration_column` says which counts. A step
+    /// number is an error, unless `acceleration_column` says which counts. A step
     /// that is not positive is an error when a file is read.
     ///
     /// ```

@@ -90,7 +90,7 @@ impl TimeSeries {
     ///
     /// | arrays | shape | |
     /// |---|---|---|
-    /// | `time_s`; scalars and probes, called as [in CSV](TimeSeries::write_csv) | kept steps | |
+    /// | `time_s`; scalars and probes, called as [in CSV](TimeSeries::csv) | kept steps | |
     /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [energy balance](crate::coupled::EnergyBalance) |
     /// | `element_left_m`, `element_right_m` | elements | ends of the contact elements |
     /// | `contact_time_s` | frames | with [`Recorder::contact`](super::Recorder::contact) |

@@ -99,7 +99,7 @@ pub struct EquivalentLinear {
     pub iterations: usize,
     /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
     pub last_change: f64,
-    /// What strains the method.
+    /// Assumptions of the method that the response strains.
     pub warnings: Vec<SiteWarning>,
 }
 
@@ -213,7 +213,7 @@ impl SoilColumn {
     }
 }
 
-/// What an iteration works with.
+/// Input of an iteration: column, motion, curves of its layers and options.
 struct Iteration<'a> {
     column: &'a SoilColumn,
     motion: &'a Record,

@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SiteWarning {
-    /// Strain above [`SiteWarning::STRAIN_LIMIT`]: one modulus for the whole shaking is no longer a fair picture.
+    /// Strain above 5·10⁻³: one modulus for the whole shaking is no longer a fair picture.
     LargeStrain {
         /// Layer, from 1 at the surface.
         layer: usize,

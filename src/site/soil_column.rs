@@ -53,7 +53,7 @@ pub enum ControlPoint {
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.5, 50.0], 5.0)?);
 /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
 /// // At the first frequency, 5 Hz, about 2/(πξ).
-/// let found = column.amplification(ControlPoint::Within, 5.0)?;
+/// let found = column.transfer(ControlPoint::Within, 5.0)?.abs();
 /// assert!((found - 12.7).abs() < 0.2);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -104,14 +104,6 @@ impl SoilColumn {
         let (value, decay) =
             self.inverse_transfer(control, &Place::alone(s), &mut layers, |_| ())?;
         Ok(value.inverse() * (-decay).exp())
-    }
-
-    /// Absolute value of [`transfer`](SoilColumn::transfer).
-    ///
-    /// # Errors
-    /// As for [`transfer`](SoilColumn::transfer).
-    pub fn amplification(&self, control: ControlPoint, frequency: f64) -> Result<f64> {
-        Ok(self.transfer(control, frequency)?.abs())
     }
 
     /// Motion of the surface from `motion` at `control`, samples `time_step` seconds apart; any

@@ -173,7 +173,7 @@ impl Parameter {
         }
     }
 
-    /// Whether it takes none: such a parameter is refused.
+    /// Whether the parameter has no values, which is an error.
     pub(crate) fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -200,8 +200,8 @@ fn glue_of_a_host_breaks_once() {
     let mut problem = glued(law);
     let element = PreviousContact::new(ContactState::default(), Mode::Stick, STEP);
     let mut start = problem.start(&[element]).unwrap();
-    assert_eq!(start.get(0).unwrap().memory, [1e4, 0.0]);
-    assert_eq!(start.get(1), None);
+    assert_eq!(start.iter().next().unwrap().memory, [1e4, 0.0]);
+    assert_eq!(start.iter().count(), 1);
     // Jump without traction, then pressure and shear that follow from it, and the strength left.
     for (jump, [pressure, shear], left) in [
         // Lifted by 0.5 mm: 5 kPa of tension hold.
@@ -222,7 +222,7 @@ fn glue_of_a_host_breaks_once() {
             assert!((found - wanted).abs() < 1e-6, "{jump:?}: {found}, {wanted} wanted");
         }
         solution.commit(&mut start).unwrap();
-        assert_eq!(start.get(0).unwrap().memory[0], left, "{jump:?}");
+        assert_eq!(start.iter().next().unwrap().memory[0], left, "{jump:?}");
     }
 }
 
@@ -248,7 +248,7 @@ fn hosts_own_the_memory() {
         assert!((solution.states[0].shear - shear).abs() < 1e-6);
         slid = -jump[1] - 1e-7 * shear;
         solution.commit(&mut start).unwrap();
-        assert!((start.get(0).unwrap().memory[0] - slid).abs() < 1e-12);
+        assert!((start.iter().next().unwrap().memory[0] - slid).abs() < 1e-12);
         // Taken apart and put together again, it is the same.
         let elements: Vec<PreviousContact> = start.iter().collect();
         let again = problem.start(&elements).unwrap();

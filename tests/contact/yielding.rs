@@ -169,8 +169,9 @@ fn the_search_finds_a_solution_of_brute_force() {
                     pressure: problem.pressed[e],
                     shear: 0.0,
                 };
-                PreviousContact::new(state, law.modes()[0], 1.0)
-                    .with_memory(&problem.indentation[e..=e])
+                let mut start = PreviousContact::new(state, law.modes()[0], 1.0);
+                start.memory = &problem.indentation[e..=e];
+                start
             })
             .collect();
         let mut traction = problem.pressed.clone();

@@ -4,8 +4,9 @@
 
 use basemat::bem::{
     ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, SpringGround,
-    StaticKernel, Strip,
+    Strip,
 };
+use basemat::history::ConvolutionWeights;
 use basemat::motion::{Record, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson};
 use basemat::structure::{ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey};
@@ -96,10 +97,11 @@ fn absurd_counts_do_not_panic() {
 
     let left = ContactElement { left: 0.0, right: 1.0 };
     let right = ContactElement { left: 1.0, right: 2.0 };
-    let kernel = InfluenceKernel::new(soil(), 1e-30).unwrap();
-    let pair = kernel.pair(right, left).unwrap();
-    assert_eq!(pair.coupling_ends(), usize::MAX);
-    pair.fill(usize::MAX, [&mut [0.0; 2], &mut [0.0; 2], &mut [0.0; 2]]).unwrap();
+    let patch = PatchKernel::new(soil(), vec![left, right], 1e-30).unwrap();
+    let ends = |class| patch.last_coupling_lag(class).unwrap();
+    let last = (0..patch.classes().count()).find(|&class| ends(class) == Some(usize::MAX - 1));
+    let slices = [&mut [0.0; 2][..], &mut [0.0; 2], &mut [0.0; 2]];
+    patch.coefficients(last.unwrap(), usize::MAX, slices).unwrap();
 }
 
 #[test]
@@ -109,18 +111,15 @@ fn kernels() {
     let kernel = InfluenceKernel::new(soil(), 1e-3).unwrap();
     let unit = element(0.0, 1.0);
     for bad in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)] {
-        assert!(matches!(kernel.pair(bad, unit), Err(Error::Input { .. })));
+        assert!(matches!(kernel.coefficients(bad, unit, 1), Err(Error::Input { .. })));
         assert!(matches!(kernel.coefficients(unit, bad, 1), Err(Error::Input { .. })));
-        let statics = StaticKernel::new(soil(), 1.0).unwrap();
-        assert!(matches!(statics.coefficients(bad, unit), Err(Error::Input { .. })));
         assert!(PatchKernel::new(soil(), vec![bad], 1e-3).is_err());
     }
     refused("lag", &[0.0], |_| kernel.coefficients(unit, unit, 0));
-    refused("reference length", &BAD, |x| StaticKernel::new(soil(), x));
-    let pair = kernel.pair(unit, unit).unwrap();
-    let uneven = pair.fill(1, [&mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]]);
+    let patch = PatchKernel::new(soil(), vec![unit], 1e-3).unwrap();
+    let uneven = patch.coefficients(0, 1, [&mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]]);
     assert!(matches!(error_with("xx", uneven), Error::Size { found: 2, needed: 3, .. }));
-    error_with("first lag", pair.fill(0, [&mut [0.0], &mut [0.0], &mut [0.0]]));
+    error_with("first lag", patch.coefficients(0, 0, [&mut [0.0], &mut [0.0], &mut [0.0]]));
 
     refused("time step", &BAD, |x| PatchKernel::new(soil(), vec![unit], x));
     error_with("contact elements", PatchKernel::new(soil(), vec![], 1e-3));

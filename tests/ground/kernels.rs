@@ -3,8 +3,9 @@
 //! REFERENCE: tables of sixty digits, transforms, quadrature, differential equations.
 
 use basemat::Soil;
-use basemat::bem::{ContactElement, InfluenceKernel};
+use basemat::bem::{ContactElement, InfluenceKernel, PatchKernel};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
+use basemat::history::ConvolutionWeights;
 use basemat::motion::PlaneWave;
 use std::f64::consts::PI;
 
@@ -342,24 +343,26 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
         let near = ContactElement { left: 0.0, right: 1.0 };
         let far = ContactElement { left: 11.0, right: 12.0 };
         let kernel = InfluenceKernel::new(ground, 0.01).unwrap();
-        let pair = kernel.pair(far, near).unwrap();
-        let quiet = pair.at(9);
+        let at = |lag| kernel.coefficients(far, near, lag).unwrap();
+        let quiet = at(9);
         if ground.pressure_wave_speed() < 100.0 {
             assert_eq!((quiet.zz, quiet.xx, quiet.zx), (0.0, 0.0, 0.0));
         }
         // The last lag of the coupling, and reciprocity.
-        let end = pair.coupling_ends();
-        assert!(pair.at(end - 1).zx != 0.0 && pair.at(end).zx == 0.0);
-        let back = kernel.pair(near, far).unwrap();
+        let patch = PatchKernel::new(ground, vec![near, far], 0.01).unwrap();
+        let apart = |class: &usize| patch.classes().representative(*class) == Ok([near, far]);
+        let class = (0..patch.classes().count()).find(apart).unwrap();
+        let last = patch.last_coupling_lag(class).unwrap().unwrap();
+        assert!(at(last).zx != 0.0 && at(last + 1).zx == 0.0);
         for lag in [1, 300, 1000, 1190, 5000] {
-            let (one, two) = (pair.at(lag), back.at(lag));
+            let (one, two) = (at(lag), kernel.coefficients(near, far, lag).unwrap());
             assert_eq!((one.zz, one.xx, one.zx), (two.zz, two.xx, -two.zx));
         }
         let mut noise = [[7.0; 4]; 3];
         let [zz, xx, zx] = &mut noise;
-        pair.fill(1100, [zz, xx, zx]).unwrap();
-        assert_eq!(noise[0][2], pair.at(1102).zz);
-        assert_eq!(noise[2][2], pair.at(1102).zx);
+        patch.coefficients(class, 1100, [zz, xx, zx]).unwrap();
+        assert_eq!(noise[0][2], at(1102).zz);
+        assert_eq!(noise[2][2], at(1102).zx);
     }
     let ground = soil(0.3);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -369,7 +372,7 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
     let good = ContactElement { left: 0.0, right: 1.0 };
     for bad in [(0.0, 0.0), (1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
         let bad = ContactElement { left: bad.0, right: bad.1 };
-        assert!(kernel.pair(good, bad).is_err());
+        assert!(kernel.coefficients(good, bad, 1).is_err());
         assert!(HalfPlane::new(ground).element_mean(bad, good, 1.0).is_err());
     }
     assert!(kernel.coefficients(good, good, 0).is_err());

@@ -138,6 +138,7 @@ fn builds_and_runs_hand_their_observer_on() {
     let before = simulation.state().clone();
     watched(|observer| simulation.precompute(200, observer), None);
     assert_eq!(*simulation.state(), before);
-    assert_eq!(simulation.ground().history_choice(), None);
+    let choice = simulation.ground().history_choice().unwrap();
+    assert_eq!(choice.steps, Some(200));
     assert_eq!(states(simulation), wanted);
 }

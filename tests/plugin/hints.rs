@@ -122,15 +122,16 @@ fn hints_make_no_more_weights_than_steps_need() {
             let exact = history == HistoryMethod::RelaxedFft;
             assert_eq!(exact, !late || steps < 10_000);
             if exact {
-                assert_eq!(made[1], without.made[1]);
+                // Without a hint, some are made again while memory grows.
+                assert!(made[1] <= without.made[1], "{made:?} {:?}", without.made);
                 // For more than 100 000 steps nothing is made before it is needed.
                 assert_eq!(made[0], if steps > 100_000 { 0 } else { made[1] });
             } else {
                 assert!(made[0] == made[1] && 10 * made[1] < without.made[1], "{made:?}");
             }
         }
-        // With an observer, all that an exact history needs is announced, and no more.
-        let (observed, plain) = (march(late, 2_000, true, true), march(late, 2_000, false, false));
+        // With an observer, all that an exact history needs is prepared, and no more.
+        let (observed, plain) = (march(late, 2_000, true, true), march(late, 2_000, true, false));
         assert_eq!((observed.made[1], observed.prepared), (plain.made[1], plain.prepared));
     }
 }

@@ -78,7 +78,7 @@ fn each_foundation_is_summed_up_by_itself() {
     }
     // They are not alike, so nothing above holds by chance; the tower rocks.
     let [tower, block] = &both.foundations[..] else { unreachable!() };
-    let turned = |own: &Summary| own.base_rotation.largest().magnitude();
+    let turned = |own: &Summary| own.base_rotation.magnitude();
     assert!(tower.uplifted_fraction.largest().value > 0.2 && turned(tower) > 2.0 * turned(block));
 
     let page = both.to_string();

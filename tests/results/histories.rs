@@ -29,7 +29,7 @@ fn histories_and_peaks_are_those_of_the_states() {
     let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
     assert_eq!((run.whole.base_shear.lowest.value, lowest < 0.0), (lowest, true));
     let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    assert_eq!(run.probe("top").unwrap().largest().magnitude(), top_peak);
+    assert_eq!(run.probe("top").unwrap().magnitude(), top_peak);
 
     let largest = |of: &dyn Fn(&State) -> f64| states.iter().map(of).fold(f64::MIN, f64::max);
     assert_eq!(run.whole.base_moment.highest.value, largest(&|s| s.base_moment));

@@ -38,7 +38,7 @@ fn probes_come_with_their_unit() {
     for (name, unit, factor) in labels {
         let peak = run.probe(name).unwrap().largest();
         let series = histories.probe(name).unwrap().iter();
-        assert_eq!(peak.magnitude(), series.fold(0.0, |most: f64, value| most.max(value.abs())));
+        assert_eq!(peak.value.abs(), series.fold(0.0, |most: f64, value| most.max(value.abs())));
         assert!(peak.value != 0.0);
         for text in [&page, &table_page] {
             let line = text.lines().find(|line| line.trim().starts_with(name)).unwrap();
@@ -46,7 +46,7 @@ fn probes_come_with_their_unit() {
             assert!(words.contains(&unit), "{line}");
             let shown = |word: &&str| {
                 let value: f64 = word.parse().unwrap_or(f64::NAN);
-                (value - factor * peak.value).abs() < 1e-3 * factor * peak.magnitude()
+                (value - factor * peak.value).abs() < 1e-3 * factor * peak.value.abs()
             };
             assert!(words.iter().any(shown), "{line}, not {}", factor * peak.value);
         }

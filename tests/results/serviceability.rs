@@ -51,7 +51,7 @@ fn verdicts_are_those_of_the_states() {
         assert_eq!(run.serviceability.len(), 4);
         for ((check, criterion), peak) in run.serviceability.iter().zip(wanted).zip(peaks) {
             assert_eq!(check.criterion, criterion);
-            assert_eq!(check.largest.magnitude(), peak);
+            assert_eq!(check.largest.value.abs(), peak);
             let first = states.iter().find(|s| value(criterion, s) > check.limit);
             assert_eq!(check.first_excess, first.map(|s| s.time), "{criterion:?}");
             assert_eq!(check.is_met(), peak <= check.limit);

@@ -2,7 +2,7 @@
 
 use basemat::Soil;
 use basemat::bem::layered::LayeredKernel;
-use basemat::bem::{ContactElement, InfluenceKernel, PatchKernel, Strip};
+use basemat::bem::{InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -17,26 +17,29 @@ fn kernels(criterion: &mut Criterion) {
     criterion.bench_function("half-plane step", |b| b.iter(|| plane.heaviside(black_box(1.3))));
     // c_P Δt = half an element, twenty elements: fronts are inside until lag 120.
     let kernel = InfluenceKernel::new(soil, 0.25).expect("valid step");
-    let element = |i: u32| ContactElement { left: f64::from(i), right: f64::from(i + 1) };
+    let strip = Strip::uniform(0.0..20.0, 20).expect("a valid strip").elements();
+    let patch = PatchKernel::new(soil, strip.clone(), 0.25).expect("a valid patch");
+    let class = |apart: usize| patch.classes().pairs()[apart].class;
     let mut group = criterion.benchmark_group("step coefficients");
     let mut slices = [[0.0; 120]; 3];
     group.throughput(Throughput::Elements(120));
     for distance in [0, 1, 5, 19] {
-        let pair = kernel.pair(element(distance), element(0)).expect("valid elements");
+        let class = class(distance);
         let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("early, {distance} elements apart"), |b| {
-            b.iter(|| pair.fill(black_box(1), [zz, xx, zx]));
+            b.iter(|| patch.coefficients(class, black_box(1), [zz, xx, zx]));
         });
     }
-    let pair = kernel.pair(element(19), element(0)).expect("valid elements");
     for first in [300, 3000, 1_000_000] {
         let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("late, lag {first}"), |b| {
-            b.iter(|| pair.fill(black_box(first), [zz, xx, zx]));
+            b.iter(|| patch.coefficients(class(19), black_box(first), [zz, xx, zx]));
         });
     }
     group.throughput(Throughput::Elements(1));
-    group.bench_function("pair", |b| b.iter(|| kernel.pair(element(19), element(0))));
+    group.bench_function("one of a pair", |b| {
+        b.iter(|| kernel.coefficients(strip[19], strip[0], black_box(300)));
+    });
     group.finish();
     let full = FullPlane::new(soil);
     criterion.bench_function("full-plane displacement", |b| {

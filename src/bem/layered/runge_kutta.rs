@@ -54,7 +54,7 @@ impl Stages {
 
     /// Two where reflections at 15 Hz keep their phase to a thousandth on their way down through
     /// the layers of `profile` and back, n (ωΔt)⁴/72 < 10⁻³ with n steps on the way; otherwise three.
-    pub(crate) fn for_profile(profile: &SoilProfile, time_step: f64) -> Self {
+    pub fn for_profile(profile: &SoilProfile, time_step: f64) -> Self {
         let angle = std::f64::consts::TAU * FREQUENCY * time_step;
         let error = 2.0 * profile.travel_time() / time_step * angle.powi(4) / 72.0;
         if error < PHASE { Self::Two } else { Self::Three }

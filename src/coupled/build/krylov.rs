@@ -71,7 +71,7 @@ impl<'a> Reduction<'a> {
         let (n, size) = (assembled.dofs(), 2 * base.lengths().len());
         let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
         for load in &given.loads {
-            keep(&mut rows.all, spread(&load.row(), n));
+            keep(&mut rows.all, spread(load.row(), n));
         }
         let duration = steps as f64 * given.time_step;
         for k in 0..=SAMPLES {
@@ -114,7 +114,7 @@ impl<'a> Reduction<'a> {
             }
             for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
                 let place = rows.all.len() / n;
-                let kept = keep(&mut rows.all, spread(&probe.rows()[kind], n));
+                let kept = keep(&mut rows.all, spread(probe.rows()[kind], n));
                 places[kind] = kept.then_some(place);
             }
         }

@@ -75,7 +75,7 @@ impl SimulationBuilder {
     }
 
     /// The ground. Contact is where its elements are: a part of the base beyond them is not in contact, and
-    /// elements beyond the base are refused. Neither happens with
+    /// elements beyond the base are an error. Neither happens with
     /// [`ElasticGround::under`](crate::bem::ElasticGround::under).
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {

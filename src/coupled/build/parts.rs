@@ -348,7 +348,7 @@ pub enum Coordinates {
     /// A bonded run is a sum of such responses. Contact amplifies their errors, which nothing
     /// bounds; on towers of 1 092 to 13 122 degrees of freedom with 2 and 5 % of damping that slide and uplift, errors of
     /// base, roof and base shear stayed thirty times below the tolerance, and those of the roof's
-    /// acceleration below it. Undamped structures are refused: no few vectors have what rings on above
+    /// acceleration below it. Undamped structures are an error: no few vectors have what rings on above
     /// the frequency 2/Δt, and their accelerations would be lost first.
     ///
     /// Needs a linear structure with symmetric matrices, a positive definite mass and proportional

@@ -97,7 +97,8 @@ pub struct ElementEnvelope {
     pub open: f64,
 }
 
-/// What warns of the largest tension under a base with static pressures, if its element cannot open.
+/// Warning of the largest tension under a base with static pressures, among elements that cannot open; `None` below the
+/// limit.
 pub(super) fn tension(
     envelope: &[ElementEnvelope],
     opens: impl Fn(usize) -> bool,

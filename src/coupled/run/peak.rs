@@ -79,7 +79,7 @@ pub struct Peak {
 
 impl Peak {
     /// The value without its sign.
-    pub fn magnitude(&self) -> f64 {
+    pub(crate) fn magnitude(&self) -> f64 {
         self.value.abs()
     }
 

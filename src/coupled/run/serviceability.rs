@@ -41,7 +41,7 @@ impl Criterion {
     }
 
     /// Its SI unit; none of a fraction.
-    pub fn unit(self) -> &'static str {
+    pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Slip | Self::Gap => "m",
             Self::UpliftedFraction => "",

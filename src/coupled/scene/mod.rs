@@ -66,7 +66,7 @@ pub(crate) struct ProbeRows {
 
 impl ProbeRows {
     pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
-        let rows = probe.rows().map(|row| model.transformation.row(&row));
+        let rows = probe.rows().map(|row| model.transformation.row(row));
         let parts = model.influence.parts().iter().filter(|_| probe.absolute);
         let carried = parts
             .map(|part| [0, 1].map(|k| rows[0].of(&spread(&part.vectors[k], model.coordinates))));

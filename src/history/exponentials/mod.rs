@@ -44,7 +44,7 @@ const ATTEMPTS: usize = 10;
 /// # Accuracy
 ///
 /// Every coefficient is within `tolerance` of the exact one, relative to the largest coefficient of
-/// the same lag, up to a horizon: 2²⁰ steps, unless another one is asked for. The number of steps
+/// the same lag, up to a horizon: 2²⁰ steps, unless another one is given. The number of steps
 /// need not be known; beyond the horizon the relative error grows in proportion to the lag, as the
 /// slowest pole stays what it is. The error is measured against the exact coefficients when the
 /// history is made ([`ExponentialFit::error_bound`]), poles are put closer together until it is small enough, and
@@ -56,7 +56,7 @@ const ATTEMPTS: usize = 10;
 /// The exact operator gives no energy away, and a fit that did could make a run unstable. When the
 /// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
 /// exponentials in closed form, is looked for. If it is negative, more poles are taken, closer
-/// together, until it is not; a fit that stays active is refused ([`Error::NotPassive`]). The
+/// together, until it is not; a fit that stays active is [`Error::NotPassive`]. The
 /// discrete operator has plenty to spare ([`ExponentialFit::passivity_margin`]): a tenth or
 /// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
 /// incompressible soil, very short steps) need the additional poles.
@@ -103,9 +103,9 @@ short_debug! {
 }
 
 impl ExponentialHistory {
-    /// Accuracy unless another one is asked for.
+    /// Accuracy unless another one is given.
     pub(crate) const TOLERANCE: f64 = 1e-10;
-    /// Steps over which `tolerance` holds, unless others are asked for.
+    /// Steps over which `tolerance` holds, unless others are given.
     pub(crate) const HORIZON: usize = 1 << 20;
 
     /// History of `kernel`, empty, with every coefficient within `tolerance` of the largest

@@ -75,7 +75,7 @@ impl NonlinearForce for Springs {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
         for spring in &self.0 {
             let value = spring.law.response(spring.deformation(displacement)).force;
-            for &(i, weight) in spring.row.iter() {
+            for &(i, weight) in &spring.row {
                 if let Some(force) = force.get_mut(i) {
                     *force += weight * value;
                 }

@@ -48,7 +48,7 @@ impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        for &(unknown, weight) in self.along.iter() {
+        for &(unknown, weight) in &self.along {
             load[unknown] += weight * (self.force)(time);
         }
         Ok(())

@@ -17,7 +17,7 @@ impl PrintedForcing {
         model.stiffness(&mut stiffness)?;
         let mut contact = vec![0.0; model.dofs()];
         for node in model.contact_nodes() {
-            for &(unknown, weight) in node.horizontal.iter() {
+            for &(unknown, weight) in &node.horizontal {
                 contact[unknown] += weight;
             }
         }

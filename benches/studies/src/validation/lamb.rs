@@ -54,10 +54,10 @@ fn errors(name: &str, poisson: f64) -> Result<[f64; 3], AnyError> {
 fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3], AnyError> {
     let kernel = InfluenceKernel::new(*soil, time / steps as f64)?;
     let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
-    let pair = kernel.pair(element(distance), element(0.0))?;
-    Ok((1..=steps)
-        .map(|lag| pair.at(lag))
-        .fold([0.0; 3], |[xx, zx, zz], g| [xx + g.xx, zx + g.zx, zz + g.zz]))
+    (1..=steps).try_fold([0.0; 3], |[xx, zx, zz], lag| {
+        let g = kernel.coefficients(element(distance), element(0.0), lag)?;
+        Ok([xx + g.xx, zx + g.zx, zz + g.zz])
+    })
 }
 
 /// Relative distance of late step coefficients from their limit: u grows by (1−ν)/(π μ) ln t.
@@ -66,7 +66,7 @@ fn late(poisson: f64) -> Result<f64, AnyError> {
     let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
     let lag = 100_000;
     let limit = (1.0 - poisson) / PI * (lag as f64 / (lag as f64 - 1.0)).ln();
-    let g = kernel.pair(element(3.0), element(0.0))?.at(lag);
+    let g = kernel.coefficients(element(3.0), element(0.0), lag)?;
     Ok(worse((g.zz / limit - 1.0).abs(), (g.xx / limit - 1.0).abs()))
 }
 
@@ -129,14 +129,13 @@ fn figure() -> Result<Figure, AnyError> {
         right = right.circles(&format!("{place}, table"), color, points);
         let kernel = InfluenceKernel::new(soil, 0.02)?;
         let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
-        let pair = kernel.pair(element(distance), element(0.0))?;
         let (mut sum, mut found) = (0.0, vec![(0.0, 0.0)]);
         for lag in 1.. {
             let time = 0.02 * lag as f64;
             if time > end {
                 break;
             }
-            sum += pair.at(lag).zz;
+            sum += kernel.coefficients(element(distance), element(0.0), lag)?.zz;
             found.push((time, sum));
         }
         right = right.line("basemat, summed coefficients", color, found);
