@@ -255,8 +255,7 @@ impl ElasticGround {
     }
 
     /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
-    /// factor of about three (more on skins, and with steps short beside the elements); files and shared kernels, which may have them, left out. Nothing for the
-    /// closed form.
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
     /// ```
     /// use basemat::Soil;

@@ -88,6 +88,7 @@ pub struct EquivalentLinear {
     /// The site for a ground: strain-compatible moduli at its own first frequency, damping constant over the band.
     pub profile: SoilProfile,
     /// Motion of the free surface, for [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`.
+    /// The one to take: `profile` disperses, and its own surface ([`SoilColumn::to_surface`]) peaks up to 5 % beside.
     pub surface: Record,
     /// Properties and strains from the surface down.
     pub layers: Vec<LayerResponse>,

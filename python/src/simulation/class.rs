@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::build;
-use super::watched::{Watched, settled};
+use super::watched::{Watched, prepared, settled};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, locked, raise, refuse, take_raised};
@@ -264,14 +264,7 @@ impl PySimulation {
         take_raised();
         py.detach(|| {
             let mut simulation = self.lock()?;
-            // Coefficients come by powers of two of steps, and Ctrl-C while they do; errors are the step's.
-            let done = simulation.state().step;
-            if done == 0 || done.is_power_of_two() {
-                watched(None, |observer| match simulation.precompute(1, observer) {
-                    Err(Error::Stopped(progress)) => Err(Error::Stopped(progress)),
-                    _ => Ok(()),
-                })?;
-            }
+            prepared(&mut simulation)?;
             settled(simulation.step().cloned()).map(PyState)
         })
     }

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use basemat::Simulation;
 use basemat::coupled::State;
 use basemat::results::Run;
 use basemat::results::TimeSeries;
@@ -11,7 +12,7 @@ use super::PyState;
 use crate::error::{OrRaise, has_raised, raise, returned, take_raised};
 use crate::results::PyRun;
 use crate::structure::DofNames;
-use crate::ticker::Ticker;
+use crate::ticker::{Ticker, watched};
 
 /// A run and those who watch it.
 pub(super) struct Watched {
@@ -83,6 +84,19 @@ impl Watched {
         last?;
         Ok(PyRun::new(run, self.histories, names.map(DofNames::to_vec)))
     }
+}
+
+/// Lets the ground compute what the next step takes, by powers of two of steps, with an ear for Ctrl-C. Its errors are
+/// the step's.
+pub(super) fn prepared(simulation: &mut Simulation) -> PyResult<()> {
+    let done = simulation.state().step;
+    if done > 0 && !done.is_power_of_two() {
+        return Ok(());
+    }
+    watched(None, |observer| match simulation.precompute(1, observer) {
+        Err(stopped @ basemat::Error::Stopped(_)) => Err(stopped),
+        _ => Ok(()),
+    })
 }
 
 /// Result of a step, after the core has returned.

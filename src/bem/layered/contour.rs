@@ -235,8 +235,8 @@ impl Circle {
     }
 }
 
-/// Points evaluated between two calls of `heard`.
-const HEARD: usize = LANES << 9;
+/// Values evaluated between two calls of `heard`, about: a tenth of a second.
+const HEARD: usize = 1 << 21;
 
 /// Adds an eigenvalue's share by a panel to the values at the points of a circle, row by row one function of them.
 /// An error of `heard` ends it.
@@ -265,8 +265,9 @@ pub(super) fn evaluate(
         }
     }
     let panel = transformed(&moved);
+    let between = (HEARD / (LANES * count)).max(1);
     for first in points.clone().step_by(LANES) {
-        if (first - points.start).is_multiple_of(HEARD) {
+        if ((first - points.start) / LANES).is_multiple_of(between) {
             heard()?;
         }
         let x: [f64; LANES] = std::array::from_fn(|lane| {

@@ -222,11 +222,6 @@ impl LayeredKernel {
         watch: &mut Watch,
     ) -> Result<u64> {
         let missing = self.missing(wanted.clone());
-        if !missing.is_empty() {
-            let (lags, needed) =
-                (Block::last(missing.end - 1), self.quadrature.memory(missing.end));
-            memory::check("lags of a layered ground", lags as f64, needed)?;
-        }
         let open = self.checked.get().is_none();
         // A file may hold all that is wanted.
         let late = open && self.file.is_some();
@@ -240,6 +235,15 @@ impl LayeredKernel {
             self.quadrature.afford(rest, false, self.limit, None)?;
         }
         Ok(fingerprint)
+    }
+
+    /// Error unless the blocks up to the last of `missing` may be in memory.
+    fn fits(&self, missing: &Range<usize>) -> Result<()> {
+        if missing.is_empty() {
+            return Ok(());
+        }
+        let lags = Block::last(missing.end - 1) as f64;
+        Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
     /// Those of the blocks of `wanted` from the first on that is not there.
@@ -263,6 +267,7 @@ impl LayeredKernel {
     /// Computes the blocks of lags up to `lags`; without an observer, nobody counts beforehand.
     fn make_ready(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let last = last_block(lags.max(1))?;
+        self.fits(&self.missing(0..last + 1))?;
         let mut expected = vec![0; last + 1];
         let mut watch = Watch::nobody();
         let mut outlook = None;
@@ -299,6 +304,7 @@ impl ConvolutionWeights for LayeredKernel {
     /// Herm[(1−z) Ĝ(z)] on |z| = 0.99.
     ///
     /// # Errors
+    /// [`Error::Memory`] beyond the [limit](crate::memory_limit), before anything is computed;
     /// [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) beyond the
     /// [limit](LayeredKernel::with_time_limit); [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
     /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
@@ -330,6 +336,7 @@ impl ConvolutionWeights for LayeredKernel {
         while done < lags {
             let (number, place) = Block::place(first_lag + done);
             if self.blocks[number].get().is_none() {
+                self.fits(&(number..number + 1))?;
                 self.admit(number..number + 1, None, &mut Watch::nobody())?;
             }
             let found = self.block(number, &mut Watch::nobody(), 0..0)?.from(class, place);

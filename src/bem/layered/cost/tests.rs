@@ -77,8 +77,8 @@ fn work_is_known_beforehand() {
         ("32 elements", damped(), 32, 0.1, 0),
         ("long run", damped(), 2, 0.1, 4),
         ("very short steps", damped(), 6, 1e-4, 2),
-        ("thin skin, long run", skin(1e-3), 2, 0.1, 5),
-        ("thin skin, elastic", elastic_skin, 2, 0.1, 3),
+        ("thin skin, long run", skin(1e-3), 2, 0.1, 3),
+        ("thin skin, elastic", elastic_skin, 2, 0.1, 2),
     ];
     for (name, profile, elements, time_step, last) in cases {
         for stages in [Stages::Two, Stages::Three] {

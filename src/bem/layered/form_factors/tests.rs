@@ -1,0 +1,64 @@
+//! Form factors on wide panels, and the functions that they are made of.
+
+use super::*;
+use crate::bem::{Grading, Strip};
+
+impl FormFactors {
+    /// Tables made of the narrowest panels, wide and halved ones.
+    pub(crate) fn made(&self) -> [usize; 3] {
+        let made = |tables: &[OnceLock<_>]| tables.iter().filter(|it| it.get().is_some()).count();
+        let wide = self.wide.iter().filter_map(OnceLock::get).map(|tables| made(tables)).sum();
+        [made(&self.values), wide, made(&self.legendre)]
+    }
+}
+
+/// The same integrals by a wide panel and by the narrow ones in it, elements on themselves and far apart.
+#[test]
+fn wide_panels_are_sums_of_narrow_ones() {
+    let strip = Strip::new(-1.0..1.0, 7, Grading::Cosine).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let forms = FormFactors::new(&classes);
+    for (level, index) in [(1, 2), (1, 9), (3, 5), (6, 2), (6, 3)] {
+        let panel = Panel { level, index };
+        let sum = |panel: Panel, sums: &mut [Sums]| {
+            let [left, width] = forms.extent(panel);
+            let coefficients: [[f64; 6]; POINTS] = std::array::from_fn(|i| {
+                let k = left + 0.5 * width * (1.0 + forms.rule.nodes[i]);
+                let c = 0.5 * width * forms.rule.weights[i] / (k + 20.0 * forms.width);
+                [c, -2.0 * c, c, c, 3.0 * c, c]
+            });
+            forms.with_values(panel, |rows| accumulate(rows, &coefficients, sums));
+        };
+        let [mut wide, mut narrow] = [(); 2].map(|()| vec![Sums::default(); forms.blocks()]);
+        sum(panel, &mut wide);
+        for index in index << level..(index + 1) << level {
+            sum(Panel { level: 0, index }, &mut narrow);
+        }
+        let flat = |sums: &[Sums]| sums.iter().flatten().flatten().copied().collect::<Vec<_>>();
+        let largest = flat(&narrow).iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for (one, two) in flat(&wide).iter().zip(flat(&narrow)) {
+            assert!((one - two).abs() < 1e-11 * largest, "{level} {index} {one} {two}");
+        }
+    }
+}
+
+/// Closed forms of the first three, and the recurrence, where methods change.
+#[test]
+fn bessel_functions_are_spherical() {
+    for t in [1e-12, 1e-3, 0.5, 0.999_999, 1.0, 3.1, 9.0, 15.9, 16.1, 300.0_f64] {
+        let found = spherical_bessel(t);
+        let (sin, cos) = t.sin_cos();
+        if t > 0.4 {
+            let two = (3.0 / t.powi(3) - 1.0 / t) * sin - 3.0 * cos / (t * t);
+            for (found, wanted) in found.iter().zip([sin / t, (sin / t - cos) / t, two]) {
+                assert!((found - wanted).abs() < 1e-14, "{t} {found} {wanted}");
+            }
+        }
+        for n in 1..POINTS - 1 {
+            let sum = found[n - 1] + found[n + 1];
+            let wanted = (2 * n + 1) as f64 / t * found[n];
+            assert!((sum - wanted).abs() < 1e-13 * sum.abs().max(1e-3), "{t} {n}");
+        }
+    }
+    assert_eq!(spherical_bessel(0.0)[..2], [1.0, 0.0]);
+}
