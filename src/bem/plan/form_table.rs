@@ -15,7 +15,7 @@ use super::angular_means::{AngularMeans, FORMS};
 use super::lattice::Lattice;
 use super::static_cells;
 use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid};
-use crate::error::{Result, Watch, memory};
+use crate::error::{PlanError, Result, Watch, memory};
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
 
@@ -27,8 +27,12 @@ const TURN: f64 = 16.0;
 const REACH: f64 = 4.0;
 /// Least K × shorter side of a cell: static forms beyond it are small enough.
 const SHORT: f64 = 8.0;
-/// K* × shorter side, where |q₂| is (2/side)²; and |√q₂| × side there.
-const END: [f64; 2] = [64.0, 2.0];
+/// K* × shorter side, where |√q₂| is 2/side.
+const END: f64 = 64.0;
+/// K* over |√q₂| at least.
+const SPREAD: f64 = 16.0;
+/// Most operations that a table may take: a minute or two.
+const MOST: f64 = 3e11;
 /// Points that Legendre coefficients are made of.
 const FINE: usize = DEGREES + 8;
 
@@ -102,7 +106,7 @@ impl FormTable {
     /// Table for `lattice`.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped).
+    /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped).
     pub(super) fn new(lattice: &Lattice, need: Need, watch: &mut Watch) -> Result<Self> {
         let list = lattice.classes();
         let classes = list.len();
@@ -119,16 +123,25 @@ impl FormTable {
             deep: need.deep,
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
-        let least = SHORT / lattice.finest() / width;
-        let most = least.max(need.deep / width).max(REACH * need.root / width);
-        let cells = (lattice.counts[0] * lattice.counts[1]) as f64;
-        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * most;
+        let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
+        let reach = (SHORT / side).max(need.deep).max(REACH * need.root);
+        // Beyond K* an error q₂ K*⁻⁵ or so is left.
+        let end = END / side * (0.5 * need.root * side).min(1.0).powf(0.4);
+        let end = end.max(SPREAD * need.root).max(1.2 * reach);
+        let turn = end * lattice.diagonal();
+        if turn.is_nan() || turn * turn * cells > MOST {
+            let span = lattice.diagonal();
+            return Err(PlanError::TooFine { span, wavenumber: end }.into());
+        }
+        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;
         let first = table.panels(0.0);
         let last = table.panels(need.root);
         table.values = Rows::new(last * POINTS, classes);
         table.legendre = (0..last).map(|_| OnceLock::new()).collect();
-        table.tabulate(&list, first..=last, table.end(need.root, last), watch)?;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
+        let end = (end / width).ceil() as usize;
+        table.tabulate(&list, first..=last, end.max(last + 1), watch)?;
         Ok(table)
     }
 
@@ -140,13 +153,9 @@ impl FormTable {
         on_grid(count)
     }
 
-    /// Number of panels up to K*.
-    fn end(&self, root: f64, last: usize) -> usize {
-        let side = self.lattice.finest();
-        let end = END[0] / side * (root * side / END[1]).sqrt().min(1.0);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
-        let count = (end / self.width).ceil() as usize;
-        count.max(4 * last)
+    /// Diagonal of all cells, m.
+    pub(super) fn span(&self) -> f64 {
+        self.lattice.diagonal()
     }
 
     /// κ, 1/m.
