@@ -6,8 +6,8 @@
 //!
 //! `T_j`(K) = ∫_K^∞ k^(−2j) g dk,
 //!
-//! sums over the same points up to K*, and beyond it g for what it is in the mean, a power k⁻³. ∫₀^∞ g dk is known in
-//! closed form.
+//! sums over the same points that fade out towards K*, and for the rest, which is known in all as ∫₀^∞ g dk has a closed
+//! form, g as what it is in the mean there, a power k⁻³.
 
 use std::sync::OnceLock;
 
@@ -174,6 +174,14 @@ impl FormTable {
         let (classes, unit) = (self.classes, self.unit());
         let mut means = AngularMeans::new(&self.lattice);
         let mut sums = Rows::new(TERMS, classes);
+        // Sums fade out towards K*: an end would see the waves that forms are. What has faded is like k⁻³.
+        let [last, star] =
+            [(*kept.end()).max(end / 2), end].map(|panels| self.width * panels as f64);
+        let mut power = 1.0;
+        let mut faded: [f64; TERMS] = std::array::from_fn(|term| {
+            power *= (unit / star).powi(2);
+            0.5 * power / (term as f64 + 1.0)
+        });
         for panel in (0..end).rev() {
             watch.reach(0)?;
             for (i, node) in self.rule.nodes.iter().enumerate() {
@@ -182,10 +190,12 @@ impl FormTable {
                 if panel < *kept.end() {
                     self.values.set(panel * POINTS + i, values);
                 }
+                let fading = step((k - last) / (star - last));
                 let mut weight = 0.5 * self.width * self.rule.weights[i];
                 let terms = if panel >= *kept.start() { TERMS } else { 1 };
                 for term in 0..terms {
-                    sums.add(term, weight, values);
+                    sums.add(term, weight * (1.0 - fading), values);
+                    faded[term] += weight * fading * (unit / k).powi(2) / k;
                     weight *= (unit / k).powi(2);
                 }
             }
@@ -194,19 +204,16 @@ impl FormTable {
                 self.tails.push((panel, Rows { forms, classes }));
             }
         }
-        // What is left of all beyond K* is known, but how it is spread is not.
-        let ratio = (unit / (end as f64 * self.width)).powi(2);
+        // What is left of all is known.
         for (class, offset) in list.iter().enumerate() {
             let totals = static_cells::integrals(self.lattice.pitch, *offset);
             for (form, total) in totals.into_iter().enumerate() {
-                let mut beyond = total - sums.forms[form][class];
+                let left = total - sums.forms[form][class];
                 for (_, rows) in &mut self.tails {
                     rows.forms[form][class] = total;
-                }
-                for term in 1..TERMS {
-                    beyond *= ratio;
-                    for (_, rows) in &mut self.tails {
-                        rows.forms[form][term * classes + class] += beyond / (term + 1) as f64;
+                    for term in 1..TERMS {
+                        let beyond = left * faded[term] / faded[0];
+                        rows.forms[form][term * classes + class] += beyond;
                     }
                 }
             }
@@ -233,4 +240,10 @@ impl FormTable {
             rows
         })
     }
+}
+
+/// From 0 at x ≤ 0 to 1 at x ≥ 1, three times differentiable.
+fn step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x.powi(4) * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)))
 }
