@@ -122,6 +122,7 @@
 //! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
 //! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any step coefficients |
 //! | [`bem::layered`] | step coefficients of layered ground, impedances of strips on it |
+//! | [`bem::plan`] | rigid mats in three dimensions: impedances |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::SoilColumn`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
@@ -178,7 +179,7 @@
 //!
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
-//! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
+//! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `mat_in_plan`, `friction_sweep`,
 //! `travelling_wave`, `from_matrices`; `containment` is the problem of Patel & Spyrakos; `pictures` draws everything (feature `png`). What
 //! each prints is in [the list of examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
 #![forbid(unsafe_code)]

@@ -44,6 +44,17 @@ pub enum PlanError {
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
+    /// A top layer so thin, or cells so small beside the mat, that no one would wait for it.
+    #[error(
+        "a mat of {span} m needs wavenumbers up to {wavenumber:e} 1/m, which would take minutes (a thicker top layer, \
+         lower frequencies or fewer cells help)"
+    )]
+    TooFine {
+        /// Diagonal of the mat, m.
+        span: f64,
+        /// Wavenumber up to which form factors would be tabulated, 1/m.
+        wavenumber: f64,
+    },
     /// Cells that do not resolve the waves of a frequency.
     #[error(
         "cells of {cell} m are too large for {frequency} Hz: shear waves at the surface are {wavelength} m long there, \

@@ -144,7 +144,7 @@ fn impedances_say_what_they_cannot() {
     assert!(impedances_in_plan(&profile, &plan, &[], bonded).unwrap().is_empty());
     let skin = profile.clone().with_layer(soil, 1e-4).unwrap();
     let found = impedances_in_plan(&skin, &plan, &[1.0], bonded);
-    assert!(matches!(found, Err(Error::Layered(_))), "{found:?}");
+    assert!(matches!(found, Err(Error::Plan(PlanError::TooFine { .. }))), "{found:?}");
 
     let mut heard = vec![];
     let all = |observer: &mut dyn FnMut(usize) -> ControlFlow<()>| {

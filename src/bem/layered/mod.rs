@@ -35,5 +35,7 @@ pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub use kernel::LayeredKernel;
 pub(super) use kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
 pub use runge_kutta::Stages;
+#[cfg(test)]
+pub(super) use runge_kutta::on_circle;
 pub use static_compliance::static_compliance;
 pub(super) use tail::{on_grid, surface_series};

@@ -1,6 +1,6 @@
 //! Cells under a mat, or several.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::faces::Face;
@@ -210,14 +210,14 @@ impl Plan {
 
     /// Area of each cell that is inside the outline, m².
     fn inside(&self) -> Vec<f64> {
-        let places: HashMap<_, _> = self.cells.iter().map(|cell| (*cell, ())).collect();
+        let places: HashSet<_> = self.cells.iter().copied().collect();
         let [a, b] = self.lattice.pitch;
         let d = self.overhang;
         let inside = |[i, j]: [usize; 2]| {
             let on = |right: usize, away: usize| {
                 let column = (i + right).checked_sub(1);
                 let row = (j + away).checked_sub(1);
-                column.zip(row).is_some_and(|(i, j)| places.contains_key(&[i, j]))
+                column.zip(row).is_some_and(|(i, j)| places.contains(&[i, j]))
             };
             let cut = |on: bool| if on { 0.0 } else { d };
             let width = 1.0 - cut(on(0, 1)) - cut(on(2, 1));
@@ -261,7 +261,7 @@ fn owners(
         let cell = [place % columns, place / columns];
         let near = |face: &Face| {
             (0..9).any(|point| {
-                let steps = [(point % 3) as f64 - 1.0, (point / 3) as f64 - 1.0];
+                let steps = [f64::from(point % 3) - 1.0, f64::from(point / 3) - 1.0];
                 face.contains([0, 1].map(|axis| {
                     let place = cell[axis] as f64 + 0.5 + overhang * steps[axis];
                     corner[axis] + pitch[axis] * place
@@ -269,10 +269,11 @@ fn owners(
             })
         };
         for (face, mat) in faces.iter().zip(mats) {
-            if *owner != Some(*mat) && near(face) {
-                if let Some(other) = owner.replace(*mat) {
-                    return Err(PlanError::TooClose { mats: [other, *mat], pitch }.into());
-                }
+            if *owner != Some(*mat)
+                && near(face)
+                && let Some(other) = owner.replace(*mat)
+            {
+                return Err(PlanError::TooClose { mats: [other, *mat], pitch }.into());
             }
         }
     }

@@ -6,8 +6,8 @@
 //!
 //! `T_j`(K) = ∫_K^∞ k^(−2j) g dk,
 //!
-//! sums over the same points up to K*, and beyond it g for what it is in the mean, a power k⁻³. ∫₀^∞ g dk is known in
-//! closed form.
+//! sums over the same points that fade out towards K*, and for the rest, which is known in all as ∫₀^∞ g dk has a closed
+//! form, g as what it is in the mean there, a power k⁻³.
 
 use std::sync::OnceLock;
 
@@ -15,7 +15,7 @@ use super::angular_means::{AngularMeans, FORMS};
 use super::lattice::Lattice;
 use super::static_cells;
 use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid};
-use crate::error::{Result, Watch, memory};
+use crate::error::{PlanError, Result, Watch, memory};
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
 
@@ -27,8 +27,12 @@ const TURN: f64 = 16.0;
 const REACH: f64 = 4.0;
 /// Least K × shorter side of a cell: static forms beyond it are small enough.
 const SHORT: f64 = 8.0;
-/// K* × shorter side, where |q₂| is (2/side)²; and |√q₂| × side there.
-const END: [f64; 2] = [64.0, 2.0];
+/// K* × shorter side, where |√q₂| is 2/side.
+const END: f64 = 64.0;
+/// K* over |√q₂| at least.
+const SPREAD: f64 = 16.0;
+/// Most operations that a table may take: a minute or two.
+const MOST: f64 = 3e11;
 /// Points that Legendre coefficients are made of.
 const FINE: usize = DEGREES + 8;
 
@@ -102,7 +106,7 @@ impl FormTable {
     /// Table for `lattice`.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped).
+    /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped).
     pub(super) fn new(lattice: &Lattice, need: Need, watch: &mut Watch) -> Result<Self> {
         let list = lattice.classes();
         let classes = list.len();
@@ -119,16 +123,25 @@ impl FormTable {
             deep: need.deep,
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
-        let least = SHORT / lattice.finest() / width;
-        let most = least.max(need.deep / width).max(REACH * need.root / width);
-        let cells = (lattice.counts[0] * lattice.counts[1]) as f64;
-        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * most;
+        let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
+        let reach = (SHORT / side).max(need.deep).max(REACH * need.root);
+        // Beyond K* an error q₂ K*⁻⁵ or so is left.
+        let end = END / side * (0.5 * need.root * side).min(1.0).powf(0.4);
+        let end = end.max(SPREAD * need.root).max(1.2 * reach);
+        let turn = end * lattice.diagonal();
+        if turn.is_nan() || turn * turn * cells > MOST {
+            let span = lattice.diagonal();
+            return Err(PlanError::TooFine { span, wavenumber: end }.into());
+        }
+        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;
         let first = table.panels(0.0);
         let last = table.panels(need.root);
         table.values = Rows::new(last * POINTS, classes);
         table.legendre = (0..last).map(|_| OnceLock::new()).collect();
-        table.tabulate(&list, first..=last, table.end(need.root, last), watch)?;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
+        let end = (end / width).ceil() as usize;
+        table.tabulate(&list, first..=last, end.max(last + 1), watch)?;
         Ok(table)
     }
 
@@ -140,13 +153,9 @@ impl FormTable {
         on_grid(count)
     }
 
-    /// Number of panels up to K*.
-    fn end(&self, root: f64, last: usize) -> usize {
-        let side = self.lattice.finest();
-        let end = END[0] / side * (root * side / END[1]).sqrt().min(1.0);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
-        let count = (end / self.width).ceil() as usize;
-        count.max(4 * last)
+    /// Diagonal of all cells, m.
+    pub(super) fn span(&self) -> f64 {
+        self.lattice.diagonal()
     }
 
     /// κ, 1/m.
@@ -165,6 +174,14 @@ impl FormTable {
         let (classes, unit) = (self.classes, self.unit());
         let mut means = AngularMeans::new(&self.lattice);
         let mut sums = Rows::new(TERMS, classes);
+        // Sums fade out towards K*: an end would see the waves that forms are. What has faded is like k⁻³.
+        let [last, star] =
+            [(*kept.end()).max(end / 2), end].map(|panels| self.width * panels as f64);
+        let mut power = 1.0;
+        let mut faded: [f64; TERMS] = std::array::from_fn(|term| {
+            power *= (unit / star).powi(2);
+            0.5 * power / (term as f64 + 1.0)
+        });
         for panel in (0..end).rev() {
             watch.reach(0)?;
             for (i, node) in self.rule.nodes.iter().enumerate() {
@@ -173,10 +190,12 @@ impl FormTable {
                 if panel < *kept.end() {
                     self.values.set(panel * POINTS + i, values);
                 }
+                let fading = step((k - last) / (star - last));
                 let mut weight = 0.5 * self.width * self.rule.weights[i];
                 let terms = if panel >= *kept.start() { TERMS } else { 1 };
                 for term in 0..terms {
-                    sums.add(term, weight, values);
+                    sums.add(term, weight * (1.0 - fading), values);
+                    faded[term] += weight * fading * (unit / k).powi(2) / k;
                     weight *= (unit / k).powi(2);
                 }
             }
@@ -185,19 +204,16 @@ impl FormTable {
                 self.tails.push((panel, Rows { forms, classes }));
             }
         }
-        // What is left of all beyond K* is known, but how it is spread is not.
-        let ratio = (unit / (end as f64 * self.width)).powi(2);
+        // What is left of all is known.
         for (class, offset) in list.iter().enumerate() {
             let totals = static_cells::integrals(self.lattice.pitch, *offset);
             for (form, total) in totals.into_iter().enumerate() {
-                let mut beyond = total - sums.forms[form][class];
+                let left = total - sums.forms[form][class];
                 for (_, rows) in &mut self.tails {
                     rows.forms[form][class] = total;
-                }
-                for term in 1..TERMS {
-                    beyond *= ratio;
-                    for (_, rows) in &mut self.tails {
-                        rows.forms[form][term * classes + class] += beyond / (term + 1) as f64;
+                    for term in 1..TERMS {
+                        let beyond = left * faded[term] / faded[0];
+                        rows.forms[form][term * classes + class] += beyond;
                     }
                 }
             }
@@ -224,4 +240,10 @@ impl FormTable {
             rows
         })
     }
+}
+
+/// From 0 at x ≤ 0 to 1 at x ≥ 1, three times differentiable.
+fn step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x.powi(4) * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)))
 }

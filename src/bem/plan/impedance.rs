@@ -76,7 +76,7 @@ const RESOLVED: f64 = 6.0;
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
 /// for less than six cells in a shear wave of the top layer; [`LayeredError::Unresolved`] without damping at a
-/// frequency at which guided waves begin; [`LayeredError::TooFine`] for a top layer too thin beside the mat;
+/// frequency at which guided waves begin; [`PlanError::TooFine`] for a top layer too thin beside the mat;
 /// [`Error::Memory`](crate::Error::Memory).
 pub fn impedances_in_plan(
     profile: &SoilProfile,

@@ -20,7 +20,7 @@ use super::form_table::{FormTable, Need, Rows, TERMS};
 use super::lattice::{Lattice, SERIES};
 use super::sh::transverse;
 use crate::bem::layered::{Compliance, DEGREES, POINTS, Surface, legendre, surface_series};
-use crate::error::{LayeredError, Result, Watch};
+use crate::error::{LayeredError, PlanError, Result, Watch};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -39,18 +39,16 @@ const DEEPEST: u32 = 44;
 const MOST_HALVES: usize = 1 << 16;
 /// Decay lengths in the top layer beyond which its bottom is not felt: e^(−2·20) is 4e-18.
 const DEEP: f64 = 20.0;
-/// Most panels of one integral.
-const MOST_PANELS: f64 = 65_536.0;
 
-/// Per form: the first of the sums it goes into (real and imaginary parts of zz, xx, yy, xy, zx, zy), and the kernels
-/// there with their signs.
-const SHARES: [(usize, &[&[(usize, f64)]]); FORMS] = [
-    (0, &[&[(0, 1.0)]]),
-    (2, &[&[(1, 1.0)], &[(2, 1.0)]]),
-    (2, &[&[(2, 1.0)], &[(1, 1.0)]]),
-    (6, &[&[(1, 1.0), (2, -1.0)]]),
-    (8, &[&[(3, -1.0)]]),
-    (10, &[&[(3, -1.0)]]),
+/// Per form: the first of the sums it goes into (real and imaginary parts of zz, xx, yy, xy, zx, zy), and the share of
+/// each kernel there.
+const SHARES: [(usize, &[[f64; KERNELS]]); FORMS] = [
+    (0, &[[1.0, 0.0, 0.0, 0.0]]),
+    (2, &[[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]),
+    (2, &[[0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0]]),
+    (6, &[[0.0, 1.0, -1.0, 0.0]]),
+    (8, &[[0.0, 0.0, 0.0, -1.0]]),
+    (10, &[[0.0, 0.0, 0.0, -1.0]]),
 ];
 
 /// Integrals over the wavenumber for the cells of a lattice.
@@ -106,7 +104,7 @@ impl Integrals {
     /// Integrals that serve `profile` at all Laplace variables of `list`, relative to a cell's own compliance.
     ///
     /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`LayeredError::TooFine`]; [`Error::Memory`](crate::Error::Memory);
+    /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory);
     /// [`Error::Stopped`](crate::Error::Stopped).
     pub(super) fn new(
         lattice: &Lattice,
@@ -123,10 +121,6 @@ impl Integrals {
             let own = ground.top().1.sqrt().abs();
             // Squares may leave the range of f64.
             root = root.max(if own.is_nan() { f64::INFINITY } else { own });
-        }
-        let (span, wavenumber) = (lattice.diagonal(), (4.0 * root).max(deep));
-        if span * wavenumber > MOST_PANELS {
-            return Err(LayeredError::TooFine { span, wavenumber }.into());
         }
         let table = FormTable::new(lattice, Need { root, deep }, watch)?;
         Ok(Self { table, finest: lattice.finest(), tolerance })
@@ -165,8 +159,9 @@ impl Integrals {
         let softness = modulus.inverse();
         let panels = self.table.panels(q2.sqrt().abs());
         let Some(tail) = self.table.tail(panels) else {
-            let wavenumber = panels as f64 * self.table.width;
-            return Err(LayeredError::TooFine { span: 16.0 / self.table.width, wavenumber }.into());
+            let width = self.table.width;
+            let (span, wavenumber) = (self.table.span(), panels as f64 * width);
+            return Err(PlanError::TooFine { span, wavenumber }.into());
         };
         work.sums.clear();
         work.sums.resize(2 * SERIES * self.table.classes, 0.0);
@@ -314,8 +309,8 @@ impl Integrals {
         for (form, (first, shares)) in SHARES.into_iter().enumerate() {
             weights.clear();
             for kernel in &*kernels {
-                for parts in shares {
-                    let terms = parts.iter().map(|(part, sign)| kernel[*part].scale(*sign));
+                for share in shares {
+                    let terms = kernel.iter().zip(share).map(|(value, share)| value.scale(*share));
                     let sum = terms.fold(Complex::default(), |sum, term| sum + term);
                     weights.extend([sum.re, sum.im]);
                 }

@@ -78,6 +78,11 @@ impl Lattice {
     }
 }
 
+/// Columns and rows from a source to a receiver.
+pub(super) fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
+    [0, 1].map(|axis| receiver[axis].cast_signed() - source[axis].cast_signed())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

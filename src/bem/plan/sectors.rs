@@ -11,7 +11,7 @@
 use realfft::num_complex::Complex64;
 
 use super::cells::Plan;
-use super::lattice::SERIES;
+use super::lattice::{SERIES, offset};
 use crate::error::{Error, Result, memory};
 use crate::linalg::{Complex, DenseFactor};
 
@@ -134,8 +134,7 @@ impl<'a> Sectors<'a> {
             for (source, columns) in self.cells.iter().zip(&places) {
                 for h in &self.group {
                     let image = mirrored(*h, *source, counts);
-                    let offset = [0, 1].map(|axis| receiver[axis] as isize - image[axis] as isize);
-                    let block = self.plan.lattice.block(values, offset);
+                    let block = self.plan.lattice.block(values, offset(*receiver, image));
                     for (row, block) in rows.iter().zip(block) {
                         let Some(row) = row else { continue };
                         for (component, column) in columns.iter().enumerate() {

@@ -98,7 +98,7 @@ mod tests {
             let mut sums = [0.0; FORMS];
             for (i, one) in [(-1, 1.0), (0, 2.0), (1, 1.0)] {
                 for (j, two) in [(-1, 1.0), (0, 2.0), (1, 1.0)] {
-                    let place = [i + 2 * offset[0] as isize, j + 2 * offset[1] as isize];
+                    let place = [i + 2 * offset[0].cast_signed(), j + 2 * offset[1].cast_signed()];
                     let signs = place.map(|n| if n < 0 { -1.0 } else { 1.0 });
                     let parts = integrals(half, place.map(isize::unsigned_abs));
                     let signs = [1.0, 1.0, 1.0, signs[0] * signs[1], signs[0], signs[1]];
