@@ -563,8 +563,8 @@ class SoilColumn:
         """
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-        "within", as long. A :class:`BasematWarning` gives the
-        size of what comes before or after and is cut off: ``Record.padded`` makes room for it.
+        "within", as long. A :class:`BasematWarning` gives the size of what comes before or after and is
+        cut off, from 1e-4 of the peak on: :meth:`Record.padded` makes room for it.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
