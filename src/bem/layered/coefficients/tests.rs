@@ -74,7 +74,7 @@ fn lags_are_those_of_all_points() {
             // None of the panels that there could be.
             for (node, panels) in points.panels.iter().enumerate() {
                 let unresolved = |places: &[Place]| {
-                    places.iter().for_each(|place| drop(panels.kept().insert(*place, None)));
+                    panels.kept().extend(places.iter().map(|place| (*place, None)));
                     Ok(vec![false; places.len()])
                 };
                 Block::circle(number, 1e-10).covered(node, unresolved).unwrap();
