@@ -11,6 +11,7 @@ import time
 import pytest
 
 import basemat as bm
+from basemat._progress import Line
 
 SOIL = bm.Soil(60e6, 0.3, 1900.0)
 PROFILE = bm.SoilProfile([bm.SoilLayer(SOIL, 6.0)], bm.Soil(600e6, 0.3, 2200.0))
@@ -28,6 +29,13 @@ def test_a_line_for_coefficients_and_one_for_steps(capsys: pytest.CaptureFixture
     coefficients, steps = capsys.readouterr().err.strip().split("\n")
     assert coefficients.split("\r")[-1].strip().endswith("parts of the ground's coefficients (100 %), 0 s left")
     assert "3000 of 3000 steps (100 %)" in steps and "coefficients" not in steps
+
+
+def test_a_line_that_is_told_its_end_twice_ends_once(capsys: pytest.CaptureFixture[str]) -> None:
+    line = Line("parts")
+    for done in (0, 3, 3):
+        line(done, 3)
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_expected_steps_are_made_ready_under_eyes() -> None:

@@ -16,14 +16,16 @@ class Line:
         self._items = items
         self._begin: tuple[float, int] | None = None
         self._written = 0.0
+        self._ended = False
 
     def __call__(self, done: int, total: int) -> None:
         now = time.monotonic()
         if self._begin is None:
             self._begin = (now, done)
-        if done < total and now - self._written < 0.2:
+        if self._ended or (done < total and now - self._written < 0.2):
             return
-        self._written = now
+        # The end may be told twice.
+        self._written, self._ended = now, done >= total
         begin, before = self._begin
         made = done - before
         left = f", {(now - begin) * (total - done) / made:.0f} s left" if made else ""

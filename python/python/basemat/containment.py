@@ -154,8 +154,8 @@ def main(arguments: list[str] | None = None) -> None:
     cases: list[float | None] = [None, math.inf, *options.friction]
     print(
         f"{'':<13}{'shear':>10}{'ratio':>8}{'paper':>8}{'uplift':>9}{'slip':>9}{'residual':>10}"
-        f"{'roof x':>9}{'energy balance':>9}{'run':>7}\n"
-        f"{'case':<13}{'kN/m':>10}{'':>16}{'%':>9}{'mm':>9}{'mm':>10}{'mm':>9}{'':>9}{'s':>7}"
+        f"{'roof x':>9}{'energy':>9}{'run':>7}\n"
+        f"{'case':<13}{'kN/m':>10}{'':>16}{'%':>9}{'mm':>9}{'mm':>10}{'mm':>9}{'error':>9}{'s':>7}"
     )
     bonded = 1.0
     for friction in cases:
