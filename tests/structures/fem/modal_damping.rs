@@ -72,7 +72,7 @@ fn modes_on_a_fixed_base_have_their_ratio() {
     let storeys = [Storey::new(3.0, mass_of_floor, spring); 5];
     let building = || ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys).unwrap();
     let ratios = [0.05, 0.03, 0.02];
-    let damping_of = |c: &[f64], angles: [f64; 2]| -> f64 {
+    let damping_of = |c: &Vec<Vec<f64>>, angles: [f64; 2]| -> f64 {
         let n = building().dofs();
         let shape = |angle: f64| {
             let mut shape = vec![0.0; n];
@@ -82,12 +82,12 @@ fn modes_on_a_fixed_base_have_their_ratio() {
             shape
         };
         let [left, right] = angles.map(shape);
-        (0..n * n).map(|at| left[at / n] * c[at] * right[at % n]).sum()
+        form(&left, c, &right)
     };
     let damped = ModalDamping::new(&ratios).unwrap().on_fixed_base(building()).unwrap();
     assert_eq!(damped.frequencies().len(), floors);
     let own = damping(&damped);
-    let free = damping(&ModalDamping::new(&ratios).unwrap().on(building()).unwrap());
+    let free = damping(&ModalDamping::new(&[0.05]).unwrap().on(building()).unwrap());
     let angle = |j: usize| (2.0 * j as f64 + 1.0) * std::f64::consts::PI / 22.0;
     // Σ sin² 2iα is (2n + 1)/4.
     let modal_mass = mass_of_floor * 11.0 / 4.0;
@@ -104,7 +104,7 @@ fn modes_on_a_fixed_base_have_their_ratio() {
     }
     let first = 2.0 * (spring / mass_of_floor).sqrt() * angle(0).sin();
     let ratio = damping_of(&free, [angle(0); 2]) / (2.0 * first * modal_mass);
-    assert!((0.005..0.01).contains(&ratio), "by itself: {ratio}");
+    assert!((ratio - 0.0086).abs() < 1e-4, "by itself: {ratio}");
 }
 
 /// Rigid motions are not damped, and a frame may have massless rotations.
@@ -116,7 +116,7 @@ fn damping_on_a_fixed_base_leaves_rigid_motions_alone() {
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
         let shift = model.rigid_motion(direction, [0.0; 2]);
         let force = largest(&multiply(&own, &shift));
-        assert!(force < 1e-9 * largest(&own), "{direction:?} {force}");
+        assert!(force < 1e-9 * largest(&own.concat()), "{direction:?} {force}");
     }
     assert!(eigenvalues(&own, &mass(&model)).iter().all(|rate| *rate > -1e-6));
 
