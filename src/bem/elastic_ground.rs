@@ -70,7 +70,7 @@ use crate::structure::Structure;
 ///     .build()?;
 /// let run = simulation.run(400, |_| {})?;
 /// assert!(run.energy_error < 1e-9);
-/// assert!(simulation.history_choice().unwrap().to_string().contains("3 stages"));
+/// assert!(simulation.ground().history_choice().unwrap().to_string().contains("3 stages"));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct ElasticGround {

@@ -33,11 +33,11 @@ const KEPT: usize = 8;
 ///         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 10)?)?;
 ///         let mut ground = ground.with_shared_kernels(&kernels);
 ///         ground.prepare(2.0e-3)?;
-///         ground.reserve(100 * case.index())
+///         ground.expect_steps(100 * case.index, None)
 ///     },
 ///     |_, result| assert_eq!(result, Ok(())),
 /// );
-/// assert_eq!(kernels.len(), 1);
+/// assert_eq!(kernels.count(), 1);
 /// # Ok::<(), Error>(())
 /// ```
 ///

@@ -66,7 +66,7 @@ words_with_numbers! {
 /// assert!((solution.states[0].shear - 5.0e3).abs() < 1e-6);
 /// assert!((solution.states[0].slip - 1.5e-3).abs() < 1e-12);
 /// solution.commit(&mut start)?;
-/// assert_eq!(start.get(0).map(|element| element.mode), Some(Mode::SlipRight));
+/// assert_eq!(start.iter().next().map(|element| element.mode), Some(Mode::SlipRight));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct ContactProblem {

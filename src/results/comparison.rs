@@ -122,6 +122,11 @@ impl Comparison {
         self.cases.push((name.into(), run));
     }
 
+    /// The cases, in the order they were added.
+    pub fn cases(&self) -> &[(String, Run)] {
+        &self.cases
+    }
+
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));

@@ -45,7 +45,7 @@ pub enum InclinedControl {
 /// // SV at 20° in the rock, whose outcrop moves as El Centro; x = −5 m is reached first.
 /// let wave = InclinedWave::sv(profile, 20.0_f64.to_radians())?;
 /// let field = wave.field(InclinedControl::OutcropHorizontal, &el_centro_1940(), -5.0)?;
-/// let [there, later] = [field.displacement(-5.0, 4.0), field.displacement(5.0, 4.0 + wave.delay(10.0))];
+/// let [there, later] = [field.displacement(-5.0, 4.0), field.displacement(5.0, 4.0 + 10.0 / wave.apparent_velocity())];
 /// assert!((there[0] - later[0]).abs() < 1e-12 && there[1] != 0.0);
 /// // Near the layer's first frequency the surface moves more than the outcrop.
 /// let [horizontal, _] = wave.transfer(InclinedControl::OutcropHorizontal, 200.0 / 48.0)?;

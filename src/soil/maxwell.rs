@@ -125,7 +125,7 @@ impl GeneralizedMaxwell {
     }
 
     /// Damping ratio Im μ/(2 Re μ) at `frequency` (Hz).
-    pub(crate) fn damping_ratio(&self, frequency: f64) -> f64 {
+    pub fn damping_ratio(&self, frequency: f64) -> f64 {
         let modulus = self.modulus(Complex::new(0.0, std::f64::consts::TAU * frequency));
         0.5 * modulus.im / modulus.re
     }

@@ -31,7 +31,7 @@ use crate::linalg::Complex;
 ///
 /// impl Relaxation for Zener {
 ///     fn modulus(&self, s: Complex) -> Complex {
-///         Complex::real(1.0) + s.scale(self.extra) / (s + Complex::real(self.rate))
+///         Complex::real(1.0) + s * self.extra / (s + Complex::real(self.rate))
 ///     }
 /// }
 ///

@@ -89,12 +89,7 @@ impl Probe {
         Self { unit: unit.into(), ..self }
     }
 
-    /// Its column in files: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
-    ///
-    /// ```
-    /// use basemat::coupled::Probe;
-    /// assert_eq!(Probe::acceleration("Roof, left", 7).column(), "roof_left_m_per_s2");
-    /// ```
+    /// Its column in files, `roof_left_m_per_s2`: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
     pub(crate) fn column(&self) -> String {
         column(&self.name, &self.unit)
     }

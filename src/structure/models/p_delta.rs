@@ -46,7 +46,7 @@ impl FemModel {
     /// mesh.add(LumpedMass::new(top, 40.0e3)?)?;
     /// let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &[left, right])?;
     /// let model = model.with_p_delta(9.81)?;
-    /// let column = model.mesh().element(2).and_then(|beam| beam.compression()).unwrap();
+    /// let column = model.mesh().elements().nth(2).and_then(|beam| beam.compression()).unwrap();
     /// assert!((column - 40.0e3 * 9.81).abs() < 1e-6);
     /// // Euler's π²EI/(4L²), 0.75 % above it with one beam.
     /// let euler = std::f64::consts::PI.powi(2) * 30.0e9 * 1.0e-3 / (4.0 * 36.0);
