@@ -52,7 +52,7 @@ fn shake(
     let storeys = [Storey::new(3.0, 24.0e3, 60.0e6); 5];
     let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?;
     let roof = building.roof();
-    let damped = ModalDamping::new(&[0.05])?.on(building)?;
+    let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
     let mut simulation = Simulation::builder(STEP)
         .ground(ground(&damped)?)
         .structure(damped)

@@ -244,7 +244,8 @@ impl Simulation {
     /// Closes a run of this simulation: its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
         let opens = |element| self.scene.law(element).modes().contains(&Mode::Open);
-        run.finish(self.ground.as_ref(), self.motion.as_ref(), opens);
+        let uncovered = self.scene.base.uncovered(self.ground.elements());
+        run.finish(self.ground.as_ref(), self.motion.as_ref(), opens, &uncovered);
         run
     }
 

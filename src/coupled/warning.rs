@@ -80,6 +80,13 @@ pub enum Warning {
         /// Fewest that it needs.
         needed: usize,
     },
+    /// The base reaches beyond the ground's elements, by more than one of them: nothing carries it there.
+    UncoveredBase {
+        /// The foundation, from the left, from 0.
+        foundation: usize,
+        /// How far it reaches beyond them, m.
+        reach: f64,
+    },
     /// A soil unlike any: a number in another unit, unless the model is not to scale.
     UnusualSoil {
         /// Speed of its shear waves, m/s.
@@ -194,6 +201,10 @@ impl fmt::Display for Warning {
             Self::FewElements { foundation, elements, needed } => write!(
                 f,
                 "elements under foundation {foundation}: {elements}, its rocking needs {needed}"
+            ),
+            Self::UncoveredBase { foundation, reach } => write!(
+                f,
+                "foundation {foundation} reaches {reach:.2} m beyond the ground's elements: nothing carries it there"
             ),
             Self::UnusualSoil { shear_wave_speed, density } => write!(
                 f,

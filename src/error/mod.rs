@@ -213,7 +213,7 @@ pub enum Error {
     /// A structure with stiffness to a fixed point: the ground alone must hold it up.
     #[error(
         "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
-         {force:.2e} N at unknown {unknown}, {share:.1e} of the stiffness around (entries of a \
+         {force:.2e} N at degree of freedom {unknown}, {share:.1e} of the stiffness around (entries of a \
          stiffness matrix in a file need eleven digits or more)"
     )]
     Restrained {

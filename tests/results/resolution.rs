@@ -225,6 +225,28 @@ fn bonded_bases_that_are_pulled_up() {
     assert_eq!(warns(&shake(Box::new(Bonded), 1.0, 0.0)), None);
 }
 
+/// A base of 8 m on elements that end 2 m within it; one that ends within an element of theirs passes.
+#[test]
+fn a_base_beyond_the_elements() {
+    let found = |half: f64| {
+        let elements = Strip::uniform(-half..half, 8).unwrap();
+        let mut simulation = Simulation::builder(5e-3)
+            .ground(ElasticGround::new(soil(250.0), elements).unwrap())
+            .structure(storeys())
+            .interface(Bonded)
+            .motion(el_centro_1940())
+            .build()
+            .unwrap();
+        let run = simulation.run(200, |_| {}).unwrap();
+        run.warnings.into_iter().find(|warning| matches!(warning, Warning::UncoveredBase { .. }))
+    };
+    let half = 4.0;
+    let Some(Warning::UncoveredBase { foundation: 0, reach }) = found(0.5 * half) else { panic!() };
+    assert!((reach - 0.5 * half).abs() < 1e-12, "{reach}");
+    assert_eq!(found(0.9 * half), None);
+    assert_eq!(found(half), None);
+}
+
 /// Rocking on one element meets no stiffness, on two too little of it.
 #[test]
 fn too_few_elements() {

@@ -187,12 +187,14 @@ impl Run {
         }
     }
 
-    /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can.
+    /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can,
+    /// `uncovered` which foundations reach beyond the ground's elements, and how far (m).
     pub(crate) fn finish(
         &mut self,
         ground: &dyn Ground,
         motion: &dyn FreeField,
         opens: impl Fn(usize) -> bool,
+        uncovered: &[(usize, f64)],
     ) {
         // A run that was read from a file is closed.
         if self.elements.is_empty() {
@@ -210,6 +212,9 @@ impl Run {
         );
         self.warnings.extend(base::tension(&self.envelope, opens));
         self.warnings.extend(Warning::of_soils(&ground.soils()));
+        let warning =
+            |&(foundation, reach): &(usize, f64)| Warning::UncoveredBase { foundation, reach };
+        self.warnings.extend(uncovered.iter().map(warning));
         self.resolution.warn(&mut self.warnings);
     }
 

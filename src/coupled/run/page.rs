@@ -114,7 +114,7 @@ impl Run {
         )?;
         writeln!(
             f,
-            "  {:.3} s in {} stretches, the longest {:.3} s; {:.3} s without contact",
+            "  {:.3} s in {} intervals, the longest {:.3} s; {:.3} s without contact",
             uplift.duration, uplift.count, uplift.longest, uplift.flight
         )?;
         let (sliding, mean) = (&self.whole.sliding, self.whole.mean_slip.largest());
@@ -131,7 +131,7 @@ impl Run {
             if self.foundations.len() > 1 { "all foundations as one" } else { "the whole base" };
         write!(
             f,
-            "  slip events of {base}: {}, in all {:.3} s and {:.3} mm of way",
+            "  slip events of {base}: {}, in all {:.3} s and {:.3} mm of sliding",
             sliding.events.len(),
             sliding.duration,
             1e3 * sliding.path

@@ -110,6 +110,19 @@ impl Base {
         self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
     }
 
+    /// The foundations that reach beyond the ground's elements by more than their longest, and how far (m).
+    pub(crate) fn uncovered(&self, ground: &[ContactElement]) -> Vec<(usize, f64)> {
+        let reach = |(nodes, own): (&[ContactNode], Range<usize>)| {
+            let own = &ground[own];
+            let [first, last] = [own.first()?, own.last()?];
+            let longest = own.iter().map(ContactElement::length).fold(0.0, f64::max);
+            let beyond = nodes.iter().map(|node| (first.left - node.x).max(node.x - last.right));
+            Some(beyond.fold(0.0, f64::max)).filter(|reach| *reach > longest)
+        };
+        let reaches = self.foundations().map(reach).enumerate();
+        reaches.filter_map(|(foundation, reach)| Some((foundation, reach?))).collect()
+    }
+
     /// Lengths A of the elements.
     pub(crate) fn lengths(&self) -> &[f64] {
         &self.lengths

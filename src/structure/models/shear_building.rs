@@ -162,6 +162,7 @@ impl ShearBuilding {
     }
 
     /// The storeys, from below.
+    #[cfg(any(feature = "io", feature = "plot"))]
     pub(crate) fn storeys(&self) -> &[Storey] {
         &self.storeys
     }
