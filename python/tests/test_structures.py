@@ -307,6 +307,13 @@ def test_names_of_degrees_of_freedom_reach_probes_frames_and_errors(soil: bm.Soi
     assert pickle.loads(pickle.dumps(run)).dof_names == NAMES
     damped = bm.WithModalDamping(pickle.loads(pickle.dumps(model)), [0.05])
     assert damped.dof_names == NAMES
+    # Five equal storeys on a fixed base: 2 sqrt(k/m) sin(pi/22) is the lowest circular frequency.
+    storeys = [bm.Storey(3.0, 30.0e3, 60.0e6)] * 5
+    building = bm.ShearBuilding(8.0, 60.0e3, 4.0e5, storeys)
+    held = bm.WithModalDamping(building, [0.05], fixed_base=True)
+    lowest = 2.0 * np.sqrt(60.0e6 / 30.0e3) * np.sin(np.pi / 22.0) / (2.0 * np.pi)
+    assert held.frequencies[0] == pytest.approx(lowest, rel=1e-5)
+    assert bm.WithModalDamping(building, [0.05]).frequencies[0] > 3.0 * lowest
     with pytest.raises(bm.InputError, match="quantity is 'force', but must be 'displacement' or"):
         run.motion_frame("force")  # type: ignore[arg-type]
     loose = named(factor=0.0)

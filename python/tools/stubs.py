@@ -47,7 +47,9 @@ class Stubs:
                 owner = getattr(basemat._core, node.name)
                 for member in reversed(node.body):
                     if isinstance(member, ast.FunctionDef) and not member.name.startswith("_"):
-                        self.replace_body(member, vars(owner)[member.name])
+                        value = vars(owner)[member.name]
+                        # The text of a static method is that of its function.
+                        self.replace_body(member, getattr(value, "__func__", value))
                 self.replace_head(node, owner)
             elif isinstance(node, ast.FunctionDef):
                 self.replace_body(node, getattr(basemat._core, node.name))

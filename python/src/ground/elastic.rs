@@ -105,8 +105,7 @@ impl Options {
     }
 
     fn of(&self, ground: ElasticGround) -> basemat::Result<ElasticGround> {
-        let mut options =
-            HistoryOptions { tolerance: self.history_tolerance, ..self.kind.into() };
+        let mut options = HistoryOptions { tolerance: self.history_tolerance, ..self.kind.into() };
         options.memory = self.memory.unwrap_or(options.memory);
         let mut ground = ground.with_history(options)?;
         if let Some(stages) = self.stages {

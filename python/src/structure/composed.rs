@@ -149,21 +149,32 @@ impl PyStructureGroup {
     }
 }
 
-/// A ``structure`` with damping ``ratios`` (array of shape (m,)) of its own modes beside its own damping:
-/// of the lowest mode first, the last of them for all further modes.
+/// A ``structure`` with damping ``ratios`` (array of shape (m,)) of its modes beside its own damping: of the lowest
+/// mode first, the last of them for all further modes.
+///
+/// With ``fixed_base`` the modes are those on a fixed base, which codes and tests speak of. Without (the default) they
+/// are those of the structure by itself, far higher: of 5 %, the first mode of five storeys on a base then has 0.9 %.
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithModalDamping(Vec<f64>);
 
 #[pymethods]
 impl PyWithModalDamping {
     #[new]
-    fn new(structure: Bound<'_, PyAny>, ratios: Numbers) -> PyResult<PyClassInitializer<Self>> {
+    #[pyo3(signature = (structure, ratios, *, fixed_base = false))]
+    fn new(
+        structure: Bound<'_, PyAny>,
+        ratios: Numbers,
+        fixed_base: bool,
+    ) -> PyResult<PyClassInitializer<Self>> {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let own = structure().or_raise()?;
         let names = DofNames::of(&object, own.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
-        let frequencies = damping.on(own).or_raise()?.frequencies().to_vec();
-        let make = move || Ok(Box::new(damping.on(structure()?)?) as Box<_>);
+        let damped = move |structure| {
+            if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
+        };
+        let frequencies = damped(own).or_raise()?.frequencies().to_vec();
+        let make = move || Ok(Box::new(damped(structure()?)?) as Box<_>);
         let base = PyStructure::new(Arc::new(make)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
     }
