@@ -3,6 +3,7 @@
 
 mod array;
 mod cases;
+mod dof_names;
 mod error;
 mod ground;
 mod interface;

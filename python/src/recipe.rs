@@ -6,7 +6,7 @@ use std::sync::Arc;
 use basemat::Result;
 use basemat::structure::{ContactNode, Structure, Triplets};
 
-use crate::structure::DofNames;
+use crate::dof_names::DofNames;
 
 /// Makes a part for one simulation.
 pub(crate) type Recipe<T> = Arc<dyn Fn() -> Result<Box<T>> + Send + Sync>;

@@ -46,7 +46,7 @@ pub(crate) struct Ticker {
     asked: bool,
     /// Called with what is done and with all that there is to do.
     progress: Option<Py<PyAny>>,
-    /// What it was last called with.
+    /// Parts done at the last call of `progress`.
     told: Option<usize>,
 }
 

@@ -84,7 +84,7 @@ pub enum Warning {
     UncoveredBase {
         /// The foundation, from the left, from 0.
         foundation: usize,
-        /// How far it reaches beyond them, m.
+        /// Distance from the outermost element to the end of the foundation, m.
         reach: f64,
     },
     /// A soil unlike any: a number in another unit, unless the model is not to scale.

@@ -156,8 +156,8 @@ impl Fit {
         let basis: Vec<Vec<f64>> =
             (0..self.terms).map(|term| self.basis(term, samples.len())).collect();
         let target: Vec<f64> = samples.iter().map(|a| a / scale).collect();
-        let motions: Vec<Motion> =
-            basis.iter().chain([&target]).map(|a| Motion::new(step, a, self.least)).collect();
+        let motions: Vec<Integrals> =
+            basis.iter().chain([&target]).map(|a| Integrals::new(step, a, self.least)).collect();
         let coefficients = self.solve(&motions)?;
         let correction = |index: usize| -> f64 {
             coefficients.iter().zip(&basis).map(|(c, phi)| c * phi[index]).sum()
@@ -182,7 +182,7 @@ impl Fit {
     }
 
     /// Coefficients; the last of `motions` is the target.
-    fn solve(&self, motions: &[Motion]) -> Result<Vec<f64>> {
+    fn solve(&self, motions: &[Integrals]) -> Result<Vec<f64>> {
         let terms = self.terms;
         let order = terms + self.zero_at_end.len();
         // one row more than columns: the right-hand side is the last column
@@ -206,7 +206,7 @@ impl Fit {
 }
 
 /// Integrals of an acceleration, as the fit needs them.
-struct Motion {
+struct Integrals {
     /// The fitted quantity at the Gauss points of each interval, times the root of the weight.
     values: Vec<f64>,
     velocity: f64,
@@ -221,7 +221,7 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-impl Motion {
+impl Integrals {
     fn new(step: f64, samples: &[f64], least: Quantity) -> Self {
         let (velocity, displacement) = super::integral::integrate(step, samples);
         let last = samples.len() - 1;

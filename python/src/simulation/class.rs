@@ -12,13 +12,13 @@ use super::build;
 use super::watched::{Watched, prepared, settled};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
 use crate::array::{Numbers, whole};
+use crate::dof_names::DofNames;
 use crate::error::{OrRaise, locked, raise, refuse, take_raised};
 use crate::ground::PyGround;
 use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
 use crate::results::PyRun;
-use crate::structure::DofNames;
 use crate::ticker::{progress_function, watched};
 use crate::{error, interface, motion, structure, user};
 

@@ -9,9 +9,9 @@ use basemat::results::TimeSeries;
 use pyo3::prelude::*;
 
 use super::PyState;
+use crate::dof_names::DofNames;
 use crate::error::{OrRaise, has_raised, raise, returned, take_raised};
 use crate::results::PyRun;
-use crate::structure::DofNames;
 use crate::ticker::{Ticker, watched};
 
 /// A run and those who watch it.

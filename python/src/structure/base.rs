@@ -6,7 +6,8 @@ use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::{DofNames, PyContactNode};
+use super::PyContactNode;
+use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
 use crate::row::PyDofCombination;

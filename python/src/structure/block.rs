@@ -3,7 +3,8 @@
 use basemat::structure::RigidBlock;
 use pyo3::prelude::*;
 
-use super::{DofNames, PyStructure};
+use super::PyStructure;
+use crate::dof_names::DofNames;
 use crate::error::OrRaise;
 use crate::row::PyDofCombination;
 

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey, Structure};
 use pyo3::prelude::*;
 
+use super::PyStructure;
 use super::hysteresis::LawLike;
-use super::{DofNames, PyStructure};
 use crate::array::whole;
+use crate::dof_names::DofNames;
 use crate::error::{OrRaise, refuse};
 use crate::recipe::Recipe;
 use crate::row::{PyDofCombination, PySectionRows};

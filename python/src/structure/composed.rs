@@ -8,8 +8,9 @@ use basemat::structure::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::{DofNames, PyStructure, recipe};
+use super::{PyStructure, recipe};
 use crate::array::{Numbers, whole};
+use crate::dof_names::DofNames;
 use crate::error::{OrRaise, refuse};
 use crate::recipe::{Recipe, Shared};
 use crate::row::{PyDofCombination, RowLike};

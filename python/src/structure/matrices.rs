@@ -5,10 +5,11 @@ use std::sync::Arc;
 use basemat::structure::MatrixModel;
 use pyo3::prelude::*;
 
+use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::contact_node::{PyContactNode, nodes};
-use super::{DofNames, PyStructure};
 use crate::array::Matrix;
+use crate::dof_names::DofNames;
 use crate::error::{OrRaise, refuse};
 use crate::recipe::Shared;
 

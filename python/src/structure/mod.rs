@@ -6,7 +6,6 @@ mod building;
 mod composed;
 mod contact_node;
 mod dof_combination;
-mod dof_names;
 mod fem;
 mod hysteresis;
 mod matrices;
@@ -20,7 +19,6 @@ pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
 pub(crate) use contact_node::{PyContactNode, nodes};
-pub(crate) use dof_names::DofNames;
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber,

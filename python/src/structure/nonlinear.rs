@@ -6,7 +6,8 @@ use basemat::structure::{DofCombination, Hysteresis, WithSprings};
 use pyo3::prelude::*;
 
 use super::hysteresis::LawLike;
-use super::{DofNames, PyStructure, recipe};
+use super::{PyStructure, recipe};
+use crate::dof_names::DofNames;
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::RowLike;

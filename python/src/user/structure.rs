@@ -6,8 +6,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::array::{Count, Matrix, Numbers};
+use crate::dof_names::DofNames;
 use crate::error::{keep, kept, refuse, returned};
-use crate::structure::{DofNames, PyContactNode};
+use crate::structure::PyContactNode;
 
 /// Its name in errors.
 const PART: &str = "structure";

@@ -8,14 +8,42 @@ use crate::history::KINDS;
 use crate::linalg::Complex;
 
 /// Rounding of C relative to its largest value on a panel.
-const FLOOR: f64 = 3e-14;
+pub(crate) const FLOOR: f64 = 3e-14;
 /// Exponent of the tolerance in the Legendre coefficients that may be left out on the narrowest panels and
 /// their halves: 16 points integrate products up to degree 31, so the error is about their power 3/2 to 5/3.
-const SHARE: f64 = 2.0 / 3.0;
+pub(crate) const SHARE: f64 = 2.0 / 3.0;
 /// Panels are halved at most so often.
 const DEEPEST: u32 = 44;
 /// Most halves of one integral: rounding beyond [`FLOOR`] must not halve without end.
 const MOST_HALVES: usize = 1 << 16;
+
+/// Halves the panel from `start` on, `whole` wide, until C is resolved on every part: `sample` is called with the left
+/// end and the width of a part, and says whether it is resolved on its samples; `take` with place and size of a
+/// resolved part, relative to the panel, its width and its samples. The wavenumber where halving stopped if it did.
+pub(crate) fn by_halves<S>(
+    [start, whole]: [f64; 2],
+    stack: &mut Vec<(f64, f64, u32)>,
+    mut sample: impl FnMut(f64, f64) -> (S, bool),
+    mut take: impl FnMut([f64; 2], f64, S),
+) -> std::result::Result<(), f64> {
+    let mut halves = 0;
+    stack.clear();
+    stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
+    while let Some((place, size, depth)) = stack.pop() {
+        let (left, width) = (start + whole * place, whole * size);
+        let (samples, resolved) = sample(left, width);
+        if resolved {
+            take([place, size], width, samples);
+        } else if depth < DEEPEST && halves < MOST_HALVES {
+            halves += 2;
+            let half = 0.5 * size;
+            stack.extend([(place + half, half, depth + 1), (place, half, depth + 1)]);
+        } else {
+            return Err(left);
+        }
+    }
+    Ok(())
+}
 
 impl Wavenumbers {
     /// Calls `take` with each panel that C is resolved on, what was found there, and evaluations of C in its halves.
@@ -136,38 +164,29 @@ impl Wavenumbers {
         work: &mut Workspace,
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> std::result::Result<[[f64; 6]; DEGREES], f64> {
-        let whole = self.forms.width;
-        let mut halves = 0;
+        let rule = &self.forms.rule;
         let mut moments = [[0.0; 6]; DEGREES];
-        work.stack.clear();
-        work.stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
-        while let Some((place, size, depth)) = work.stack.pop() {
-            let (left, width) = (start + whole * place, whole * size);
+        let Workspace { stack, evaluations, .. } = work;
+        let sample = |left: f64, width: f64| {
+            *evaluations += POINTS;
             let samples = self.sampled(left, width, symbol);
-            work.evaluations += POINTS;
-            if self.resolved(&samples, left, width, allowed) {
-                let rule = &self.forms.rule;
-                let x: [f64; POINTS] = std::array::from_fn(|i| {
-                    2.0 * (place + 0.5 * size * (1.0 + rule.nodes[i])) - 1.0
-                });
-                let polynomials = legendre_at(x);
-                let c: [[f64; 6]; POINTS] =
-                    std::array::from_fn(|i| parts(&samples[i], 0.5 * width * rule.weights[i]));
-                for (moment, polynomials) in moments.iter_mut().zip(&polynomials) {
-                    for (polynomial, c) in polynomials.iter().zip(&c) {
-                        for (moment, c) in moment.iter_mut().zip(c) {
-                            *moment += polynomial * c;
-                        }
+            let resolved = self.resolved(&samples, left, width, allowed);
+            (samples, resolved)
+        };
+        by_halves([start, self.forms.width], stack, sample, |[place, size], width, samples| {
+            let x: [f64; POINTS] =
+                std::array::from_fn(|i| 2.0 * (place + 0.5 * size * (1.0 + rule.nodes[i])) - 1.0);
+            let polynomials = legendre_at(x);
+            let c: [[f64; 6]; POINTS] =
+                std::array::from_fn(|i| parts(&samples[i], 0.5 * width * rule.weights[i]));
+            for (moment, polynomials) in moments.iter_mut().zip(&polynomials) {
+                for (polynomial, c) in polynomials.iter().zip(&c) {
+                    for (moment, c) in moment.iter_mut().zip(c) {
+                        *moment += polynomial * c;
                     }
                 }
-            } else if depth < DEEPEST && halves < MOST_HALVES {
-                halves += 2;
-                let half = 0.5 * size;
-                work.stack.extend([(place + half, half, depth + 1), (place, half, depth + 1)]);
-            } else {
-                return Err(left);
             }
-        }
+        })?;
         Ok(moments)
     }
 }

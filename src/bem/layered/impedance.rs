@@ -75,7 +75,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Im μ/|μ| below which a layer counts as undamped.
 const LOSSLESS: f64 = 1e-6;
 /// Points of the extrapolation.
-const POINTS: usize = 8;
+pub(in crate::bem) const PER_FREQUENCY: usize = 8;
 /// Their distance over ω, and over the inverse of the time that waves take.
 const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between 8 and 7 points.
@@ -124,7 +124,7 @@ pub(crate) fn rigid_strip_impedances_observed(
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<StripImpedance>> {
-    let mut watch = Watch::new("impedances", POINTS * frequencies.len(), observer);
+    let mut watch = Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer);
     all(profile, elements, frequencies, contact, &mut watch)
 }
 
@@ -138,8 +138,58 @@ fn all(
     let strip = RigidStrip::new(profile, elements, contact)?;
     let mut found = Vec::with_capacity(frequencies.len());
     for (number, frequency) in frequencies.iter().enumerate() {
-        found.push(strip.at(*frequency, &mut |point| watch.reach(POINTS * number + point))?);
-        watch.reach(POINTS * (number + 1))?;
+        found.push(strip.at(*frequency, &mut |point| watch.reach(PER_FREQUENCY * number + point))?);
+        watch.reach(PER_FREQUENCY * (number + 1))?;
+    }
+    Ok(found)
+}
+
+/// Laplace variables at which the stiffness is evaluated for a frequency, of elements over `span` (m): iω, or
+/// where layers are undamped [`PER_FREQUENCY`] points beside it.
+pub(in crate::bem) fn points(profile: &SoilProfile, span: f64, omega: f64) -> Result<Vec<Complex>> {
+    let s = Complex::new(0.0, omega);
+    let mut moduli = vec![];
+    profile.moduli(s, &mut moduli)?;
+    let damped = moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs());
+    if damped || omega == 0.0 {
+        return Ok(vec![s]);
+    }
+    let slowest = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
+    let time = span / slowest + 2.0 * profile.travel_time();
+    let step = (SPACING[0] * omega).min(SPACING[1] / time);
+    Ok((1..=PER_FREQUENCY).map(|j| Complex::new(step * j as f64, omega)).collect())
+}
+
+/// K(iω) from its samples at [`points`]. Entries `judged` must agree between all samples and all but the last.
+///
+/// # Errors
+/// [`LayeredError::Unresolved`] where they do not.
+pub(in crate::bem) fn extrapolated<const N: usize>(
+    samples: &[[Complex; N]],
+    judged: &[usize],
+    omega: f64,
+) -> Result<[Complex; N]> {
+    if let [only] = samples {
+        return Ok(*only);
+    }
+    // Lagrange's polynomial at zero.
+    let limit = |count: usize| {
+        let mut sum = [Complex::default(); N];
+        for (j, sample) in (1..=count).zip(samples) {
+            let others = (1..=count).filter(|m| *m != j);
+            let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
+            for (sum, value) in sum.iter_mut().zip(sample) {
+                *sum += value.scale(weight);
+            }
+        }
+        sum
+    };
+    let (found, coarse) = (limit(samples.len()), limit(samples.len() - 1));
+    for place in judged {
+        let change = (found[*place] - coarse[*place]).abs();
+        if change.is_nan() || change > SETTLED * found[*place].abs() {
+            return Err(LayeredError::Unresolved { re: 0.0, im: omega, wavenumber: 0.0 }.into());
+        }
     }
     Ok(found)
 }
@@ -192,52 +242,18 @@ impl<'a> RigidStrip<'a> {
             }
             self.stiffness(&static_compliance::pairs(self.profile, &self.classes)?)?
         } else {
-            let s = Complex::new(0.0, omega);
-            let mut moduli = vec![];
-            self.profile.moduli(s, &mut moduli)?;
-            if moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs()) {
-                self.dynamic(s)?
-            } else {
-                self.extrapolated(omega, after)?
+            let mut samples = vec![];
+            let list = points(self.profile, self.classes.span(), omega)?;
+            for (j, s) in list.iter().enumerate() {
+                samples.push(self.dynamic(*s)?);
+                if j + 1 < list.len() {
+                    after(j + 1)?;
+                }
             }
+            extrapolated(&samples, &[0, 1, 2], omega)?
         };
         let [horizontal, vertical, rocking, coupling] = values;
         Ok(StripImpedance { frequency, horizontal, vertical, rocking, coupling })
-    }
-
-    /// K(iω) from K(iω + jη), j = 1 … 8.
-    fn extrapolated(
-        &self,
-        omega: f64,
-        after: &mut dyn FnMut(usize) -> Result<()>,
-    ) -> Result<[Complex; 4]> {
-        let slowest = self.profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
-        let time = self.classes.span() / slowest + 2.0 * self.profile.travel_time();
-        let step = (SPACING[0] * omega).min(SPACING[1] / time);
-        let mut sums = [[Complex::default(); 4]; 2];
-        for j in 1..=POINTS {
-            let found = self.dynamic(Complex::new(step * j as f64, omega))?;
-            if j < POINTS {
-                after(j)?;
-            }
-            for (points, sums) in [POINTS, POINTS - 1].into_iter().zip(&mut sums) {
-                // Lagrange's polynomial at zero.
-                let others = (1..=points).filter(|m| *m != j);
-                let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
-                let weight = if j > points { 0.0 } else { weight };
-                for (sum, value) in sums.iter_mut().zip(found) {
-                    *sum += value.scale(weight);
-                }
-            }
-        }
-        let [found, coarse] = sums;
-        for (found, coarse) in found.iter().zip(&coarse).take(3) {
-            let change = (*found - *coarse).abs();
-            if change.is_nan() || change > SETTLED * found.abs() {
-                return Err(LayeredError::Unresolved { re: 0.0, im: omega, wavenumber: 0.0 }.into());
-            }
-        }
-        Ok(found)
     }
 
     fn dynamic(&self, s: Complex) -> Result<[Complex; 4]> {

@@ -41,7 +41,7 @@ pub struct Plan {
     overhang: f64,
     /// Area of the outline, m².
     area: f64,
-    /// What it was made of: faces and cells along the shorter side.
+    /// Faces of the outline, and cells along its shorter side; none of discs and masks.
     faces: (Vec<Face>, usize),
 }
 

@@ -74,7 +74,7 @@ impl Rows {
     }
 }
 
-/// What wavenumbers are needed for: reach of the Laplace variables, and thickness of the top layer.
+/// Bounds of the wavenumbers: reach of the Laplace variables, and thickness of the top layer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Need {
     /// Largest |√q₂|, 1/m.

@@ -6,8 +6,8 @@
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
 use super::sectors::{MOTIONS, Sectors};
-use crate::bem::layered::StripContact;
-use crate::error::{LayeredError, Observer, PlanError, Result, Watch, not_negative};
+use crate::bem::layered::{PER_FREQUENCY, StripContact, extrapolated, points};
+use crate::error::{Observer, PlanError, Result, Watch, not_negative};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -40,20 +40,12 @@ impl PlanImpedance {
     }
 }
 
-type Matrix = [[Complex; MOTIONS]; MOTIONS];
-
 /// Accuracy of the cells' compliances; cells themselves leave far more.
 const TOLERANCE: f64 = 1e-9;
-/// Im μ/|μ| below which a layer counts as undamped.
-const LOSSLESS: f64 = 1e-6;
-/// Points of the extrapolation.
-const POINTS: usize = 8;
-/// Their distance over ω, and over the inverse of the time that waves take.
-const SPACING: [f64; 2] = [0.04, 0.1];
-/// Largest relative difference between 8 and 7 points.
-const SETTLED: f64 = 1e-3;
 /// Cells in a wavelength at least.
 const RESOLVED: f64 = 6.0;
+/// Entries of a matrix.
+const ENTRIES: usize = MOTIONS * MOTIONS;
 
 /// Dynamic stiffness of the rigid mats of `plan` on `profile` at each of `frequencies` (Hz).
 ///
@@ -75,7 +67,7 @@ const RESOLVED: f64 = 6.0;
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
-/// for less than six cells in a shear wave of the top layer; [`LayeredError::Unresolved`] without damping at a
+/// for less than six cells in a shear wave of the top layer; [`LayeredError::Unresolved`](crate::error::LayeredError::Unresolved) without damping at a
 /// frequency at which guided waves begin; [`PlanError::TooFine`] for a top layer too thin beside the mat;
 /// [`Error::Memory`](crate::Error::Memory).
 pub fn impedances_in_plan(
@@ -98,7 +90,7 @@ pub fn impedances_in_plan_observed(
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<PlanImpedance>> {
-    let mut watch = Watch::new("impedances", POINTS * frequencies.len(), observer);
+    let mut watch = Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer);
     all(profile, plan, frequencies, contact, &mut watch)
 }
 
@@ -114,7 +106,7 @@ fn all(
     for frequency in frequencies {
         not_negative("frequency of an impedance", *frequency)?;
         check_cells(profile, plan, *frequency)?;
-        lists.push(points(profile, plan, std::f64::consts::TAU * frequency)?);
+        lists.push(points(profile, plan.lattice.diagonal(), std::f64::consts::TAU * frequency)?);
     }
     let list = lists.iter().flatten().copied();
     let integrals = Integrals::new(&plan.lattice, profile, list, TOLERANCE, watch)?;
@@ -123,19 +115,25 @@ fn all(
         StripContact::Relaxed => &[&[0], &[1, 2]],
     };
     let sectors = Sectors::new(plan);
+    let diagonal: [usize; MOTIONS] = std::array::from_fn(|i| (MOTIONS + 1) * i);
     let (mut work, mut values) = (Workspace::default(), vec![]);
     let mut found = Vec::with_capacity(frequencies.len());
     for (number, (frequency, list)) in frequencies.iter().zip(lists).enumerate() {
         let mut samples = Vec::with_capacity(list.len());
         for (point, s) in list.iter().enumerate() {
             integrals.compliance(profile, *s, &mut work, &mut values)?;
-            samples.push(sectors.stiffness(&values, parts)?);
+            let matrix = sectors.stiffness(&values, parts)?;
+            let flat: [Complex; ENTRIES] =
+                std::array::from_fn(|k| matrix[k / MOTIONS][k % MOTIONS]);
+            samples.push(flat);
             if point + 1 < list.len() {
-                watch.reach(POINTS * number + point + 1)?;
+                watch.reach(PER_FREQUENCY * number + point + 1)?;
             }
         }
-        found.push(PlanImpedance { frequency: *frequency, matrix: limit(&samples, list[0].im)? });
-        watch.reach(POINTS * (number + 1))?;
+        let entries = extrapolated(&samples, &diagonal, list[0].im)?;
+        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| entries[MOTIONS * i + j]));
+        found.push(PlanImpedance { frequency: *frequency, matrix });
+        watch.reach(PER_FREQUENCY * (number + 1))?;
     }
     Ok(found)
 }
@@ -150,46 +148,4 @@ fn check_cells(profile: &SoilProfile, plan: &Plan, frequency: f64) -> Result<()>
         return Err(PlanError::CoarseCells { cell, frequency, wavelength, needed }.into());
     }
     Ok(())
-}
-
-/// Laplace variables at which a frequency is evaluated: itself, or where layers are undamped some beside it.
-fn points(profile: &SoilProfile, plan: &Plan, omega: f64) -> Result<Vec<Complex>> {
-    let s = Complex::new(0.0, omega);
-    let mut moduli = vec![];
-    profile.moduli(s, &mut moduli)?;
-    let damped = moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs());
-    if damped || omega == 0.0 {
-        return Ok(vec![s]);
-    }
-    let slowest = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
-    let time = plan.lattice.diagonal() / slowest + 2.0 * profile.travel_time();
-    let step = (SPACING[0] * omega).min(SPACING[1] / time);
-    Ok((1..=POINTS).map(|j| Complex::new(step * j as f64, omega)).collect())
-}
-
-/// K at iω, from one sample there or from some beside it by Lagrange's polynomial.
-fn limit(samples: &[Matrix], omega: f64) -> Result<Matrix> {
-    let at = |count: usize| -> Matrix {
-        let mut sum = [[Complex::default(); MOTIONS]; MOTIONS];
-        for (j, sample) in (1..=count).zip(samples) {
-            let others = (1..=count).filter(|m| *m != j);
-            let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
-            for (sum, value) in sum.iter_mut().flatten().zip(sample.iter().flatten()) {
-                *sum += value.scale(weight);
-            }
-        }
-        sum
-    };
-    let found = at(samples.len());
-    if samples.len() == 1 {
-        return Ok(found);
-    }
-    let coarse = at(samples.len() - 1);
-    for i in 0..MOTIONS {
-        let change = (found[i][i] - coarse[i][i]).abs();
-        if change.is_nan() || change > SETTLED * found[i][i].abs() {
-            return Err(LayeredError::Unresolved { re: 0.0, im: omega, wavenumber: 0.0 }.into());
-        }
-    }
-    Ok(found)
 }

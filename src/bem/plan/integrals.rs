@@ -19,7 +19,9 @@ use super::angular_means::FORMS;
 use super::form_table::{FormTable, Need, Rows, TERMS};
 use super::lattice::{Lattice, SERIES};
 use super::sh::transverse;
-use crate::bem::layered::{Compliance, DEGREES, POINTS, Surface, legendre, surface_series};
+use crate::bem::layered::{
+    Compliance, DEGREES, FLOOR, POINTS, SHARE, Surface, by_halves, legendre, surface_series,
+};
 use crate::error::{LayeredError, PlanError, Result, Watch};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -28,15 +30,6 @@ use crate::soil::SoilProfile;
 const KERNELS: usize = 4;
 /// C − C at rest, times k; or its moments.
 type Kernel = [Complex; KERNELS];
-/// Rounding of kC relative to its largest value on a panel.
-const FLOOR: f64 = 3e-14;
-/// Exponent of the tolerance in the Legendre coefficients that may be left out: 16 points integrate products up to
-/// degree 31.
-const SHARE: f64 = 2.0 / 3.0;
-/// Panels are halved at most so often.
-const DEEPEST: u32 = 44;
-/// Most halves of one panel: rounding beyond [`FLOOR`] must not halve without end.
-const MOST_HALVES: usize = 1 << 16;
 /// Decay lengths in the top layer beyond which its bottom is not felt: e^(−2·20) is 4e-18.
 const DEEP: f64 = 20.0;
 
@@ -272,35 +265,27 @@ impl Integrals {
         symbol: &mut Symbol,
     ) -> std::result::Result<(), f64> {
         let whole = self.table.width;
-        let start = panel as f64 * whole;
-        let mut halves = 0;
-        work.kernels.clear();
-        work.kernels.resize(DEGREES, Kernel::default());
-        work.stack.clear();
-        work.stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
-        while let Some((place, size, depth)) = work.stack.pop() {
-            let (left, width) = (start + whole * place, whole * size);
+        let Workspace { kernels, stack, evaluations, .. } = work;
+        kernels.clear();
+        kernels.resize(DEGREES, Kernel::default());
+        let sample = |left: f64, width: f64| {
+            *evaluations += POINTS;
             let samples = self.sampled(left, width, symbol);
-            work.evaluations += POINTS;
-            if self.resolved(&samples, symbol, left, width, allowed) {
-                let points = self.table.rule.points_on_unit_interval();
-                for (sample, (x, weight)) in samples.iter().zip(points) {
-                    let polynomials = legendre(2.0 * (place + size * x) - 1.0);
-                    for (moment, polynomial) in work.kernels.iter_mut().zip(polynomials) {
-                        for (moment, value) in moment.iter_mut().zip(sample) {
-                            *moment += value.scale(width * weight * polynomial);
-                        }
+            let resolved = self.resolved(&samples, symbol, left, width, allowed);
+            (samples, resolved)
+        };
+        by_halves([whole * panel as f64, whole], stack, sample, |[place, size], width, samples| {
+            for (sample, (x, weight)) in
+                samples.iter().zip(self.table.rule.points_on_unit_interval())
+            {
+                let polynomials = legendre(2.0 * (place + size * x) - 1.0);
+                for (moment, polynomial) in kernels.iter_mut().zip(polynomials) {
+                    for (moment, value) in moment.iter_mut().zip(sample) {
+                        *moment += value.scale(width * weight * polynomial);
                     }
                 }
-            } else if depth < DEEPEST && halves < MOST_HALVES {
-                halves += 2;
-                let half = 0.5 * size;
-                work.stack.extend([(place + half, half, depth + 1), (place, half, depth + 1)]);
-            } else {
-                return Err(left);
             }
-        }
-        Ok(())
+        })
     }
 
     /// Adds Σ kernel × forms over the first of `rows` to the sums.
