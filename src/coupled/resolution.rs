@@ -123,6 +123,8 @@ pub(crate) struct Resolution {
     /// Mean free field at the last two steps, and its last second difference.
     free_field: [[f64; 2]; 2],
     acceleration: [f64; 2],
+    /// Its largest component.
+    largest: f64,
     /// Steps seen without a gap.
     in_a_row: usize,
     base_shear: Variation,
@@ -162,6 +164,7 @@ impl Resolution {
             last_shear: 0.0,
             free_field: [state.free_field; 2],
             acceleration: [0.0; 2],
+            largest: 0.0,
             in_a_row: 0,
             base_shear: Variation::default(),
             ground: Variation::default(),
@@ -198,11 +201,17 @@ impl Resolution {
             let acceleration = state.free_field[k] - 2.0 * last[k] + before[k];
             if self.in_a_row > 2 {
                 self.ground.see(self.acceleration[k], acceleration);
+                self.largest = self.largest.max(acceleration.abs());
             }
             self.acceleration[k] = acceleration;
         }
         self.free_field = [last, state.free_field];
         self.last_shear = state.base_shear;
+    }
+
+    /// Largest component of the ground's acceleration, m/s².
+    pub(crate) fn largest_acceleration(&self) -> f64 {
+        self.largest / self.time_step.powi(2)
     }
 
     /// Whether a base shear that means anything was seen.

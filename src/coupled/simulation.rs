@@ -12,6 +12,7 @@ use super::scene::Scene;
 use super::state::State;
 use super::step::newton::Solver;
 use super::step::{Forcing, Increment};
+use super::warning::Warning;
 use crate::bem::{ContactElement, Ground};
 use crate::coupled::run::Run;
 use crate::error::{Error, Observer, Result, StepError, not_negative, positive};
@@ -36,6 +37,8 @@ pub struct Simulation {
     pub(super) books: Option<EnergyAccumulator>,
     pub(super) state: State,
     pub(super) conditioning: Conditioning,
+    /// Those that the scene calls for before its first step.
+    pub(super) warnings: Vec<Warning>,
 }
 
 short_debug! {
@@ -244,8 +247,7 @@ impl Simulation {
     /// Closes a run of this simulation: its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
         let opens = |element| self.scene.law(element).modes().contains(&Mode::Open);
-        let uncovered = self.scene.base.uncovered(self.ground.elements());
-        run.finish(self.ground.as_ref(), self.motion.as_ref(), opens, &uncovered);
+        run.finish(self.ground.as_ref(), self.motion.as_ref(), opens, &self.warnings);
         run
     }
 

@@ -231,7 +231,7 @@ impl State {
         let place = self.context.probes.iter().position(|own| own == name);
         // The list of values is public: it may have been cut.
         let value = place.and_then(|place| self.probes.get(place));
-        value.copied().ok_or_else(|| Error::Name { quantity: "probe", name: name.to_owned() })
+        value.copied().ok_or_else(|| Error::no_name("probe", name, self.context.probes.iter()))
     }
 
     /// The numbers that the law of an element remembers

@@ -94,6 +94,16 @@ pub enum Warning {
         /// Its density, kg/m³.
         density: f64,
     },
+    /// A structure slower than almost any: a stiffness in another unit, unless the model is not to scale.
+    LongPeriod {
+        /// Its period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
+        period: f64,
+    },
+    /// Ground acceleration above any that was recorded: a motion in another unit, unless the model is not to scale.
+    UnusualMotion {
+        /// Its largest component at any step, m/s².
+        acceleration: f64,
+    },
     /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear.
     LongElements {
         /// Longest element, m.
@@ -122,8 +132,33 @@ impl Warning {
     /// Densities of soils, kg/m³.
     const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
 
+    /// Period above which a structure is unusually slow, s: only the tallest towers and liquid in wide tanks are slower.
+    const LONGEST_PERIOD: f64 = 8.0;
+    /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
+    const LARGEST_ACCELERATION: f64 = 60.0;
+
+    /// Those that a scene calls for before its first step: `soils` of the ground, foundations that reach beyond the
+    /// ground's elements, and how far (m), `period` on a fixed base (s).
+    pub(crate) fn of_scene(soils: &[Soil], uncovered: &[(usize, f64)], period: f64) -> Vec<Self> {
+        let mut warnings: Vec<_> = Self::of_soils(soils).collect();
+        // A model not to scale has been told so.
+        if warnings.is_empty() && period > Self::LONGEST_PERIOD {
+            warnings.push(Self::LongPeriod { period });
+        }
+        let uncovered = uncovered.iter();
+        warnings.extend(
+            uncovered.map(|&(foundation, reach)| Self::UncoveredBase { foundation, reach }),
+        );
+        warnings
+    }
+
+    /// The one that the largest ground acceleration of a run calls for (m/s²).
+    pub(crate) fn of_motion(acceleration: f64) -> Option<Self> {
+        (acceleration > Self::LARGEST_ACCELERATION).then_some(Self::UnusualMotion { acceleration })
+    }
+
     /// Those that the numbers of `soils` call for.
-    pub(crate) fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
+    fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
         let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
         let unusual = numbers.filter(|[speed, density]| {
             !(within(Self::SOIL_SPEEDS, *speed) && within(Self::SOIL_DENSITIES, *density))
@@ -211,6 +246,13 @@ impl fmt::Display for Warning {
                 "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
                 likely_slip(*shear_wave_speed, *density)
             ),
+            Self::LongPeriod { period } => write!(
+                f,
+                "structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?"
+            ),
+            Self::UnusualMotion { acceleration } => {
+                write!(f, "ground acceleration of {acceleration:.3} m/s²: motion in cm/s²?")
+            }
             Self::LongElements { element_length, wavelength, needed } => write!(
                 f,
                 "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \

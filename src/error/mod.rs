@@ -78,7 +78,7 @@ pub enum Error {
     #[error(transparent)]
     Memory(#[from] MemoryError),
     /// An index that points outside its list.
-    #[error("{quantity} is {index}, but must be below {bound}")]
+    #[error("{quantity}: index {index} must be below {bound}")]
     Index {
         /// Name of the quantity.
         quantity: &'static str,
@@ -96,12 +96,14 @@ pub enum Error {
         reason: std::io::ErrorKind,
     },
     /// A name that nothing has.
-    #[error("there is no {quantity} called '{name}'")]
+    #[error("there is no {quantity} called '{name}', {}", names(.known))]
     Name {
         /// Item looked for.
         quantity: &'static str,
         /// The name that was given.
         name: String,
+        /// The names that are known.
+        known: Vec<String>,
     },
     /// A name that must be given once only.
     #[error("more than one {quantity} is called '{name}'")]
@@ -374,6 +376,29 @@ pub enum Error {
         /// Failure of the step.
         r#source: StepError,
     },
+}
+
+impl Error {
+    /// [`Error::Name`] for a name that none of `known` is.
+    pub(crate) fn no_name(
+        quantity: &'static str,
+        name: &str,
+        known: impl Iterator<Item = impl Into<String>>,
+    ) -> Self {
+        Self::Name { quantity, name: name.to_owned(), known: known.map(Into::into).collect() }
+    }
+}
+
+/// Most names that the text of an error lists.
+const LISTED: usize = 12;
+
+/// The names that there are, as many as can be listed.
+fn names(known: &[String]) -> String {
+    if known.is_empty() {
+        return "there are none".into();
+    }
+    let more = if known.len() > LISTED { ", …" } else { "" };
+    format!("only {}{more}", known[..known.len().min(LISTED)].join(", "))
 }
 
 /// A line of a file, or the file as a whole.

@@ -243,7 +243,10 @@ pub enum StabilityError {
         then: Box<StabilityError>,
     },
     /// Part of the structure has neither stiffness nor damping nor mass against a motion.
-    #[error("nothing resists a motion of {place}: neither stiffness nor damping nor mass")]
+    #[error(
+        "nothing resists a motion of {place}: neither stiffness nor damping nor mass of the structure (give it a mass: \
+         the ground does not hold it while it is lifted)"
+    )]
     Massless {
         /// The degrees of freedom that take part in it, ascending.
         dofs: Vec<usize>,

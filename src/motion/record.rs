@@ -2,7 +2,7 @@
 
 use super::Baseline;
 use super::integral::{Motion, integrate};
-use crate::error::{Error, MemoryError, RecordError, Result, finite, memory, positive};
+use crate::error::{Error, MemoryError, RecordError, Result, all_finite, finite, memory, positive};
 use crate::text::column::{Cell, line};
 use crate::text::csv::Csv;
 
@@ -50,7 +50,8 @@ impl Record {
     ///
     /// # Errors
     /// [`Error::Input`] unless the time step is positive and all samples, the slopes between them and
-    /// the velocity and displacement that follow are finite; [`Error::Record`] for fewer than two samples.
+    /// the velocity and displacement that follow are finite; [`Error::NotFinite`] for a sample that is not;
+    /// [`Error::Record`] for fewer than two samples.
     pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
         positive("time step of the record", time_step)?;
         if acceleration.len() < 2 {
@@ -60,9 +61,7 @@ impl Record {
                 reason: RecordError::TooShort { found: acceleration.len(), needed: 2 },
             });
         }
-        for &value in &acceleration {
-            finite("acceleration of the record", value)?;
-        }
+        all_finite("acceleration of the record", &acceleration)?;
         let (velocity, displacement) = integrate(time_step, &acceleration);
         for pair in acceleration.windows(2) {
             let rate = (pair[1] - pair[0]) / time_step;

@@ -98,17 +98,20 @@ impl Grid {
     pub(super) fn text(&self, case: usize, name: &str) -> Result<&str> {
         self.find(case, name)
             .and_then(|(parameter, place)| parameter.text(place))
-            .ok_or_else(|| no_name("parameter with texts", name))
+            .ok_or_else(|| self.no_name("parameter with texts", name, &[]))
     }
 
     pub(super) fn place(&self, case: usize, name: &str) -> Result<usize> {
-        self.find(case, name).map(|(_, place)| place).ok_or_else(|| no_name("parameter", name))
+        self.find(case, name)
+            .map(|(_, place)| place)
+            .ok_or_else(|| self.no_name("parameter", name, &[]))
     }
-}
 
-/// The error of a name that is not there.
-pub(super) fn no_name(quantity: &'static str, name: &str) -> Error {
-    Error::Name { quantity, name: name.to_owned() }
+    /// The error of a name that neither a parameter has nor one of `columns`.
+    pub(super) fn no_name(&self, quantity: &'static str, name: &str, columns: &[String]) -> Error {
+        let parameters = self.parameters.iter().map(Parameter::name);
+        Error::no_name(quantity, name, parameters.chain(columns.iter().map(String::as_str)))
+    }
 }
 
 /// Columns of a table behind the results.

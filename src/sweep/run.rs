@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Grid, Parameter, no_name};
+use super::{Grid, Parameter};
 use crate::error::{CaseError, Error, Result};
 
 /// A number of cases to run, each by the same closure.
@@ -70,7 +70,7 @@ impl SweepCase<'_> {
     /// [`Error::Name`] if there is none of this name.
     pub fn value(&self, parameter: &str) -> Result<f64> {
         let number = self.grid.number(self.index, parameter);
-        number.ok_or_else(|| no_name("parameter with numbers", parameter))
+        number.ok_or_else(|| self.grid.no_name("parameter with numbers", parameter, &[]))
     }
 
     /// Value of a parameter with texts.

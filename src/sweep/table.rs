@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Grid, LAST_COLUMNS, no_name};
+use super::{Grid, LAST_COLUMNS};
 use crate::error::{Result, SweepError};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::{Cell, number};
@@ -134,7 +134,9 @@ impl<'a> CaseRow<'a> {
             return Ok(number);
         }
         let index = self.table.columns.iter().position(|name| name == column);
-        let index = index.ok_or_else(|| no_name("column of numbers", column))?;
+        let index = index.ok_or_else(|| {
+            self.table.grid.no_name("column of numbers", column, &self.table.columns)
+        })?;
         match self.results {
             Ok(results) => Ok(results[index]),
             Err(reason) => {

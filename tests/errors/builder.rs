@@ -76,7 +76,7 @@ fn builders_refuse_parts_that_do_not_fit() {
 
     // Twice as wide as the block.
     let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
-    assert!(matches!(unbuilt("overlap of the base", good().ground(wide)), Error::Input { .. }));
+    assert!(matches!(unbuilt("overhang", good().ground(wide)), Error::Input { value: 2.0, .. }));
     refused("free field at t = 0", &NOT_FINITE, |x| good().motion(Standing(x)).build().map(drop));
 }
 

@@ -19,6 +19,8 @@ pub(crate) struct Spoilt {
     pub(crate) shrinks: bool,
     pub(crate) load_from: f64,
     pub(crate) push: f64,
+    /// Commits before the nonlinear force breaks.
+    pub(crate) commits: usize,
 }
 
 impl Spoilt {
@@ -33,6 +35,7 @@ impl Spoilt {
             shrinks: false,
             load_from: f64::INFINITY,
             push: 0.0,
+            commits: usize::MAX,
         }
     }
 
@@ -92,8 +95,15 @@ impl Structure for Spoilt {
 }
 
 impl NonlinearForce for Spoilt {
-    fn force(&self, _: &[f64], _: &mut [f64]) -> basemat::Result<()> {
+    fn force(&self, _: &[f64], force: &mut [f64]) -> basemat::Result<()> {
+        if self.commits == 0 {
+            force[1] = f64::NAN;
+        }
         Ok(())
+    }
+
+    fn commit(&mut self, _: &[f64]) {
+        self.commits -= 1;
     }
 
     fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {

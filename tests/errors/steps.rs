@@ -65,6 +65,15 @@ fn a_load_that_breaks_leaves_the_last_accepted_step() {
     }
 }
 
+#[test]
+fn a_force_that_breaks_leaves_the_last_accepted_step() {
+    let structure = Spoilt { commits: 7, tangent: Some((0, 0, 0.0)), ..Spoilt::sound() };
+    let (error, accepted, _) = failing_step(structure.scene().build().unwrap());
+    assert_not_finite(&error, accepted, "nonlinear force of the structure");
+    // The first commit is that of the static state.
+    assert_eq!(accepted, 6);
+}
+
 /// A law that is never content.
 struct Fickle;
 

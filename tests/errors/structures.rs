@@ -29,6 +29,7 @@ fn structures_that_write_out_of_range_or_nan_are_refused() {
         ] {
             let error = unbuilt(name, spoilt.scene());
             assert_eq!(error, Error::Index { quantity: name, index, bound: 3 });
+            assert_eq!(error.to_string(), format!("{name}: index {index} must be below 3"));
         }
     }
     refused("mass matrix", &NOT_FINITE, |x| {

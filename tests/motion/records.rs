@@ -17,7 +17,10 @@ fn bad_samples_and_steps_are_refused() {
         assert!(el_centro_1940().scaled_to_peak(step).is_err(), "{step}");
     }
     for sample in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        assert!(matches!(Record::new(1.0, vec![0.0, sample]), Err(Error::Input { .. })));
+        assert!(matches!(
+            Record::new(1.0, vec![0.0, sample]),
+            Err(Error::NotFinite { index: 1, .. })
+        ));
         assert!(el_centro_1940().scaled(sample).is_err());
     }
     assert!(matches!(Record::new(1e200, vec![1e200; 3]), Err(Error::Input { .. })));

@@ -61,7 +61,8 @@ fn probes_come_with_their_unit() {
     let turn = run.probe("turn").unwrap().largest().value;
     assert_eq!(last[last.len() - 4].parse(), Ok(turn));
 
-    let nobody = Error::Name { quantity: "probe", name: "nobody".to_owned() };
+    let known = ["slide", "turn", "rate", "shake", "bare"].map(str::to_owned).into();
+    let nobody = Error::Name { quantity: "probe", name: "nobody".to_owned(), known };
     assert_eq!(run.probe("nobody"), Err(nobody));
 }
 

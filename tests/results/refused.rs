@@ -31,9 +31,10 @@ fn bad_requests_are_errors() {
         assert!(matches!(start(recorder), Err(Error::Input { .. })));
     }
     let (mut histories, mut run) = (start(Recorder::new()).unwrap(), simulation.begin_run());
+    let known = ["top", "top acceleration"].map(str::to_owned).into();
     assert_eq!(
         histories.probe("nobody"),
-        Err(Error::Name { quantity: "probe", name: "nobody".to_owned() })
+        Err(Error::Name { quantity: "probe", name: "nobody".to_owned(), known })
     );
     assert!(histories.floor_spectrum("nobody", &[1.0], 0.05).is_err());
     assert!(histories.floor_spectrum("top", &[1.0], 0.05).is_err());

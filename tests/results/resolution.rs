@@ -247,6 +247,36 @@ fn a_base_beyond_the_elements() {
     assert_eq!(found(half), None);
 }
 
+/// Stiffnesses in kN/m and a motion in cm/s² warn, the same numbers in their units do not; nor on a soil that is not
+/// to scale itself.
+#[test]
+fn numbers_in_another_unit() {
+    let found = |by_stiffness: f64, by_motion: f64, soil: Soil| {
+        let storeys = [Storey::new(3.0, 30e3, 60e6 * by_stiffness); 3];
+        let building = ShearBuilding::new(8.0, 60e3, 4e5, &storeys).unwrap();
+        let peak = el_centro_1940().peaks().acceleration;
+        let motion = el_centro_1940().scaled(by_motion).unwrap();
+        let run = run(building, motion, soil, 8, 5e-3);
+        let mut seen = [None; 2];
+        for warning in &run.warnings {
+            match warning {
+                Warning::LongPeriod { period } => seen[0] = Some(*period),
+                Warning::UnusualMotion { acceleration } => seen[1] = Some(acceleration / peak),
+                _ => {}
+            }
+        }
+        seen
+    };
+    assert_eq!(found(1.0, 1.0, soil(250.0)), [None; 2]);
+    let [period, motion] = found(1e-3, 100.0, soil(250.0));
+    // Equal storeys deflect by 3, 5 and 6 times m g/k under their weight to the side: ω² = 14/70 k/m.
+    let exact = 2.0 * PI * (5.0 * 30e3_f64 / 60e3).sqrt();
+    assert!((period.unwrap() / exact - 1.0).abs() < 0.02, "{period:?} {exact}");
+    assert!((motion.unwrap() / 100.0 - 1.0).abs() < 0.03, "{motion:?}");
+    let not_to_scale = Soil::new(1.0, 0.25, 1.0).unwrap();
+    assert_eq!(found(1e-3, 100.0, not_to_scale), [None; 2]);
+}
+
 /// Rocking on one element meets no stiffness, on two too little of it.
 #[test]
 fn too_few_elements() {

@@ -3,9 +3,8 @@
 //! 1. `parts.rs`: what was given, each part checked by itself;
 //! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
 //! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`;
-//! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these. `modes.rs` finds
-//!    vibration modes, `krylov.rs` fewer Ritz modes;
-//! 5. the scene, and in `initial.rs` what moves at t = 0.
+//! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these; `krylov.rs` finds Ritz modes;
+//! 5. the scene, and again in `statics.rs` the motion at t = 0.
 
 pub(crate) mod assembled;
 pub(crate) mod equilibrium;
@@ -26,6 +25,7 @@ use super::simulation::Simulation;
 use super::state::State;
 use super::step::newton::Solver;
 use super::step::{Forcing, Increment};
+use super::warning::Warning;
 use crate::bem::Ground;
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::coupled::run::Serviceability;
@@ -269,6 +269,9 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
+        let uncovered = scene.base.uncovered(ground.elements());
+        let period = assembled.period_on_fixed_base(&mut held);
+        let warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
@@ -285,6 +288,7 @@ impl SimulationBuilder {
             solver,
             state,
             conditioning,
+            warnings,
         })
     }
 }

@@ -187,14 +187,14 @@ impl Run {
         }
     }
 
-    /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can,
-    /// `uncovered` which foundations reach beyond the ground's elements, and how far (m).
+    /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can;
+    /// `of_scene` are the warnings that the scene itself calls for.
     pub(crate) fn finish(
         &mut self,
         ground: &dyn Ground,
         motion: &dyn FreeField,
         opens: impl Fn(usize) -> bool,
-        uncovered: &[(usize, f64)],
+        of_scene: &[Warning],
     ) {
         // A run that was read from a file is closed.
         if self.elements.is_empty() {
@@ -211,10 +211,10 @@ impl Run {
             self.least_algorithmic,
         );
         self.warnings.extend(base::tension(&self.envelope, opens));
-        self.warnings.extend(Warning::of_soils(&ground.soils()));
-        let warning =
-            |&(foundation, reach): &(usize, f64)| Warning::UncoveredBase { foundation, reach };
-        self.warnings.extend(uncovered.iter().map(warning));
+        self.warnings.extend_from_slice(of_scene);
+        let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
+        let acceleration = self.resolution.largest_acceleration();
+        self.warnings.extend(Warning::of_motion(acceleration).filter(|_| is_to_scale));
         self.resolution.warn(&mut self.warnings);
     }
 

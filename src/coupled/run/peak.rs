@@ -147,9 +147,9 @@ pub struct ProbeExtremes {
 pub(crate) fn probe_index<T>(
     list: &[T],
     name: &str,
-    name_of: impl Fn(&T) -> &String,
+    name_of: impl Fn(&T) -> &String + Copy,
 ) -> Result<usize> {
-    let unknown = || Error::Name { quantity: "probe", name: name.to_owned() };
+    let unknown = || Error::no_name("probe", name, list.iter().map(name_of));
     list.iter().position(|entry| name_of(entry) == name).ok_or_else(unknown)
 }
 

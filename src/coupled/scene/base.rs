@@ -223,12 +223,12 @@ fn check_nodes(nodes: &[ContactNode], dofs: usize) -> Result<()> {
 fn check_overlap(nodes: &[ContactNode], element: &ContactElement) -> Result<()> {
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
-    for value in [element.left + slack - first, last - element.right + slack] {
-        if value < 0.0 {
+    for value in [first - element.left, element.right - last] {
+        if value > slack {
             return Err(Error::Input {
-                quantity: "overlap of the base with a contact element",
+                quantity: "overhang of a contact element beyond the structure's base, m",
                 value,
-                needed: "not negative: every element must lie under the structure's base",
+                needed: "zero: all elements of the ground lie between the structure's outermost contact nodes",
             });
         }
     }

@@ -216,7 +216,6 @@ impl Newton {
         tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
         self.guess.copy_from_slice(&increment.displacement);
         self.evaluate(linear, data, increment)?;
-        StepError::check_finite("nonlinear force of the structure", &increment.force)?;
         self.scale = largest(&linear.known).max(largest(&increment.force));
         let open = self
             .linearised
@@ -252,7 +251,7 @@ impl Newton {
         for (force, at_rest) in increment.force.iter_mut().zip(&scene.static_state.force) {
             *force -= at_rest;
         }
-        Ok(())
+        StepError::check_finite("nonlinear force of the structure", &increment.force)
     }
 }
 
