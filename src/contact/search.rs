@@ -30,7 +30,7 @@ const SWEEPS: usize = 400;
 const PATHS: usize = 128;
 /// Sets of modes that are all tried, at most.
 const MOST_SETS: usize = 1 << 16;
-/// Bonds break together whose overload is at least this share of the largest: mirror images do so in
+/// Bonds break together whose overload is at least this fraction of the largest: mirror images do so in
 /// spite of rounding.
 const SHARE: f64 = 0.5;
 

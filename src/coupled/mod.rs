@@ -53,7 +53,7 @@
 //! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state in stages: the
 //! weight first, placed as [`GravityStage`] says, then the loads at t = 0 with the interface laws, in
 //! increments where elements slide or yield; contact conditions included, with the static compliance
-//! of the ground. What cannot stand is refused with its cause ([`crate::StabilityError`]).
+//! of the ground. Without equilibrium, the error names the cause ([`crate::StabilityError`]).
 //! The structure has no support of its own and the half-plane no static datum, so the search is a
 //! proximal point iteration: weak springs to the last iterate, which pull at nothing once it
 //! converges. An equilibrium need not be stable:

@@ -50,7 +50,7 @@ use crate::motion::FreeField;
 const OWN: f64 = 0.25;
 /// Largest r where the base shear follows the ground.
 const FOLLOWING: f64 = 0.6;
-/// Share of the ground's r below which the base shear does not follow it.
+/// Fraction of the ground's r below which the base shear does not follow it.
 const SLOWER: f64 = 0.85;
 /// Multiple of the ground's r above which the base shear rings.
 const RINGING: f64 = 2.0;

@@ -46,8 +46,8 @@ pub fn memory_limit() -> u64 {
 /// it.
 ///
 /// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of
-/// a record, convolution weights of layered ground) are held against it before anything is allocated, and refused with a [`MemoryError`]
-/// that says what they would take. It is an estimate for each part by itself, no account of all
+/// a record, convolution weights of layered ground) are compared with it before anything is allocated: a
+/// [`MemoryError`] says what they would take. It is an estimate for each part by itself, no account of all
 /// that a program holds.
 ///
 /// ```

@@ -97,7 +97,7 @@ pub enum LawError {
 
 // Why a structure cannot be stepped in reduced coordinates.
 
-/// The reason for which [`Coordinates::Reduced`](crate::coupled::Coordinates::Reduced) is refused.
+/// Reasons against [`Coordinates::Reduced`](crate::coupled::Coordinates::Reduced).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReducedError {

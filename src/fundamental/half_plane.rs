@@ -231,7 +231,7 @@ impl HalfPlane {
         sum
     }
 
-    /// Adds the share of one root y = a² + z; `weight` is 1/P'.
+    /// Adds the part of one root y = a² + z; `weight` is 1/P'.
     fn add_root(
         r: &Rayleigh,
         tau: f64,

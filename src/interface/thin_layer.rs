@@ -77,7 +77,7 @@ words! { SlipSense, "sense of slip", {
 /// from the step before: what has slipped stays slipped. A layer of no thickness is
 /// [`Coulomb`](super::Coulomb).
 ///
-/// The share r counts against the layer's own thickness: a layer a hundred times thinner pulls a
+/// The ratio r counts against the layer's own thickness: a layer a hundred times thinner pulls a
 /// hundred times harder while it is open, so that r must shrink with the thickness.
 ///
 /// With the default [`FrictionLimit`] and [`SlipSense`] and no stiffness left in slip, shear of a
@@ -181,7 +181,7 @@ impl ThinLayer {
         })
     }
 
-    /// With another thickness, as a share of the height of the element beside the layer.
+    /// With another thickness, as a fraction of the height of the element beside the layer.
     ///
     /// # Errors
     /// [`Error::Input`] unless finite, above zero, and the stiffness it gives is finite.
@@ -193,7 +193,7 @@ impl ThinLayer {
         Ok(self)
     }
 
-    /// With another share of the stiffness left in debonding; 0.001 unless given.
+    /// With another fraction of the stiffness left in debonding; 0.001 unless given.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
@@ -216,7 +216,7 @@ impl ThinLayer {
         self
     }
 
-    /// With a share of the shear stiffness that resists the slip of each step, beyond friction;
+    /// With a fraction of the shear stiffness that resists the slip of each step, beyond friction;
     /// none unless given. It acts as a viscosity does, since the next step knows nothing of it.
     ///
     /// # Errors

@@ -117,7 +117,7 @@ fn write(matrix: &SparseMatrix, sink: &mut dyn Write) -> std::io::Result<()> {
 
 const ROWS: &str = "rows of the matrix";
 
-/// Why a line is refused, and which.
+/// Number and fault of a line that cannot be read.
 type Reason<T> = std::result::Result<T, (usize, MatrixFileError)>;
 
 /// The first line.

@@ -7,7 +7,7 @@ use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
 use crate::text::column::{excerpt, finite, has_implied_point, in_field};
 
-/// What is read of lines, or why one is refused, and which.
+/// Contents of lines, or number and fault of the one that cannot be read.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
 
 /// The lines of a text.

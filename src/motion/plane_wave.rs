@@ -26,7 +26,7 @@ use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// Component below this share of the other cannot be prescribed: near the angles at which it
+/// Component below this fraction of the other cannot be prescribed: near the angles at which it
 /// vanishes, the other grows without bound.
 const SMALLEST: f64 = 0.1;
 
@@ -202,13 +202,13 @@ fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Compl
     Ok((p, a, b, g, rayleigh))
 }
 
-/// `other` over `given`, unless `given` is too small a share of it.
+/// `other` over `given`, unless `given` is too small a fraction of it.
 fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Complex> {
     check_prescribed(quantity, given.abs(), other.abs())?;
     Ok(other / given)
 }
 
-/// Error for a component of size `given` that is too small a share of the larger one.
+/// Error for a component of size `given` that is too small a fraction of the larger one.
 pub(crate) fn check_prescribed(quantity: &'static str, given: f64, other: f64) -> Result<()> {
     let share = given / other.max(given);
     if share > SMALLEST {

@@ -13,7 +13,7 @@ use crate::error::{Error, Observer, Result, Watch, damping_ratio, positive};
 
 /// Fewest substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
-/// Most substeps in all: shorter periods are refused.
+/// Most substeps in all: shorter periods are an error.
 const MOST_SUBSTEPS: f64 = 1e9;
 
 /// Substeps between two calls of an observer.

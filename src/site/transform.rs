@@ -16,7 +16,7 @@ use crate::linalg::Complex;
 
 /// ηT: what wraps around is e^(−24).
 const WINDOW: f64 = 24.0;
-/// Samples that matter are this share of the transform's.
+/// Samples that matter are this fraction of the transform's.
 const PADDING: usize = 4;
 /// Most samples of a motion, and time steps that waves take through a site.
 const MOST_SAMPLES: usize = 1 << 24;

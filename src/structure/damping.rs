@@ -88,7 +88,7 @@ impl RayleighDamping {
 /// Damping ratios of a structure's own modes, on its fixed base or by itself; its rigid motions are not damped.
 ///
 /// * [`on_fixed_base`](ModalDamping::on_fixed_base): the modes that codes and tests speak of. On its foundation the
-///   first mode has the given ratio less what the ground's compliance takes from its share.
+///   first mode has the given ratio less the part of it that the ground's compliance takes.
 /// * [`on`](ModalDamping::on): modes of the structure by itself, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They stay
 ///   the modes of the damped structure, so that it can be stepped in them
 ///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base, where

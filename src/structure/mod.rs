@@ -52,7 +52,7 @@ use crate::error::Result;
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
 /// may resist a rigid translation to the right or upwards. Structures with stiffness to a fixed point are
-/// refused when a simulation is built ([`Error::Restrained`](crate::Error::Restrained)), and so are
+/// an error when a simulation is built ([`Error::Restrained`](crate::Error::Restrained)), and so are
 /// those with a part that has mass or stiffness, but no way by stiffness to the degrees of freedom of a contact
 /// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to
 /// the base, which a stiffness of their own holds and the mass couples with the rest, are no such part.

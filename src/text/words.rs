@@ -135,7 +135,7 @@ impl Bracketed for usize {
 
 // Forms of values in serde's formats.
 
-/// `Deserialize` through a constructor, so that no value comes in that it would refuse: a struct of
+/// `Deserialize` through a constructor, so that only values come in that it accepts: a struct of
 /// the fields as they are written, and the type made of them. The type has `serde(try_from)`.
 macro_rules! validated {
     ($type:ident as $form:ident {

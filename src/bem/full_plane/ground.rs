@@ -330,7 +330,7 @@ impl Ground for FullPlaneGround {
     }
 
     /// The incident field at the midpoints, if there is one; the scene's own motion otherwise.
-    /// Both at once are refused: the values are not finite, and the next history is an error.
+    /// Both at once are an error: the values are not finite, and the next history is an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
         let [down, along] = ContactLayout::new(contact.len()).split_mut(displacement);

@@ -199,7 +199,7 @@ impl ServiceCheck {
         self.first_excess.is_none()
     }
 
-    /// 1 − |largest|/limit: the unused share of the limit; below zero where it is exceeded.
+    /// 1 − |largest|/limit: the unused fraction of the limit; below zero where it is exceeded.
     pub fn margin(&self) -> f64 {
         1.0 - self.largest.magnitude() / self.limit
     }

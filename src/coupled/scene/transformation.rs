@@ -216,7 +216,7 @@ impl ModalBasis {
         modal
     }
 
-    /// Modal coordinates of a rigid translation, M its mass matrix: only rigid modes have a share.
+    /// Modal coordinates of a rigid translation, M its mass matrix: only rigid modes have a part in it.
     pub(crate) fn translation(
         &self,
         vector: &[(usize, f64)],

@@ -26,7 +26,7 @@ const CYCLE: usize = 15;
 /// Iterations of a stage of the continuation, and of all its stages.
 const STAGE_ITERATIONS: usize = 8;
 const MOST_ITERATIONS: usize = 2000;
-/// Shortest stage, as a share of the out-of-balance force that it began with.
+/// Shortest stage, as a fraction of the out-of-balance force that it began with.
 const SHORTEST_STAGE: f64 = 1e-6;
 
 /// What a step is solved from.
@@ -172,7 +172,7 @@ impl Newton {
         Ok(())
     }
 
-    /// Solves the step with the force linearised about the guess, and with the share `left` of the
+    /// Solves the step with the force linearised about the guess, and with the fraction `left` of the
     /// open force as an external one; the increment becomes the next guess. Returns the
     /// out-of-balance force relative to the largest force.
     fn iterate(

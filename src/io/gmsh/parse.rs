@@ -8,7 +8,7 @@ use crate::error::MeshFileError;
 use crate::text::bounded_line::Lines;
 use crate::text::column::{excerpt, finite};
 
-/// Why a line is refused, and which.
+/// Number and fault of a line that cannot be read.
 type Reason<T> = Result<T, (usize, MeshFileError)>;
 
 /// A point, and where it stands in the file.

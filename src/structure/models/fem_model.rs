@@ -163,7 +163,7 @@ impl FemModel {
     }
 
     /// The same structure with Rayleigh damping, beside that of its elements. The geometric
-    /// stiffness of P–Δ has no share in it.
+    /// stiffness of P–Δ has no part in it.
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }

@@ -13,7 +13,7 @@ pub struct SectionRows {
     pub displacement: DofCombination,
     /// Weights of the velocities: dashpots and stiffness-proportional damping.
     pub velocity: DofCombination,
-    /// Weights of the accelerations: the share of the mass above that sits on the cut's nodes.
+    /// Weights of the accelerations: the fraction of the mass above that sits on the cut's nodes.
     pub acceleration: DofCombination,
 }
 
@@ -203,7 +203,7 @@ impl FemModel {
         Ok(row)
     }
 
-    /// The nodes of a line with their shares of its way, `[x, y]` in m; one may come more than once.
+    /// The nodes of a line with their fractions of its way, `[x, y]` in m; one may come more than once.
     fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 2])>> {
         if nodes.len() < 2 {
             let quantity = "nodes of a loaded line";

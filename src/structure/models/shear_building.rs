@@ -334,7 +334,7 @@ impl ShearBuilding {
         self.base_inertia + self.storeys.iter().map(|storey| storey.rotary_inertia).sum::<f64>()
     }
 
-    /// The storey's dashpot and the share of its columns in stiffness-proportional damping, which is
+    /// The storey's dashpot and its columns' part of stiffness-proportional damping, which is
     /// that of their stiffness as it was given, whoever it is left to. Isolators are no columns.
     fn dashpot(&self, storey: usize) -> f64 {
         let Storey { stiffness, damping, .. } = self.storeys[storey];
