@@ -126,8 +126,7 @@ impl Ground for Cells {
     }
 }
 
-/// Three smooth pulses that run along x, along y and along both, the latter upwards; turned by quarters about the
-/// vertical axis.
+/// Three smooth pulses along x, along y and upwards that run three ways; turned by quarters about the vertical axis.
 #[derive(Clone, Copy)]
 pub(crate) struct Waves {
     pub(crate) quarters: usize,
@@ -151,8 +150,10 @@ impl FreeField for Waves {
         }
         // Where the waves come from lies beyond all bases.
         let at = |along: f64, velocity: f64| time - (along + 30.0) / velocity;
-        let [mut u, mut v] =
-            [Self::pulse(at(x, 400.0), 9.0), -0.6 * Self::pulse(at(y, 300.0), 12.0)];
+        let [mut u, mut v] = [
+            Self::pulse(at(0.8 * x - 0.6 * y, 200.0), 9.0),
+            -0.6 * Self::pulse(at(0.6 * x + 0.8 * y, 150.0), 12.0),
+        ];
         let up = 0.4 * Self::pulse(at(0.8 * x + 0.6 * y, 500.0), 15.0);
         for _ in 0..self.quarters {
             (u, v) = (-v, u);

@@ -82,7 +82,7 @@ fn cells_that_no_face_covers() {
     let Error::Input { quantity: found, value, .. } = error else { panic!("{error}") };
     // Gauss points of the outer cells, from the edge at 2 m.
     let pitch = 7.0 / 6.8;
-    let expected = pitch * (3.0 + 0.5 * (1.0 + 1.0 / 3.0_f64.sqrt())) - 2.0;
+    let expected = pitch * (3.0 + 0.5 / 3.0_f64.sqrt()) - 2.0;
     assert_eq!(found, quantity);
     assert!((value - expected).abs() < 1e-12, "{value} {expected}");
     // Up to half a cell the base goes on.
