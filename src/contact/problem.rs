@@ -280,7 +280,7 @@ impl ContactSolver {
         self.rows.clear();
         self.dofs.clear();
         for (e, pair) in self.conditions.iter().enumerate() {
-            let fixed = pair.map(fixed_component);
+            let fixed = pair.map(|condition| condition.fixed_component());
             for component in 0..PLANE {
                 if !fixed.contains(&Some(component)) {
                     self.dofs.push(layout.place(component, e));
@@ -333,7 +333,7 @@ impl ContactSolver {
         self.traction.fill(0.0);
         for (e, pair) in self.conditions.iter().enumerate() {
             for condition in pair {
-                if let Some(component) = fixed_component(*condition) {
+                if let Some(component) = condition.fixed_component() {
                     let i = layout.place(component, e);
                     let total = condition.value / (condition.pressure + condition.shear);
                     self.traction[i] = total - input.static_traction[i];
@@ -391,19 +391,5 @@ impl ContactSolver {
             .fold(0.0, f64::max);
         let jump = self.jump.iter().fold(input.length_scale, |m, j| m.max(j.abs()));
         Tolerance { length: 1e-13 * jump, traction: 1e-12 * traction }
-    }
-}
-
-/// The component (0 normal, 1 tangential) that a condition fixes by itself.
-fn fixed_component(condition: Condition) -> Option<usize> {
-    let Condition { gap, slip, pressure, shear, .. } = condition;
-    if gap != 0.0 || slip != 0.0 {
-        None
-    } else if pressure != 0.0 && shear == 0.0 {
-        Some(0)
-    } else if shear != 0.0 && pressure == 0.0 {
-        Some(1)
-    } else {
-        None
     }
 }

@@ -14,7 +14,7 @@ fn build(
 ) -> Error {
     let built =
         Simulation::builder(0.01).structure(structure).ground(ground).interface(law).build();
-    built.err().expect("an error")
+    built.expect_err("an error")
 }
 
 fn cube() -> RigidBody {

@@ -173,9 +173,7 @@ impl Parts {
         let (layout, count) = (elements.layout(), elements.len());
         let gravity = given.static_gravity();
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
-        if elements.is_plan() {
-            check_bonded(&given.laws, time_step)?;
-        }
+        check_bonded(&given.laws, &elements, time_step)?;
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let dofs = structure.dofs();
         check_dofs(dofs, layout.len())?;
@@ -223,10 +221,9 @@ fn check_motion(given: &Given, dofs: usize) -> Result<()> {
 }
 
 /// Refuses more degrees of freedom than fit into memory, by themselves or with a response to the traction of
-/// each of the contact elements, `tractions` numbers.
+/// each of the contact elements, `tractions` numbers, twice while they are computed.
 fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     matrix::check_order("degrees of freedom of the structure", dofs)?;
-    // The responses twice while they are computed.
     let responses = 16.0 * dofs as f64 * tractions as f64;
     Ok(memory::check(
         "degrees of freedom of the structure on its contact elements",
@@ -291,16 +288,16 @@ fn check_laws(
 }
 
 /// Refuses laws that do not bond an element of a ground in plan to the structure whatever happens.
-fn check_bonded(laws: &[Box<dyn InterfaceLaw>], time_step: f64) -> Result<()> {
+fn check_bonded(laws: &[Box<dyn InterfaceLaw>], elements: &Patch, time_step: f64) -> Result<()> {
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, time_step);
-    let bonded = |law: &Box<dyn InterfaceLaw>| {
+    let bonded = |law: &dyn InterfaceLaw| {
         law.modes() == [Mode::Stick]
             && law.conditions(Mode::Stick, &start)
                 == [Condition::gap_is(0.0), Condition::slip_is(0.0)]
             && law.compliance(Mode::Stick, &start) == [0.0; 2]
             && law.state_variables() == 0
     };
-    if laws.iter().all(bonded) {
+    if !elements.is_plan() || laws.iter().all(|law| bonded(law.as_ref())) {
         return Ok(());
     }
     let needed = "must be `Bonded` on a ground in plan: elements open and slide in the plane alone";
