@@ -5,4 +5,5 @@
 mod cells;
 mod equations;
 mod march;
+mod mast;
 mod refused;
