@@ -130,13 +130,13 @@ impl ModeSearch {
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
         }
+        if solver.is_plan() {
+            return Err(StepError::Singular { matrix: "Delassus operator" });
+        }
         let mut bonds = std::mem::take(&mut self.bonds);
         let found = self.break_bonds(solver, input, modes, &mut bonds, &mut trials);
         self.bonds = bonds;
-        match found {
-            Some(method) => Ok((trials, method)),
-            None => Err(self.failure(solver, input, modes, trials)),
-        }
+        found.map(|m| (trials, m)).ok_or_else(|| self.failure(solver, input, modes, trials))
     }
 
     /// Finds modes with all bonds held, breaks those that are overloaded most, and so on; `None` if the
@@ -166,10 +166,8 @@ impl ModeSearch {
                 return None;
             }
             let Some(method) = found else {
-                bonds
-                    .iter_mut()
-                    .filter(|bond| **bond == Bond::Held)
-                    .for_each(|b| *b = Bond::Broken);
+                let held = bonds.iter_mut().filter(|bond| **bond == Bond::Held);
+                held.for_each(|bond| *bond = Bond::Broken);
                 continue;
             };
             most = most.max(method);

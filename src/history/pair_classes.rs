@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::ops::Mul;
 
 use crate::error::{Error, Result};
-use crate::geometry::{ContactElement, ContactLayout, check_order};
+use crate::geometry::{ContactElement, ContactLayout, PLANE, check_order};
 use crate::linalg::{ComplexField, hermitian_range};
 
 /// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
@@ -150,7 +150,7 @@ impl PairClasses {
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        ContactLayout::new(self.elements.len())
+        ContactLayout::new(PLANE, self.elements.len())
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the coefficients of all pairs. `of_pair` returns

@@ -168,6 +168,17 @@ impl Condition {
         (alone && self.pressure != 0.0).then(|| self.value / self.pressure)
     }
 
+    /// The component (0 normal, 1 tangential) whose traction it fixes by itself.
+    #[inline]
+    pub(crate) fn fixed_component(&self) -> Option<usize> {
+        match *self {
+            Self { gap, slip, .. } if gap != 0.0 || slip != 0.0 => None,
+            Self { pressure, shear: 0.0, .. } if pressure != 0.0 => Some(0),
+            Self { pressure: 0.0, shear, .. } if shear != 0.0 => Some(1),
+            _ => None,
+        }
+    }
+
     /// The slip is `value`.
     pub fn slip_is(value: f64) -> Self {
         Self { slip: 1.0, value, ..Self::default() }

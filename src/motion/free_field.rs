@@ -12,6 +12,13 @@ pub trait FreeField: Send {
     /// field should be at rest up to t = 0; what moves already starts with a jolt.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
+    /// Displacement `[along x, along y, up]` (m) at surface point `place` (`[x, y]`, m), for a ground in plan.
+    /// Default: [`FreeField::displacement`] at x, the same along all of y.
+    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
+        let [horizontal, vertical] = self.displacement(place[0], time);
+        [horizontal, 0.0, vertical]
+    }
+
     /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
     /// `bem::full_plane::VerticalWaves` make stresses of velocities, and a ground of your own may need
     /// them.
@@ -166,6 +173,43 @@ impl FreeField for Record {
     }
 }
 
+/// Motion in three directions, the same at all points, for a ground in plan; in the plane that along y is not felt.
+///
+/// ```
+/// use basemat::motion::{FreeField, Record, Triaxial};
+/// let shake = Record::new(0.5, vec![1.0, 1.0, 1.0])?;
+/// let (y, up) = (Some(shake.scaled(-0.5)?), Some(shake.scaled(0.25)?));
+/// let field = Triaxial { x: Some(shake), y, up };
+/// assert_eq!(field.displacement_at([7.0, -2.0], 1.0), [0.5, -0.25, 0.125]);
+/// assert_eq!(field.displacement(7.0, 1.0), [0.5, 0.125]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Triaxial {
+    /// Motion of the surface along x, positive to the right (a record to the east, if x points there).
+    pub x: Option<Record>,
+    /// Motion along y, positive away from the reader (to the north).
+    pub y: Option<Record>,
+    /// Vertical motion, positive up.
+    pub up: Option<Record>,
+}
+
+impl FreeField for Triaxial {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        let [along, _, up] = self.displacement_at([x, 0.0], time);
+        [along, up]
+    }
+
+    fn displacement_at(&self, _place: [f64; 2], time: f64) -> [f64; 3] {
+        [&self.x, &self.y, &self.up]
+            .map(|record| record.as_ref().map_or(0.0, |own| own.at(time).displacement))
+    }
+
+    fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
+        [&self.x, &self.up].map(|record| record.as_ref().map_or(0.0, |own| own.at(time).velocity))
+    }
+}
+
 /// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c).
 ///
 /// ```
@@ -221,6 +265,10 @@ impl TravellingWave {
 impl FreeField for TravellingWave {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
         self.field.displacement(self.origin, time - self.delay(x))
+    }
+
+    fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
+        self.field.displacement_at([self.origin, y], time - self.delay(x))
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {

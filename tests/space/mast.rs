@@ -1,0 +1,122 @@
+//! A mass on horizontal springs above a rigid body: wrapped, reduced, and in all coordinates.
+
+use std::f64::consts::TAU;
+
+use basemat::coupled::Coordinates;
+use basemat::interface::Bonded;
+use basemat::structure::{
+    ContactNode, CraigBampton, DofCombination, FaceNode, ModalDamping, RigidBody, Structure,
+    Triplets, WithSprings,
+};
+use basemat::{Result, Simulation};
+
+use super::cells::{BED, Cells, Waves};
+
+const SIDES: [f64; 3] = [8.0, 6.0, 3.0];
+const DENSITY: f64 = 2000.0;
+/// Above the middle of the base.
+const MASS: f64 = 1.2e5;
+const HEIGHT: f64 = 11.0;
+/// Along x and y.
+const SPRINGS: [f64; 2] = [9.0e7, 5.0e7];
+
+struct Mast(RigidBody);
+
+fn mast() -> Mast {
+    Mast(RigidBody::cuboid(SIDES, DENSITY).unwrap().centered_at([3.0, 1.0]).unwrap())
+}
+
+impl Structure for Mast {
+    fn dofs(&self) -> usize {
+        8
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        Vec::new()
+    }
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.0.contact_faces()
+    }
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.mass(matrix)?;
+        // It rises with the body.
+        [2, 6, 7].into_iter().for_each(|i| matrix.add(i, i, MASS));
+        Ok(())
+    }
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        let [along, away, _] = self.0.displacement_at([0.0, 0.0, HEIGHT]);
+        for (top, below, spring) in [(6, along, SPRINGS[0]), (7, away, SPRINGS[1])] {
+            let drift = DofCombination::from(top) - below;
+            matrix.add_outer(&drift, spring);
+        }
+        Ok(())
+    }
+}
+
+/// Of the free structure: k (1/m + 1/M + (h − c)²/J), the compliance of a free body at the spring.
+fn frequencies() -> [f64; 2] {
+    let [l, b, h] = SIDES;
+    let body = l * b * h * DENSITY;
+    [(SPRINGS[0], l), (SPRINGS[1], b)].map(|(spring, side)| {
+        let inertia = body * (side * side + h * h) / 12.0;
+        let lever = HEIGHT - 0.5 * h;
+        let square = spring * (1.0 / MASS + 1.0 / body + lever * lever / inertia);
+        square.sqrt() / TAU
+    })
+}
+
+#[test]
+fn rigid_motions_in_plan_have_no_modal_damping() {
+    let damped = ModalDamping::new(&[0.05]).unwrap().on(mast()).unwrap();
+    let mut exact = frequencies();
+    exact.sort_by(f64::total_cmp);
+    assert_eq!(damped.frequencies().len(), 2, "{:?}", damped.frequencies());
+    for (found, exact) in damped.frequencies().iter().zip(exact) {
+        assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+    }
+    let fixed = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(mast()).unwrap();
+    let exact = [SPRINGS[1], SPRINGS[0]].map(|spring: f64| (spring / MASS).sqrt() / TAU);
+    assert_eq!(fixed.frequencies().len(), 2, "{:?}", fixed.frequencies());
+    for (found, exact) in fixed.frequencies().iter().zip(exact) {
+        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+    }
+}
+
+fn march(structure: impl Structure + 'static, coordinates: Coordinates) -> Vec<f64> {
+    let mut simulation = Simulation::builder(2e-3)
+        .structure(structure)
+        .ground(Cells::under([SIDES[0], SIDES[1]], [3.0, 1.0], [5, 4], BED))
+        .interface(Bonded)
+        .motion(Waves { quarters: 0 })
+        .coordinates(coordinates)
+        .expected_steps(400)
+        .build()
+        .unwrap();
+    let run = simulation.run(400, |_| {}).unwrap();
+    assert!(run.energy_error < 1e-9, "{}", run.energy_error);
+    simulation.state().absolute_displacement().to_vec()
+}
+
+#[test]
+fn all_coordinates_and_wrappers_march_alike() {
+    let damping = ModalDamping::new(&[0.05]).unwrap();
+    let damped = || damping.on(mast()).unwrap();
+    let exact = march(damped(), Coordinates::Physical);
+    let size = exact.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    let reduced = damping.on(CraigBampton::new(2).reduce(mast()).unwrap()).unwrap();
+    let top = [6, 7].map(|i| exact[i]);
+    assert!(top.iter().all(|u| u.abs() > 1e-2 * size));
+    for (found, tolerance) in [
+        (march(damped(), Coordinates::Modes), 1e-9),
+        (march(damped(), Coordinates::Reduced { tolerance: 1e-8 }), 1e-7),
+        (march(WithSprings::new(damped()), Coordinates::Physical), 0.0),
+    ] {
+        for (found, exact) in found.iter().zip(&exact) {
+            assert!((found - exact).abs() <= tolerance * size, "{found} {exact}");
+        }
+    }
+    // The base is kept, the top is coordinates of modes.
+    let found = march(reduced, Coordinates::Physical);
+    for (found, exact) in found[..6].iter().zip(&exact) {
+        assert!((found - exact).abs() < 1e-9 * size, "{found} {exact}");
+    }
+}
