@@ -7,13 +7,16 @@ use serde::de::DeserializeOwned;
 use crate::error::refuse;
 use crate::{ground, motion, refine, results, simulation};
 
+fn read<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
+    let read = postcard::from_bytes(data);
+    read.map_err(|error| refuse(format!("these bytes are no {}: {error}", T::NAME)))
+}
+
 fn made<T>(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>>
 where
     T: PyClass + DeserializeOwned + Into<PyClassInitializer<T>>,
 {
-    let own: T = postcard::from_bytes(data)
-        .map_err(|error| refuse(format!("these bytes are no {}: {error}", T::NAME)))?;
-    Ok(Py::new(py, own)?.into_any())
+    Ok(Py::new(py, read::<T>(data)?)?.into_any())
 }
 
 /// The result of the class ``kind`` from the bytes ``data`` that its pickle holds.
@@ -23,16 +26,18 @@ pub(crate) fn restored(py: Python<'_>, kind: &str, data: &[u8]) -> PyResult<Py<P
         ($($class:ty),+ $(,)?) => {
             match kind {
                 $(<$class as PyClass>::NAME => made::<$class>(py, data),)+
+                <results::PyRun as PyClass>::NAME => {
+                    Ok(read::<results::PyRun>(data)?.create(py)?.into_any())
+                }
                 _ => Err(refuse(format!("kind is '{kind}', which is no result"))),
             }
         };
     }
     by_name!(
-        results::PyRun,
         results::PyPeak,
         results::PyExtremes,
         results::PyEnergyBalance,
-        results::PyFoundationSummary,
+        results::PySummary,
         results::PyServiceCheck,
         simulation::PyFoundation,
         motion::PySpectrum,

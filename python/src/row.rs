@@ -108,6 +108,18 @@ impl From<SectionRows> for PySectionRows {
     }
 }
 
+getters! {
+    PySectionRows, own;
+    /// SI unit of the resultant: "N/m" or "N·m/m".
+    unit: &'static str = own.0.unit;
+    /// The :class:`DofCombination` of displacements.
+    displacement: PyDofCombination = PyDofCombination(own.0.displacement.clone(), own.1);
+    /// The :class:`DofCombination` of velocities.
+    velocity: PyDofCombination = PyDofCombination(own.0.velocity.clone(), own.1);
+    /// The :class:`DofCombination` of accelerations.
+    acceleration: PyDofCombination = PyDofCombination(own.0.acceleration.clone(), own.1);
+}
+
 #[pymethods]
 impl PySectionRows {
     #[new]
@@ -136,29 +148,5 @@ impl PySectionRows {
         let unit = PyDict::new(py);
         unit.set_item("unit", self.0.unit)?;
         Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
-    }
-
-    /// SI unit of the resultant: "N/m" or "N·m/m".
-    #[getter]
-    fn unit(&self) -> &'static str {
-        self.0.unit
-    }
-
-    /// The :class:`DofCombination` of displacements.
-    #[getter]
-    fn displacement(&self) -> PyDofCombination {
-        PyDofCombination(self.0.displacement.clone(), self.1)
-    }
-
-    /// The :class:`DofCombination` of velocities.
-    #[getter]
-    fn velocity(&self) -> PyDofCombination {
-        PyDofCombination(self.0.velocity.clone(), self.1)
-    }
-
-    /// The :class:`DofCombination` of accelerations.
-    #[getter]
-    fn acceleration(&self) -> PyDofCombination {
-        PyDofCombination(self.0.acceleration.clone(), self.1)
     }
 }

@@ -1,10 +1,10 @@
 //! Impedances of a rigid strip.
 
-use basemat::Complex;
 use basemat::bem::layered::{StripContact, StripImpedance};
-use numpy::{Complex64, PyArray1};
+use numpy::Complex64;
 use pyo3::prelude::*;
 
+use crate::array::{Array, complex};
 use crate::error::refuse;
 use crate::saved::{Reduced, reduced};
 
@@ -14,8 +14,6 @@ use crate::saved::{Reduced, reduced};
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
 
-type Array<'py> = Bound<'py, PyArray1<Complex64>>;
-
 pub(super) fn contact(name: &str) -> PyResult<StripContact> {
     match name {
         "bonded" => Ok(StripContact::Bonded),
@@ -24,46 +22,23 @@ pub(super) fn contact(name: &str) -> PyResult<StripContact> {
     }
 }
 
-impl PyImpedances {
-    fn column<'py>(&self, py: Python<'py>, value: fn(&StripImpedance) -> Complex) -> Array<'py> {
-        let numbers = self.0.iter().map(value).map(|value| Complex64::new(value.re, value.im));
-        PyArray1::from_iter(py, numbers)
-    }
+getters! {
+    PyImpedances, own;
+    /// Frequencies: array of shape (m,), Hz.
+    frequency: Array = own.0.iter().map(|at| at.frequency).collect();
+    /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
+    horizontal: Array<Complex64> = own.0.iter().map(|at| complex(at.horizontal)).collect();
+    /// Vertical force by vertical translation: complex array of shape (m,), N/m².
+    vertical: Array<Complex64> = own.0.iter().map(|at| complex(at.vertical)).collect();
+    /// Moment by rotation: complex array of shape (m,), N.
+    rocking: Array<Complex64> = own.0.iter().map(|at| complex(at.rocking)).collect();
+    /// Horizontal force by rotation: complex array of shape (m,), N/m.
+    coupling: Array<Complex64> = own.0.iter().map(|at| complex(at.coupling)).collect();
 }
 
 #[pymethods]
 impl PyImpedances {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         reduced(slf)
-    }
-
-    /// Frequencies: array of shape (m,), Hz.
-    #[getter]
-    fn frequency<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_iter(py, self.0.iter().map(|own| own.frequency))
-    }
-
-    /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
-    #[getter]
-    fn horizontal<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.horizontal)
-    }
-
-    /// Vertical force by vertical translation: complex array of shape (m,), N/m².
-    #[getter]
-    fn vertical<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.vertical)
-    }
-
-    /// Moment by rotation: complex array of shape (m,), N.
-    #[getter]
-    fn rocking<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.rocking)
-    }
-
-    /// Horizontal force by rotation: complex array of shape (m,), N/m.
-    #[getter]
-    fn coupling<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.coupling)
     }
 }

@@ -9,11 +9,11 @@ use basemat::motion::{
 use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
 };
-use numpy::{Complex64, PyArray1};
+use numpy::Complex64;
 use pyo3::prelude::*;
 
 use super::{PyFreeField, PyRecord, given};
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Numbers, complex, whole};
 use crate::error::{OrRaise, refuse};
 use crate::profile::PySoilProfile;
 use crate::site::{Iteration, PyEquivalentLinear, PyStrainCurves, iterate};
@@ -171,17 +171,12 @@ impl PyColumn {
     /// shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
     /// base without layers) or "within" (the base under them).
     #[pyo3(signature = (frequencies, *, control="outcrop"))]
-    fn transfer<'py>(
-        &self,
-        py: Python<'py>,
-        frequencies: Numbers,
-        control: &str,
-    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+    fn transfer(&self, frequencies: Numbers, control: &str) -> PyResult<Array<Complex64>> {
         let control = self::control(control)?;
         let at = |frequency: &f64| self.0.transfer(control, *frequency);
         let values: Vec<Complex> =
             frequencies.0.iter().map(at).collect::<Result<_, _>>().or_raise()?;
-        Ok(PyArray1::from_iter(py, values.iter().map(|value| Complex64::new(value.re, value.im))))
+        Ok(values.into_iter().map(complex).collect())
     }
 
     /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
