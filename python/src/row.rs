@@ -86,6 +86,11 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
             // Integers of numpy.
             return Ok(Self(unknown.into(), Order::default()));
         }
+        if let Ok(name) = object.extract::<String>() {
+            return Err(refuse(format!(
+                "a row is '{name}', but must be a number: structure.dof('{name}') is that of a name"
+            )));
+        }
         match object.extract::<Vec<(usize, f64)>>() {
             Ok(terms) => Ok(Self(terms.into(), Order::default())),
             Err(_) => Err(refuse(

@@ -95,8 +95,10 @@ def test_a_run_ends_with_the_motion_and_says_when_it_is_over(rocking) -> None:
         simulation.run(10)
         simulation.run(duration=0.1)
     for again in (simulation.run, lambda: list(simulation.steps())):
-        with pytest.warns(bm.BasematWarning, match=r"ended at 2 s, before these 200 steps.*reset\(\)"):
+        with pytest.warns(bm.BasematWarning, match=r"ended at 2 s, before these 200 steps.*reset\(\)") as found:
             again()
+        # Rounding of the ground at rest is no motion that steps could miss.
+        assert len(found) == 1
     assert simulation.state.step == 50 + 150 + 10 + 10 + 2 * 200
 
 

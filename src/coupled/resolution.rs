@@ -68,6 +68,8 @@ const ERRORS: [f64; 2] = [0.05, 0.03];
 const LEAST_STEPS: usize = 8;
 /// Base shear that is rounding, relative to the normal force.
 const ROUNDING: f64 = 1e-9;
+/// Second difference of the free field that is rounding, relative to the free field.
+const AT_REST: f64 = 16.0 * f64::EPSILON;
 /// Elements per wavelength of the shear wave: fewest, and those that are asked for.
 const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
 /// Fewest elements under a foundation by its base moment over base shear times width; below the
@@ -195,7 +197,10 @@ impl Resolution {
         }
         let [before, last] = self.free_field;
         for k in 0..2 {
-            let acceleration = state.free_field[k] - 2.0 * last[k] + before[k];
+            let mut acceleration = state.free_field[k] - 2.0 * last[k] + before[k];
+            if acceleration.abs() <= AT_REST * state.free_field[k].abs() {
+                acceleration = 0.0;
+            }
             if self.in_a_row > 2 {
                 self.ground.see(self.acceleration[k], acceleration);
             }

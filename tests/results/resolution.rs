@@ -105,6 +105,24 @@ fn steps_that_miss_the_structure() {
 
 /// Errors of the largest base shear, from halved steps by Richardson's extrapolation, and their
 /// estimates.
+/// After its motion a ground drifts at most: differences of its displacement are rounding, and tell no step.
+#[test]
+fn rest_after_the_motion() {
+    let samples = (0..=100).map(|k| f64::sin(f64::from(k))).collect();
+    let block = RigidBlock::new(6.0, 9.0, 1000.0).unwrap();
+    let mut simulation = Simulation::builder(0.01)
+        .ground(ElasticGround::under(soil(200.0), &block, 8).unwrap())
+        .structure(block)
+        .motion(Record::new(0.02, samples).unwrap())
+        .interface(Coulomb::new(0.5).unwrap())
+        .build()
+        .unwrap();
+    simulation.run(200, |_| {}).unwrap();
+    let rest = simulation.run(200, |_| {}).unwrap();
+    assert!(rest.whole.base_shear.magnitude() > 1e-6 * rest.whole.static_normal_force);
+    assert!(rest.warnings.is_empty(), "{:?}", rest.warnings);
+}
+
 #[test]
 fn errors_are_estimated_as_numbers() {
     type Case = (fn() -> Box<dyn Structure>, fn() -> Box<dyn FreeField>, f64);

@@ -2140,6 +2140,7 @@ class Condition:
         shear: float = 0.0,
         value: float = 0.0,
     ) -> Self: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float]]: ...
     @staticmethod
     def gap_is(value: float) -> Condition:
         """The gap is ``value``, m."""

@@ -42,6 +42,16 @@ impl PyRun {
             .as_ref()
             .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
     }
+
+    /// The time series, of which the `probe` is one.
+    fn probed(&self, probe: &str) -> PyResult<&TimeSeries> {
+        let (histories, known) = (self.kept()?, series::names(self.kept()?));
+        if known.iter().any(|own| own == probe) {
+            return Ok(histories);
+        }
+        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+        Err(refuse(format!("there is no probe called '{probe}', only {known}")))
+    }
 }
 
 getters! {
@@ -127,7 +137,7 @@ impl PyRun {
 
     /// The :class:`Record` of the acceleration probe called ``probe``.
     fn acceleration_record(&self, py: Python<'_>, probe: &str) -> PyResult<Py<PyRecord>> {
-        PyRecord::create(py, self.kept()?.acceleration_record(probe))
+        PyRecord::create(py, self.probed(probe)?.acceleration_record(probe))
     }
 
     /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
@@ -140,7 +150,7 @@ impl PyRun {
         periods: Numbers,
         damping: f64,
     ) -> PyResult<PySpectrum> {
-        let histories = self.kept()?;
+        let histories = self.probed(probe)?;
         let spectrum = py.detach(|| histories.floor_spectrum(probe, &periods.0, damping));
         Ok(PySpectrum(spectrum.or_raise()?))
     }
