@@ -20,7 +20,6 @@ mod refine;
 mod restored;
 mod results;
 mod row;
-mod saved;
 mod simulation;
 mod site;
 mod soil;

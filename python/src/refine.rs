@@ -5,7 +5,6 @@ use pyo3::prelude::*;
 
 use crate::array::{Array, Numbers, real};
 use crate::error::{OrRaise, heard, kept, returned};
-use crate::saved::{Reduced, reduced};
 
 /// Error against run time at six settings: what :func:`refine` returns. Printed, it is a table.
 #[pyclass(name = "Refinement", module = "basemat", frozen)]
@@ -67,10 +66,6 @@ getters! {
 
 #[pymethods]
 impl PyRefinement {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     fn __str__(&self) -> String {
         self.0.to_string()
     }

@@ -7,6 +7,7 @@ use pyo3::types::{PyDict, PyInt};
 
 use crate::array::{Numbers, whole};
 use crate::error::refuse;
+use crate::names::choice;
 
 /// A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 ///
@@ -82,9 +83,9 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
             let terms = weights.into_iter().enumerate().filter(|(_, weight)| *weight != 0.0);
             return Ok(Self(terms.collect(), order));
         }
-        if let Ok(unknown) = object.extract::<usize>() {
+        if let Ok(dof) = object.extract::<usize>() {
             // Integers of numpy.
-            return Ok(Self(unknown.into(), Order::default()));
+            return Ok(Self(dof.into(), Order::default()));
         }
         if let Ok(name) = object.extract::<String>() {
             return Err(refuse(format!(
@@ -135,11 +136,7 @@ impl PySectionRows {
         acceleration: RowLike,
         unit: &str,
     ) -> PyResult<Self> {
-        let unit = match unit {
-            "N/m" => "N/m",
-            "N·m/m" => "N·m/m",
-            _ => return Err(refuse(format!("unit is '{unit}', but must be 'N/m' or 'N·m/m'"))),
-        };
+        let unit = choice("unit", unit, &["N/m", "N·m/m"].map(|own| (own, own)))?;
         let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
         let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
         Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, refuse};
 use crate::motion::PyRecord;
+use crate::names::choice;
 use crate::profile::PySoilProfile;
 
 /// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
@@ -32,11 +33,9 @@ impl PyStrainCurves {
     #[staticmethod]
     #[pyo3(signature = (bound="mean"))]
     fn seed_idriss(bound: &str) -> PyResult<Self> {
-        match bound {
-            "mean" => checked(StrainCurves::SeedIdrissMean),
-            "upper" => checked(StrainCurves::SeedIdrissUpper),
-            _ => Err(refuse(format!("bound is '{bound}', but must be 'mean' or 'upper'"))),
-        }
+        let all =
+            [("mean", StrainCurves::SeedIdrissMean), ("upper", StrainCurves::SeedIdrissUpper)];
+        checked(choice("bound", bound, &all)?)
     }
 
     /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).

@@ -5,8 +5,7 @@ use numpy::Complex64;
 use pyo3::prelude::*;
 
 use crate::array::{Array, complex};
-use crate::error::refuse;
-use crate::saved::{Reduced, reduced};
+use crate::names::choice;
 
 /// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
 /// arrays of shape (m,), one value per frequency; the imaginary part is that of radiation and damping.
@@ -15,11 +14,7 @@ use crate::saved::{Reduced, reduced};
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
 
 pub(super) fn contact(name: &str) -> PyResult<StripContact> {
-    match name {
-        "bonded" => Ok(StripContact::Bonded),
-        "relaxed" => Ok(StripContact::Relaxed),
-        _ => Err(refuse(format!("contact is '{name}', but must be 'bonded' or 'relaxed'"))),
-    }
+    choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
 
 getters! {
@@ -34,11 +29,4 @@ getters! {
     rocking: Array<Complex64> = own.0.iter().map(|at| complex(at.rocking)).collect();
     /// Horizontal force by rotation: complex array of shape (m,), N/m.
     coupling: Array<Complex64> = own.0.iter().map(|at| complex(at.coupling)).collect();
-}
-
-#[pymethods]
-impl PyImpedances {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
 }

@@ -5,7 +5,6 @@ use pyo3::prelude::*;
 
 use crate::array::{Array, whole};
 use crate::error::OrRaise;
-use crate::saved::{Reduced, reduced};
 
 /// A response spectrum: arrays of shape (m,), one value per natural period.
 #[pyclass(name = "Spectrum", module = "basemat", frozen)]
@@ -39,10 +38,6 @@ getters! {
 
 #[pymethods]
 impl PySpectrum {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     /// Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
     /// by default (U.S. NRC R.G. 1.122).
     #[pyo3(signature = (share=0.15))]

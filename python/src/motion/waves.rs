@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use super::{PyFreeField, PyRecord, given};
 use crate::array::{Array, Numbers, complex, whole};
 use crate::error::{OrRaise, refuse};
+use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::site::{Iteration, PyEquivalentLinear, PyStrainCurves, iterate};
 use crate::soil::PySoil;
@@ -133,11 +134,7 @@ impl PyPlaneWave {
 pub(crate) struct PyColumn(SoilColumn);
 
 fn control(name: &str) -> PyResult<ControlPoint> {
-    match name {
-        "outcrop" => Ok(ControlPoint::Outcrop),
-        "within" => Ok(ControlPoint::Within),
-        _ => Err(refuse(format!("control is '{name}', but must be 'outcrop' or 'within'"))),
-    }
+    choice("control", name, &[("outcrop", ControlPoint::Outcrop), ("within", ControlPoint::Within)])
 }
 
 /// Part of its peak that a motion may lack without a warning: less than response spectra show.
@@ -157,13 +154,8 @@ impl PyColumn {
     #[new]
     #[pyo3(signature = (profile, wave="shear"))]
     fn new(profile: &PySoilProfile, wave: &str) -> PyResult<Self> {
-        let wave = match wave {
-            "shear" => VerticalWave::Shear,
-            "pressure" => VerticalWave::Pressure,
-            _ => {
-                return Err(refuse(format!("wave is '{wave}', but must be 'shear' or 'pressure'")));
-            }
-        };
+        let all = [("shear", VerticalWave::Shear), ("pressure", VerticalWave::Pressure)];
+        let wave = choice("wave", wave, &all)?;
         Ok(Self(SoilColumn::new(profile.0.clone(), wave).or_raise()?))
     }
 
@@ -264,17 +256,12 @@ impl PyInclinedWave {
     /// vertical" (motions of the base without layers) or "incident" (the incident wave alone).
     #[pyo3(signature = (record, origin, *, control="outcrop horizontal"))]
     fn field(&self, record: &PyRecord, origin: f64, control: &str) -> PyResult<PyFreeField> {
-        let control = match control {
-            "outcrop horizontal" => InclinedControl::OutcropHorizontal,
-            "outcrop vertical" => InclinedControl::OutcropVertical,
-            "incident" => InclinedControl::Incident,
-            _ => {
-                return Err(refuse(format!(
-                    "control is '{control}', but must be 'outcrop horizontal', 'outcrop vertical' or \
-                     'incident'"
-                )));
-            }
-        };
+        let all = [
+            ("outcrop horizontal", InclinedControl::OutcropHorizontal),
+            ("outcrop vertical", InclinedControl::OutcropVertical),
+            ("incident", InclinedControl::Incident),
+        ];
+        let control = choice("control", control, &all)?;
         let (wave, record) = (self.0.clone(), Arc::clone(&record.0));
         field(move || wave.field(control, &record, origin))
     }

@@ -5,7 +5,6 @@ use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
 use crate::error::OrRaise;
-use crate::saved::{Reduced, reduced};
 
 /// The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 ///
@@ -61,10 +60,6 @@ getters! {
 
 #[pymethods]
 impl PySummary {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     /// The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
     /// "base_shear" or "free_field_horizontal".
     fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
@@ -95,10 +90,6 @@ getters! {
 
 #[pymethods]
 impl PyServiceCheck {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     fn __str__(&self) -> String {
         self.0.to_string()
     }

@@ -4,8 +4,6 @@ use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::saved::{Reduced, reduced};
-
 /// Energies since the start, J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
 #[pyclass(name = "EnergyBalance", module = "basemat", frozen)]
@@ -46,10 +44,6 @@ getters! {
 
 #[pymethods]
 impl PyEnergyBalance {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     /// All terms by their names: dict of numbers, J/m.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let terms = PyDict::new(py);

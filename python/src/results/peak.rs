@@ -3,8 +3,6 @@
 use basemat::results::{Extremes, Peak};
 use pyo3::prelude::*;
 
-use crate::saved::{Reduced, reduced};
-
 /// A value of a run with its time; ``float()`` gives the value.
 #[pyclass(name = "Peak", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -20,10 +18,6 @@ getters! {
 
 #[pymethods]
 impl PyPeak {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     fn __float__(&self) -> f64 {
         self.0.value
     }
@@ -53,10 +47,6 @@ getters! {
 
 #[pymethods]
 impl PyExtremes {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     fn __repr__(&self) -> String {
         let Extremes { lowest, highest } = self.0;
         format!(

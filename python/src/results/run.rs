@@ -10,7 +10,6 @@ use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, seri
 use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
-use crate::saved::{Reduced, reduced};
 
 type Column = fn(&ElementEnvelope) -> f64;
 
@@ -96,10 +95,6 @@ getters! {
 
 #[pymethods]
 impl PyRun {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
     /// Time series of the scalar or the probe ``name``: array of shape (steps + 1,).
     fn __getitem__(&self, name: &str) -> PyResult<Array> {
         series::named(self.kept()?, name)

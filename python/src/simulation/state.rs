@@ -8,7 +8,6 @@ use crate::array::{Array, whole};
 use crate::error::refuse;
 use crate::names::{mode_name, mode_number};
 use crate::results::PyEnergyBalance;
-use crate::saved::{Reduced, reduced};
 
 /// The simulation at the end of an accepted step.
 ///
@@ -35,13 +34,6 @@ pub(crate) struct PyFoundation {
     mean_slip: f64,
     /// Rotation of its chord, rad.
     rotation: f64,
-}
-
-#[pymethods]
-impl PyFoundation {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
 }
 
 getters! {
