@@ -68,7 +68,7 @@ const ERRORS: [f64; 2] = [0.05, 0.03];
 const LEAST_STEPS: usize = 8;
 /// Base shear that is rounding, relative to the normal force.
 const ROUNDING: f64 = 1e-9;
-/// Second difference of the free field that is rounding, relative to the free field.
+/// Second difference of the free field that is rounding, relative to the largest free field so far.
 const AT_REST: f64 = 16.0 * f64::EPSILON;
 /// Elements per wavelength of the shear wave: fewest, and those that are asked for.
 const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
@@ -125,6 +125,8 @@ pub(crate) struct Resolution {
     /// Mean free field at the last two steps, and its last second difference.
     free_field: [[f64; 2]; 2],
     acceleration: [f64; 2],
+    /// Largest |free field| so far.
+    largest: [f64; 2],
     /// Steps seen without a gap.
     in_a_row: usize,
     base_shear: Variation,
@@ -164,6 +166,7 @@ impl Resolution {
             last_shear: 0.0,
             free_field: [state.free_field; 2],
             acceleration: [0.0; 2],
+            largest: state.free_field.map(f64::abs),
             in_a_row: 0,
             base_shear: Variation::default(),
             ground: Variation::default(),
@@ -198,7 +201,8 @@ impl Resolution {
         let [before, last] = self.free_field;
         for k in 0..2 {
             let mut acceleration = state.free_field[k] - 2.0 * last[k] + before[k];
-            if acceleration.abs() <= AT_REST * state.free_field[k].abs() {
+            self.largest[k] = self.largest[k].max(state.free_field[k].abs());
+            if acceleration.abs() <= AT_REST * self.largest[k] {
                 acceleration = 0.0;
             }
             if self.in_a_row > 2 {
