@@ -2,7 +2,7 @@
 
 use basemat::structure::Triplets;
 use numpy::ndarray::{Ix1, Ix2};
-use numpy::{Element, PyArray, PyArrayMethods, PyReadonlyArray};
+use numpy::{Complex64, Element, PyArray, PyArray1, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
@@ -76,6 +76,42 @@ where
     }
     let found = object.repr()?;
     Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
+}
+
+/// Numbers that Python gets as an array of shape (n,).
+pub(crate) struct Array<T = f64>(Vec<T>);
+
+impl<T> FromIterator<T> for Array<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
+        Self(values.into_iter().collect())
+    }
+}
+
+impl<T: Copy> From<&[T]> for Array<T> {
+    fn from(values: &[T]) -> Self {
+        Self(values.to_vec())
+    }
+}
+
+impl<T> From<Vec<T>> for Array<T> {
+    fn from(values: Vec<T>) -> Self {
+        Self(values)
+    }
+}
+
+impl<'py, T: Element> IntoPyObject<'py> for Array<T> {
+    type Target = PyArray1<T>;
+    type Output = Bound<'py, Self::Target>;
+    type Error = std::convert::Infallible;
+
+    fn into_pyobject(self, py: Python<'py>) -> Result<Self::Output, Self::Error> {
+        Ok(PyArray1::from_vec(py, self.0))
+    }
+}
+
+/// A complex number as numpy has it.
+pub(crate) fn complex(value: basemat::Complex) -> Complex64 {
+    Complex64::new(value.re, value.im)
 }
 
 /// A count that user code gives.

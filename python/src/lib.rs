@@ -1,6 +1,9 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
+#[macro_use]
+mod getters;
+
 mod array;
 mod cases;
 mod dof_names;
@@ -17,7 +20,6 @@ mod refine;
 mod restored;
 mod results;
 mod row;
-mod saved;
 mod simulation;
 mod site;
 mod soil;
@@ -25,93 +27,53 @@ mod structure;
 mod ticker;
 mod user;
 
-use pyo3::prelude::*;
+#[pyo3::pymodule]
+mod _core {
+    use pyo3::prelude::*;
 
-#[pymodule]
-fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("MODES", names::MODE_NAMES)?;
-    module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
-    module.add_class::<refine::PyRefinement>()?;
-    module.add_function(wrap_pyfunction!(refine::refine, module)?)?;
-    module.add_function(wrap_pyfunction!(cases::case_numbers, module)?)?;
-    module.add_function(wrap_pyfunction!(cases::save_cases, module)?)?;
-    module.add_function(wrap_pyfunction!(cases::merge_cases, module)?)?;
-    module.add_function(wrap_pyfunction!(restored::restored, module)?)?;
-    module.add_function(wrap_pyfunction!(memory::memory_limit, module)?)?;
-    module.add_function(wrap_pyfunction!(memory::set_memory_limit, module)?)?;
-    module.add_class::<soil::PySoil>()?;
-    module.add_class::<profile::PyDampingLaw>()?;
-    module.add_class::<profile::PySoilLayer>()?;
-    module.add_class::<profile::PySoilProfile>()?;
-    module.add_class::<row::PyDofCombination>()?;
-    module.add_class::<row::PySectionRows>()?;
-    module.add_class::<probe::PyProbe>()?;
-    module.add_class::<structure::PyStructure>()?;
-    module.add_class::<structure::PyContactNode>()?;
-    module.add_class::<structure::PyRigidBlock>()?;
-    module.add_class::<structure::PyStorey>()?;
-    module.add_class::<structure::PyShearBuilding>()?;
-    module.add_class::<structure::PyMatrixModel>()?;
-    module.add_class::<structure::PyRayleighDamping>()?;
-    module.add_class::<structure::PyReducedModel>()?;
-    module.add_class::<structure::PyStructureGroup>()?;
-    module.add_class::<structure::PyWithModalDamping>()?;
-    module.add_class::<structure::PyHysteresis>()?;
-    module.add_class::<structure::PyBilinear>()?;
-    module.add_class::<structure::PyBoucWen>()?;
-    module.add_class::<structure::PyFrictionPendulum>()?;
-    module.add_class::<structure::PyLeadRubber>()?;
-    module.add_class::<structure::PyWithSprings>()?;
-    module.add_class::<structure::PyMaterial>()?;
-    module.add_class::<structure::PyLayer>()?;
-    module.add_class::<structure::PyMesh>()?;
-    module.add_class::<structure::PyFemModel>()?;
-    module.add_class::<structure::PyGmshMesh>()?;
-    module.add_class::<ground::PyGround>()?;
-    module.add_class::<ground::PyStrip>()?;
-    module.add_class::<ground::PySharedKernels>()?;
-    module.add_class::<ground::PyElasticGround>()?;
-    module.add_class::<ground::PyImpedances>()?;
-    module.add_class::<ground::PySpringGround>()?;
-    module.add_class::<interface::PyInterfaceLaw>()?;
-    module.add_class::<interface::PyBonded>()?;
-    module.add_class::<interface::PyCoulomb>()?;
-    module.add_class::<interface::PyCohesive>()?;
-    module.add_class::<interface::PyYielding>()?;
-    module.add_class::<interface::PyThinLayer>()?;
-    module.add_class::<interface::PyVariableFriction>()?;
-    module.add_class::<user::PyPreviousContact>()?;
-    module.add_class::<user::PyCondition>()?;
-    module.add_class::<user::PyContactState>()?;
-    module.add_class::<user::PyTolerance>()?;
-    module.add_class::<motion::PyFreeField>()?;
-    module.add_class::<motion::PyRecord>()?;
-    module.add_class::<motion::PySpectrum>()?;
-    module.add_class::<motion::PyPlaneWave>()?;
-    module.add_class::<motion::PyColumn>()?;
-    module.add_class::<motion::PyInclinedWave>()?;
-    module.add_class::<site::PyStrainCurves>()?;
-    module.add_class::<site::PyEquivalentLinear>()?;
-    module.add_function(wrap_pyfunction!(motion::el_centro_1940, module)?)?;
-    module.add_function(wrap_pyfunction!(motion::free_field, module)?)?;
-    module.add_function(wrap_pyfunction!(motion::log_spaced, module)?)?;
-    module.add_function(wrap_pyfunction!(motion::vertical_incidence, module)?)?;
-    module.add_function(wrap_pyfunction!(motion::travelling_wave, module)?)?;
-    module.add_function(wrap_pyfunction!(motion::ricker, module)?)?;
-    module.add_class::<simulation::PyLoad>()?;
-    module.add_class::<simulation::PyTimeScheme>()?;
-    module.add_class::<simulation::PySimulation>()?;
-    module.add_class::<simulation::PySteps>()?;
-    module.add_class::<simulation::PyState>()?;
-    module.add_class::<simulation::PyFoundation>()?;
-    module.add_class::<simulation::PyCheckpoint>()?;
-    module.add_function(wrap_pyfunction!(ticker::cancel_when, module)?)?;
-    module.add_class::<results::PyRun>()?;
-    module.add_class::<results::PyPeak>()?;
-    module.add_class::<results::PyExtremes>()?;
-    module.add_class::<results::PyEnergyBalance>()?;
-    module.add_class::<results::PyFoundationSummary>()?;
-    module.add_class::<results::PyServiceCheck>()?;
-    Ok(())
+    #[pymodule_export]
+    const MODES: [&str; crate::names::MODE_NAMES.len()] = crate::names::MODE_NAMES;
+    #[pymodule_export]
+    const STANDARD_GRAVITY: f64 = basemat::motion::STANDARD_GRAVITY;
+
+    #[pymodule_export]
+    use crate::{
+        cases::{case_numbers, merge_cases, save_cases},
+        ground::{
+            PyElasticGround, PyGround, PyImpedances, PySharedKernels, PySpringGround, PyStrip,
+        },
+        interface::{
+            PyBonded, PyCohesive, PyCoulomb, PyInterfaceLaw, PyThinLayer, PyVariableFriction,
+            PyYielding,
+        },
+        memory::{memory_limit, set_memory_limit},
+        motion::{
+            PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,
+            el_centro_1940, free_field, log_spaced, ricker, travelling_wave, vertical_incidence,
+        },
+        probe::PyProbe,
+        profile::{PyDampingLaw, PySoilLayer, PySoilProfile},
+        refine::{PyRefinement, refine},
+        restored::restored,
+        results::{PyEnergyBalance, PyExtremes, PyPeak, PyRun, PyServiceCheck, PySummary},
+        row::{PyDofCombination, PySectionRows},
+        simulation::{
+            PyCheckpoint, PyFoundation, PyLoad, PySimulation, PyState, PySteps, PyTimeScheme,
+        },
+        site::{PyEquivalentLinear, PyStrainCurves},
+        soil::PySoil,
+        structure::{
+            PyBilinear, PyBoucWen, PyContactNode, PyFemModel, PyFrictionPendulum, PyGmshMesh,
+            PyHysteresis, PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh,
+            PyRayleighDamping, PyReducedModel, PyRigidBlock, PyShearBuilding, PyStorey,
+            PyStructure, PyStructureGroup, PyWithModalDamping, PyWithSprings,
+        },
+        ticker::cancel_when,
+        user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance},
+    };
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

@@ -41,3 +41,12 @@ pub(crate) fn mode_number(mode: Mode) -> PyResult<u8> {
 pub(crate) fn mode(name: &str) -> PyResult<Mode> {
     name.parse().or_raise()
 }
+
+/// The choice of a name among `all`; `what` names the argument.
+pub(crate) fn choice<T: Clone>(what: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
+    if let Some((_, found)) = all.iter().find(|(own, _)| *own == name) {
+        return Ok(found.clone());
+    }
+    let words: Vec<String> = all.iter().map(|(own, _)| format!("'{own}'")).collect();
+    Err(refuse(format!("{what} is '{name}', but must be {}", words.join(" or "))))
+}

@@ -26,6 +26,14 @@ impl PyProbe {
     }
 }
 
+getters! {
+    PyProbe, own;
+    /// Its name, that of its time series.
+    name: &str = &own.0.name;
+    /// Label of its unit; values are what the weights make of SI units.
+    unit: &str = &own.0.unit;
+}
+
 #[pymethods]
 impl PyProbe {
     /// Displacement (m, or rad of a rotation) of the ``row`` relative to the free field, as the time
@@ -66,18 +74,6 @@ impl PyProbe {
     #[pyo3(signature = (name, section, *, unit=None))]
     fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
         Self::labelled(Probe::section(name, &section.0), section.1, unit)
-    }
-
-    /// Its name, that of its time series.
-    #[getter]
-    fn name(&self) -> &str {
-        &self.0.name
-    }
-
-    /// Label of its unit; values are what the weights make of SI units.
-    #[getter]
-    fn unit(&self) -> &str {
-        &self.0.unit
     }
 
     /// The :class:`DofCombination` of displacements, that of velocities and that of accelerations.

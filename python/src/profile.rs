@@ -72,24 +72,20 @@ impl PyDampingLaw {
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
+getters! {
+    PySoilLayer, own;
+    /// Its :class:`Soil`.
+    soil: PySoil = PySoil(own.0.soil);
+    /// Its thickness, m.
+    thickness: f64 = own.0.thickness;
+}
+
 #[pymethods]
 impl PySoilLayer {
     #[new]
     #[pyo3(signature = (soil, thickness, damping=None))]
     fn new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
         Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) })
-    }
-
-    /// Its :class:`Soil`.
-    #[getter]
-    fn soil(&self) -> PySoil {
-        PySoil(self.0.soil)
-    }
-
-    /// Its thickness, m.
-    #[getter]
-    fn thickness(&self) -> f64 {
-        self.0.thickness
     }
 }
 
@@ -102,6 +98,20 @@ fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
 /// base; none unless given. Printed, it is a table.
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
+
+getters! {
+    PySoilProfile, own;
+    /// The layers from the surface down: list of :class:`SoilLayer`.
+    layers: Vec<PySoilLayer> = own.0.layers().iter().cloned().map(PySoilLayer).collect();
+    /// The :class:`Soil` of the half-plane under the layers; None on a rigid base.
+    base: Option<PySoil> = match own.0.base() { Base::HalfPlane { soil,.. } => Some(PySoil(*soil)), Base::Rigid => None, };
+    /// Depth of all layers, m.
+    depth: f64 = own.0.depth();
+    /// First natural frequency of the layers, Hz; None without layers.
+    first_frequency: Option<f64> = own.0.first_frequency();
+    /// Time that a shear wave takes through all layers, s.
+    travel_time: f64 = own.0.travel_time();
+}
 
 #[pymethods]
 impl PySoilProfile {
@@ -120,41 +130,8 @@ impl PySoilProfile {
         Ok(Self(SoilProfile::new(layers, base).or_raise()?))
     }
 
-    /// The layers from the surface down: list of :class:`SoilLayer`.
-    #[getter]
-    fn layers(&self) -> Vec<PySoilLayer> {
-        self.0.layers().iter().cloned().map(PySoilLayer).collect()
-    }
-
-    /// The :class:`Soil` of the half-plane under the layers; None on a rigid base.
-    #[getter]
-    fn base(&self) -> Option<PySoil> {
-        match self.0.base() {
-            Base::HalfPlane { soil, .. } => Some(PySoil(*soil)),
-            Base::Rigid => None,
-        }
-    }
-
     fn _repr_html_(&self) -> String {
         preformatted(&self.0.to_string())
-    }
-
-    /// Depth of all layers, m.
-    #[getter]
-    fn depth(&self) -> f64 {
-        self.0.depth()
-    }
-
-    /// First natural frequency of the layers, Hz; None without layers.
-    #[getter]
-    fn first_frequency(&self) -> Option<f64> {
-        self.0.first_frequency()
-    }
-
-    /// Time that a shear wave takes through all layers, s.
-    #[getter]
-    fn travel_time(&self) -> f64 {
-        self.0.travel_time()
     }
 
     fn __str__(&self) -> String {

@@ -7,6 +7,7 @@ use pyo3::types::{PyDict, PyInt};
 
 use crate::array::{Numbers, whole};
 use crate::error::refuse;
+use crate::names::choice;
 
 /// A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 ///
@@ -82,9 +83,14 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
             let terms = weights.into_iter().enumerate().filter(|(_, weight)| *weight != 0.0);
             return Ok(Self(terms.collect(), order));
         }
-        if let Ok(unknown) = object.extract::<usize>() {
+        if let Ok(dof) = object.extract::<usize>() {
             // Integers of numpy.
-            return Ok(Self(unknown.into(), Order::default()));
+            return Ok(Self(dof.into(), Order::default()));
+        }
+        if let Ok(name) = object.extract::<String>() {
+            return Err(refuse(format!(
+                "a row is '{name}', but must be a number: structure.dof('{name}') is that of a name"
+            )));
         }
         match object.extract::<Vec<(usize, f64)>>() {
             Ok(terms) => Ok(Self(terms.into(), Order::default())),
@@ -108,6 +114,18 @@ impl From<SectionRows> for PySectionRows {
     }
 }
 
+getters! {
+    PySectionRows, own;
+    /// SI unit of the resultant: "N/m" or "N·m/m".
+    unit: &'static str = own.0.unit;
+    /// The :class:`DofCombination` of displacements.
+    displacement: PyDofCombination = PyDofCombination(own.0.displacement.clone(), own.1);
+    /// The :class:`DofCombination` of velocities.
+    velocity: PyDofCombination = PyDofCombination(own.0.velocity.clone(), own.1);
+    /// The :class:`DofCombination` of accelerations.
+    acceleration: PyDofCombination = PyDofCombination(own.0.acceleration.clone(), own.1);
+}
+
 #[pymethods]
 impl PySectionRows {
     #[new]
@@ -118,11 +136,7 @@ impl PySectionRows {
         acceleration: RowLike,
         unit: &str,
     ) -> PyResult<Self> {
-        let unit = match unit {
-            "N/m" => "N/m",
-            "N·m/m" => "N·m/m",
-            _ => return Err(refuse(format!("unit is '{unit}', but must be 'N/m' or 'N·m/m'"))),
-        };
+        let unit = choice("unit", unit, &["N/m", "N·m/m"].map(|own| (own, own)))?;
         let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
         let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
         Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))
@@ -136,29 +150,5 @@ impl PySectionRows {
         let unit = PyDict::new(py);
         unit.set_item("unit", self.0.unit)?;
         Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
-    }
-
-    /// SI unit of the resultant: "N/m" or "N·m/m".
-    #[getter]
-    fn unit(&self) -> &'static str {
-        self.0.unit
-    }
-
-    /// The :class:`DofCombination` of displacements.
-    #[getter]
-    fn displacement(&self) -> PyDofCombination {
-        PyDofCombination(self.0.displacement.clone(), self.1)
-    }
-
-    /// The :class:`DofCombination` of velocities.
-    #[getter]
-    fn velocity(&self) -> PyDofCombination {
-        PyDofCombination(self.0.velocity.clone(), self.1)
-    }
-
-    /// The :class:`DofCombination` of accelerations.
-    #[getter]
-    fn acceleration(&self) -> PyDofCombination {
-        PyDofCombination(self.0.acceleration.clone(), self.1)
     }
 }

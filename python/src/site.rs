@@ -1,18 +1,15 @@
 //! Strain curves of soils, and the equivalent-linear response of a site.
 
-use basemat::site::{
-    ControlPoint, EquivalentLinear, EquivalentLinearOptions, LayerResponse, SoilColumn,
-};
+use basemat::site::{ControlPoint, EquivalentLinear, EquivalentLinearOptions, SoilColumn};
 use basemat::soil::StrainCurves;
-use numpy::{PyArray1, PyArray2};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::array::Numbers;
+use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, refuse};
 use crate::motion::PyRecord;
+use crate::names::choice;
 use crate::profile::PySoilProfile;
-
-type Array<'py> = Bound<'py, PyArray1<f64>>;
 
 /// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
 #[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
@@ -36,11 +33,9 @@ impl PyStrainCurves {
     #[staticmethod]
     #[pyo3(signature = (bound="mean"))]
     fn seed_idriss(bound: &str) -> PyResult<Self> {
-        match bound {
-            "mean" => checked(StrainCurves::SeedIdrissMean),
-            "upper" => checked(StrainCurves::SeedIdrissUpper),
-            _ => Err(refuse(format!("bound is '{bound}', but must be 'mean' or 'upper'"))),
-        }
+        let all =
+            [("mean", StrainCurves::SeedIdrissMean), ("upper", StrainCurves::SeedIdrissUpper)];
+        checked(choice("bound", bound, &all)?)
     }
 
     /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
@@ -93,10 +88,10 @@ impl PyStrainCurves {
     }
 
     /// G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,).
-    fn at<'py>(&self, py: Python<'py>, strains: Numbers) -> PyResult<(Array<'py>, Array<'py>)> {
+    fn at(&self, strains: Numbers) -> PyResult<(Array, Array)> {
         let values = strains.0.iter().map(|strain| self.0.at(*strain));
         let values: Vec<[f64; 2]> = values.collect::<Result<_, _>>().or_raise()?;
-        let column = |k: usize| PyArray1::from_iter(py, values.iter().map(|value| value[k]));
+        let column = |k: usize| values.iter().map(|value| value[k]).collect();
         Ok((column(0), column(1)))
     }
 }
@@ -137,10 +132,28 @@ pub(crate) fn iterate(
 #[pyclass(name = "EquivalentLinear", module = "basemat", frozen, dict)]
 pub(crate) struct PyEquivalentLinear(EquivalentLinear);
 
-impl PyEquivalentLinear {
-    fn column<'py>(&self, py: Python<'py>, value: fn(&LayerResponse) -> f64) -> Array<'py> {
-        PyArray1::from_iter(py, self.0.layers.iter().map(value))
-    }
+getters! {
+    PyEquivalentLinear, own;
+    /// Depth of the tops of the layers: array of shape (layers,), m.
+    depth: Array = own.0.layers.iter().map(|layer| layer.depth).collect();
+    /// Strain-compatible shear moduli: array of shape (layers,), Pa.
+    shear_modulus: Array = own.0.layers.iter().map(|layer| layer.shear_modulus).collect();
+    /// Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,).
+    modulus_ratio: Array = own.0.layers.iter().map(|layer| layer.modulus_ratio).collect();
+    /// Strain-compatible damping ratio of each layer: array of shape (layers,).
+    damping: Array = own.0.layers.iter().map(|layer| layer.damping).collect();
+    /// Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,).
+    largest_strain: Array = own.0.layers.iter().map(|layer| layer.largest_strain).collect();
+    /// Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,).
+    effective_strain: Array = own.0.layers.iter().map(|layer| layer.effective_strain).collect();
+    /// Their largest absolute values: array of shape (layers + 1,), m/s².
+    peak_acceleration: Array = own.0.peak_accelerations.as_slice().into();
+    /// Linear calculations made.
+    iterations: usize = own.0.iterations;
+    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
+    last_change: f64 = own.0.last_change;
+    /// Warnings, in words.
+    warnings: Vec<String> = own.0.warnings.iter().map(ToString::to_string).collect();
 }
 
 #[pymethods]
@@ -156,70 +169,10 @@ impl PyEquivalentLinear {
         PyRecord::create(py, Ok(self.0.surface.clone()))
     }
 
-    /// Depth of the tops of the layers: array of shape (layers,), m.
-    #[getter]
-    fn depth<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |layer| layer.depth)
-    }
-
-    /// Strain-compatible shear moduli: array of shape (layers,), Pa.
-    #[getter]
-    fn shear_modulus<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |layer| layer.shear_modulus)
-    }
-
-    /// Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,).
-    #[getter]
-    fn modulus_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |layer| layer.modulus_ratio)
-    }
-
-    /// Strain-compatible damping ratio of each layer: array of shape (layers,).
-    #[getter]
-    fn damping<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |layer| layer.damping)
-    }
-
-    /// Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,).
-    #[getter]
-    fn largest_strain<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |layer| layer.largest_strain)
-    }
-
-    /// Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,).
-    #[getter]
-    fn effective_strain<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |layer| layer.effective_strain)
-    }
-
     /// Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s².
     #[getter]
     fn accelerations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         Ok(PyArray2::from_vec2(py, &self.0.accelerations)?)
-    }
-
-    /// Their largest absolute values: array of shape (layers + 1,), m/s².
-    #[getter]
-    fn peak_acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_slice(py, &self.0.peak_accelerations)
-    }
-
-    /// Linear calculations made.
-    #[getter]
-    fn iterations(&self) -> usize {
-        self.0.iterations
-    }
-
-    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
-    #[getter]
-    fn last_change(&self) -> f64 {
-        self.0.last_change
-    }
-
-    /// Warnings, in words.
-    #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.0.warnings.iter().map(ToString::to_string).collect()
     }
 
     fn __str__(&self) -> String {

@@ -12,6 +12,20 @@ use crate::error::OrRaise;
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PySoil(pub(crate) Soil);
 
+getters! {
+    PySoil, own;
+    /// Shear modulus, Pa.
+    shear_modulus: f64 = own.0.shear_modulus();
+    /// Poisson's ratio, a number.
+    poisson: f64 = own.0.poisson();
+    /// Density, kg/m³.
+    density: f64 = own.0.density();
+    /// Speed of shear waves, m/s.
+    shear_wave_speed: f64 = own.0.shear_wave_speed();
+    /// Speed of pressure waves, m/s.
+    pressure_wave_speed: f64 = own.0.pressure_wave_speed();
+}
+
 #[pymethods]
 impl PySoil {
     #[new]
@@ -30,36 +44,6 @@ impl PySoil {
     #[staticmethod]
     fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> PyResult<Self> {
         Ok(Self(Soil::from_wave_speeds(shear, pressure, density).or_raise()?))
-    }
-
-    /// Shear modulus, Pa.
-    #[getter]
-    fn shear_modulus(&self) -> f64 {
-        self.0.shear_modulus()
-    }
-
-    /// Poisson's ratio, a number.
-    #[getter]
-    fn poisson(&self) -> f64 {
-        self.0.poisson()
-    }
-
-    /// Density, kg/m³.
-    #[getter]
-    fn density(&self) -> f64 {
-        self.0.density()
-    }
-
-    /// Speed of shear waves, m/s.
-    #[getter]
-    fn shear_wave_speed(&self) -> f64 {
-        self.0.shear_wave_speed()
-    }
-
-    /// Speed of pressure waves, m/s.
-    #[getter]
-    fn pressure_wave_speed(&self) -> f64 {
-        self.0.pressure_wave_speed()
     }
 
     fn __repr__(&self) -> String {

@@ -136,6 +136,12 @@ def test_motions_laws_loads_and_probes() -> None:
         assert same_bits(*runs) and np.abs(runs[0]).max() > 0.0
 
 
+def test_conditions_of_any_origin() -> None:
+    start = bm.PreviousContact(bm.ContactState(pressure=1e5), "stick", 0.005)
+    for own in (bm.Condition(gap=1.0, value=0.5), bm.Condition.shear_is(2.0), *bm.Coulomb(0.4).conditions("slip left", start)):
+        assert repr(copied(own)) == repr(own)
+
+
 def test_descriptions_show_how_they_were_made() -> None:
     for value in (
         bm.RigidBlock(6.0, 9.0, 1000.0, center=1.0),

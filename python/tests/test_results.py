@@ -126,6 +126,24 @@ def test_damaged_bytes_are_refused_or_a_result() -> None:
         bm._core._restored("Soil", b"")
 
 
+def test_a_run_is_the_summary_of_its_base(rocking) -> None:
+    run = rocking().run(300)
+    [foundation] = run.foundations
+    assert isinstance(run, bm.Summary) and not isinstance(foundation, bm.Run)
+    for name in set(run.series) - {"time"} - set(run.probes):
+        values, found = run[name], run.extremes(name)
+        if not np.isnan(values).all():
+            assert [found.lowest.value, found.highest.value] == [np.nanmin(values), np.nanmax(values)], name
+    for own in (run, foundation):
+        assert own.extremes("mean_slip") == own.mean_slip and own.ends == run.ends
+        assert own.slip_path == run.slip_path > 0.0
+    with pytest.raises(bm.InputError, match="no quantity 'shear'"):
+        run.extremes("shear")
+    for ask in (lambda: run.floor_spectrum("rof", [0.1]), lambda: run.acceleration_record("rof")):
+        with pytest.raises(bm.InputError, match="no probe called 'rof', only roof"):
+            ask()
+
+
 def test_frames_have_units(run: bm.Run) -> None:
     pytest.importorskip("pandas")
     frame = run.to_frame()

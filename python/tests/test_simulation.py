@@ -95,8 +95,10 @@ def test_a_run_ends_with_the_motion_and_says_when_it_is_over(rocking) -> None:
         simulation.run(10)
         simulation.run(duration=0.1)
     for again in (simulation.run, lambda: list(simulation.steps())):
-        with pytest.warns(bm.BasematWarning, match=r"ended at 2 s, before these 200 steps.*reset\(\)"):
+        with pytest.warns(bm.BasematWarning, match=r"ended at 2 s, before these 200 steps.*reset\(\)") as found:
             again()
+        # Rounding of the ground at rest is no motion that steps could miss.
+        assert len(found) == 1
     assert simulation.state.step == 50 + 150 + 10 + 10 + 2 * 200
 
 
@@ -226,7 +228,7 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
 
 def test_no_damaged_checkpoint_resumes_with_other_numbers() -> None:
     block = bm.RigidBlock(4.0, 3.0, 2000.0)
-    ground = bm.SpringGround.strip(-2.0, 2.0, 2, 5e7, 4e7)
+    ground = bm.SpringGround(bm.Strip(-2.0, 2.0, 2, grading="uniform"), 5e7, 4e7)
     simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.3), motion=bm.el_centro_1940())
     simulation.run(9)
     saved = simulation.checkpoint()

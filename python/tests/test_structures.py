@@ -230,8 +230,10 @@ def test_rows_add_and_scale(block: bm.RigidBlock) -> None:
     assert block.horizontal_at(9.0).relative_to_base(block).value(
         np.array([0.5, 0, 0.01])
     ) == pytest.approx(-0.09)
+    with pytest.raises(bm.InputError, match=r"structure\.dof\('roof'\) is that of a name"):
+        bm.Probe.acceleration("roof", "roof")
     with pytest.raises(bm.InputError, match="a row must be"):
-        bm.DofCombination("roof")
+        bm.DofCombination(1.5)
 
 
 def test_arrays_of_any_type_are_weights() -> None:

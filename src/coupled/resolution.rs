@@ -68,6 +68,8 @@ const ERRORS: [f64; 2] = [0.05, 0.03];
 const LEAST_STEPS: usize = 8;
 /// Base shear that is rounding, relative to the normal force.
 const ROUNDING: f64 = 1e-9;
+/// Second difference of the free field that is rounding, relative to the largest free field so far.
+const AT_REST: f64 = 16.0 * f64::EPSILON;
 /// Elements per wavelength of the shear wave: fewest, and those that are asked for.
 const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
 /// Fewest elements under a foundation by its base moment over base shear times width; below the
@@ -123,8 +125,10 @@ pub(crate) struct Resolution {
     /// Mean free field at the last two steps, and its last second difference.
     free_field: [[f64; 2]; 2],
     acceleration: [f64; 2],
-    /// Its largest component.
-    largest: f64,
+    /// Its largest component after the first steps.
+    peak: f64,
+    /// Largest |free field| so far.
+    largest: [f64; 2],
     /// Steps seen without a gap.
     in_a_row: usize,
     base_shear: Variation,
@@ -164,7 +168,8 @@ impl Resolution {
             last_shear: 0.0,
             free_field: [state.free_field; 2],
             acceleration: [0.0; 2],
-            largest: 0.0,
+            peak: 0.0,
+            largest: state.free_field.map(f64::abs),
             in_a_row: 0,
             base_shear: Variation::default(),
             ground: Variation::default(),
@@ -198,10 +203,14 @@ impl Resolution {
         }
         let [before, last] = self.free_field;
         for k in 0..2 {
-            let acceleration = state.free_field[k] - 2.0 * last[k] + before[k];
+            let mut acceleration = state.free_field[k] - 2.0 * last[k] + before[k];
+            self.largest[k] = self.largest[k].max(state.free_field[k].abs());
+            if acceleration.abs() <= AT_REST * self.largest[k] {
+                acceleration = 0.0;
+            }
             if self.in_a_row > 2 {
                 self.ground.see(self.acceleration[k], acceleration);
-                self.largest = self.largest.max(acceleration.abs());
+                self.peak = self.peak.max(acceleration.abs());
             }
             self.acceleration[k] = acceleration;
         }
@@ -211,7 +220,7 @@ impl Resolution {
 
     /// Largest component of the ground's acceleration, m/s².
     pub(crate) fn largest_acceleration(&self) -> f64 {
-        self.largest / self.time_step.powi(2)
+        self.peak / self.time_step.powi(2)
     }
 
     /// Whether a base shear that means anything was seen.

@@ -5,19 +5,13 @@ counter-clockwise; pressure is positive in compression, shear is what the struct
 soil. ``python -m basemat`` says what there is; the README of the package has a first program.
 """
 
-from . import _frames, _pickling, _plots
+from . import _frames, _pickling as _pickling, _plots
 from ._core import *
 from ._core import __version__ as __version__
 from ._errors import *
 from ._files import load, save as _save
 from ._protocols import *
 from ._sweep import merge, sweep
-
-_pickling.prepare()
-free_field = _pickling.function(free_field)
-ricker = _pickling.function(ricker)
-travelling_wave = _pickling.function(travelling_wave)
-vertical_incidence = _pickling.function(vertical_incidence)
 
 for _class, _name, _method in (
     (Run, "to_frame", _frames.to_frame),

@@ -215,21 +215,6 @@ class SpringGround(Ground):
         theta: float | None = None,
     ) -> Self: ...
     @staticmethod
-    def strip(
-        left: float,
-        right: float,
-        count: int,
-        normal_stiffness: float,
-        tangential_stiffness: float,
-        *,
-        dashpots: Sequence[float] | None = None,
-        theta: float | None = None,
-    ) -> SpringGround:
-        """One strip from ``left`` to ``right`` (m) of ``count`` equal elements; ``normal_stiffness``,
-        ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
-        if given.
-        """
-    @staticmethod
     def under(
         structure: Structure | UserStructure,
         count: int,
@@ -239,7 +224,7 @@ class SpringGround(Ground):
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
     ) -> SpringGround:
-        """Strips of ``count`` elements under each foundation of a ``structure``; ``normal_stiffness``,
+        """Strips of ``count`` equal elements under each foundation of a ``structure``; ``normal_stiffness``,
         ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
         if given.
         """
@@ -820,12 +805,17 @@ class SoilProfile:
     def travel_time(self) -> float:
         """Time that a shear wave takes through all layers, s."""
 
-@final
-class FoundationSummary:
-    """A foundation over a run, with the numbers of a :class:`Run`; forces are those of the structure on the
-    soil, per metre of thickness.
+@disjoint_base
+class Summary:
+    """The whole base or one foundation over a run: largest values with their times, uplift and sliding.
+
+    Forces are those of the structure on the soil, per metre of thickness.
     """
 
+    def extremes(self, quantity: str) -> Extremes:
+        """The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
+        "base_shear" or "free_field_horizontal".
+        """
     @property
     def ends(self) -> list[float]:
         """x of its two ends, m."""
@@ -837,16 +827,19 @@ class FoundationSummary:
         """Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`."""
     @property
     def base_moment(self) -> Extremes:
-        """Moment about its middle, counter-clockwise, N·m/m: its :class:`Extremes`."""
+        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle: its :class:`Extremes`."""
     @property
     def normal_force(self) -> Extremes:
-        """Total pressure, N/m: its :class:`Extremes`."""
+        """Total pressure on the soil, N/m: its :class:`Extremes`."""
     @property
     def base_rotation(self) -> Extremes:
         """Rotation, counter-clockwise, rad: its :class:`Extremes`."""
     @property
     def uplifted_fraction(self) -> Peak:
-        """Largest ratio of its open length to its length: its :class:`Peak`."""
+        """Largest ratio of the open length to the length: its :class:`Peak`."""
+    @property
+    def uplift_duration(self) -> float:
+        """Time with uplift, s."""
     @property
     def mean_slip(self) -> Extremes:
         """Slip averaged over it, m: its :class:`Extremes`."""
@@ -854,8 +847,14 @@ class FoundationSummary:
     def residual_slip(self) -> float:
         """Slip averaged over it at the end, m."""
     @property
+    def largest_slip(self) -> Peak:
+        """Largest slip of any element, m: its :class:`Peak`."""
+    @property
     def slip_events(self) -> list[tuple[float, float, float]]:
         """Slip events: list of tuples (start in s, end in s, slip in m)."""
+    @property
+    def slip_path(self) -> float:
+        """Sliding distance: |slip| of it summed over time, m."""
     @property
     def least_sliding_safety(self) -> Peak | None:
         """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
@@ -971,8 +970,8 @@ class Extremes:
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
-class Run:
-    """A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
+class Run(Summary):
+    """A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
 
     ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
     a page for a report.
@@ -1082,36 +1081,6 @@ class Run:
     def probes(self) -> dict[str, Any]:
         """Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit."""
     @property
-    def static_normal_force(self) -> float:
-        """Total pressure at the start, N/m."""
-    @property
-    def base_shear(self) -> Extremes:
-        """Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`."""
-    @property
-    def base_moment(self) -> Extremes:
-        """Moment on the soil, counter-clockwise, N·m/m: its :class:`Extremes`."""
-    @property
-    def normal_force(self) -> Extremes:
-        """Total pressure on the soil, N/m: its :class:`Extremes`."""
-    @property
-    def base_rotation(self) -> Extremes:
-        """Rotation of the base, counter-clockwise, rad: its :class:`Extremes`."""
-    @property
-    def uplifted_fraction(self) -> Peak:
-        """Largest ratio of the open length to that of the base: its :class:`Peak`."""
-    @property
-    def uplift_duration(self) -> float:
-        """Time with uplift, s."""
-    @property
-    def mean_slip(self) -> Extremes:
-        """Slip averaged over the base, m: its :class:`Extremes`."""
-    @property
-    def residual_slip(self) -> float:
-        """Slip averaged over the base at the end, m."""
-    @property
-    def largest_slip(self) -> Peak:
-        """Largest slip of any element, m: its :class:`Peak`."""
-    @property
     def largest_gap(self) -> Peak:
         """Largest gap of any element, m: its :class:`Peak`."""
     @property
@@ -1121,20 +1090,8 @@ class Run:
     def shear_coefficient(self) -> float | None:
         """Ratio of the largest base shear to the weight; None without weight."""
     @property
-    def slip_events(self) -> list[tuple[float, float, float]]:
-        """Slip events of the whole base: list of tuples (start in s, end in s, slip in m)."""
-    @property
-    def slip_path(self) -> float:
-        """Sliding distance: |slip| of the base summed over time, m."""
-    @property
-    def least_sliding_safety(self) -> Peak | None:
-        """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
-    @property
-    def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a :class:`Peak`."""
-    @property
-    def foundations(self) -> list[FoundationSummary]:
-        """Each foundation by itself: list of :class:`FoundationSummary`, from left to right."""
+    def foundations(self) -> list[Summary]:
+        """Each foundation by itself: list of :class:`Summary`, from left to right."""
     @property
     def serviceability(self) -> list[ServiceCheck]:
         """A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`."""
@@ -2183,6 +2140,7 @@ class Condition:
         shear: float = 0.0,
         value: float = 0.0,
     ) -> Self: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float]]: ...
     @staticmethod
     def gap_is(value: float) -> Condition:
         """The gap is ``value``, m."""

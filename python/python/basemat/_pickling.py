@@ -20,60 +20,7 @@ _MADE = "_made"
 _CALLS = "_calls"
 """Where a description keeps what it was made of, and a mesh what was added to it."""
 
-_DESCRIBED = (
-    _core.DampingLaw,
-    _core.SoilLayer,
-    _core.SoilProfile,
-    _core.Strip,
-    _core.ElasticGround,
-    _core.SpringGround,
-    _core.Bonded,
-    _core.Coulomb,
-    _core.Cohesive,
-    _core.Yielding,
-    _core.ThinLayer,
-    _core.VariableFriction,
-    _core.PlaneWave,
-    _core.SoilColumn,
-    _core.InclinedWave,
-    _core.StrainCurves,
-    _core.EquivalentLinear,
-    _core.Probe,
-    _core.Load,
-    _core.TimeScheme,
-    _core.RigidBlock,
-    _core.Storey,
-    _core.ShearBuilding,
-    _core.MatrixModel,
-    _core.FemModel,
-    _core.ReducedModel,
-    _core.StructureGroup,
-    _core.WithSprings,
-    _core.WithModalDamping,
-    _core.RayleighDamping,
-    _core.Bilinear,
-    _core.BoucWen,
-    _core.FrictionPendulum,
-    _core.LeadRubber,
-    _core.Material,
-    _core.Layer,
-    _core.Mesh,
-    _core.GmshMesh,
-    _core.Condition,
-)
-_SHOWN = (
-    _core.ContactState,
-    _core.FoundationState,
-    _core.FoundationSummary,
-    _core.Impedances,
-    _core.PreviousContact,
-    _core.Refinement,
-    _core.SectionRows,
-    _core.SharedKernels,
-    _core.Steps,
-    _core.Tolerance,
-)
-_FIELDS = (
+_RETURNING = (
     (_core.PlaneWave, "field_from_horizontal"),
     (_core.PlaneWave, "field_from_vertical"),
     (_core.PlaneWave, "reversed"),
@@ -83,6 +30,9 @@ _FIELDS = (
     (_core.GmshMesh, "mesh"),
 )
 """Methods that return descriptions."""
+
+_FUNCTIONS = ("free_field", "ricker", "travelling_wave", "vertical_incidence")
+"""Functions that return descriptions."""
 
 
 class Made(NamedTuple):
@@ -113,8 +63,17 @@ def _given(value: Any) -> Any:
     return value.again() if isinstance(value, Made) else value
 
 
+_PLAIN: set[type] = {int, float, str, bool, type(None)}
+"""Types whose values never change: these, and the descriptions."""
+
+
 def _kept(value: Any) -> Any:
     """A copy of what may change later."""
+    kind = type(value)
+    if kind in _PLAIN:
+        return value
+    if kind is tuple or kind is list:
+        return kind(map(_kept, value))
     if isinstance(value, np.ndarray) or hasattr(value, "tocoo"):
         return value.copy()
     if isinstance(value, _core.Mesh):
@@ -137,32 +96,20 @@ def _is_part(value: Any) -> bool:
     return callable(value) or hasattr(value, "contact_nodes") or hasattr(value, "conditions")
 
 
-def _made(owner: Any, name: str | None, arguments: Any, keywords: Any) -> Made:
-    return Made(owner, name, _kept(tuple(arguments)), _kept(dict(keywords)))
+def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]) -> Made:
+    named = {name: _kept(own) for name, own in keywords.items()}
+    return Made(owner, name, tuple(map(_kept, arguments)), named)
 
 
 def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Callable[..., Any]:
-    """``make``, which leaves in its result how it was made."""
+    """``make``, which leaves in its result how it was made: by the ``owner``, or by itself."""
 
     @functools.wraps(make)
     def remember(*arguments: Any, **keywords: Any) -> Any:
         found = make(*arguments, **keywords)
-        vars(found)[_MADE] = _made(owner, name, arguments, keywords)
+        vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
         return found
 
-    return remember
-
-
-def function(make: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of the package that returns descriptions, so that they pickle."""
-
-    @functools.wraps(make)
-    def remember(*arguments: Any, **keywords: Any) -> Any:
-        found = make(*arguments, **keywords)
-        vars(found)[_MADE] = _made(remember, None, arguments, keywords)
-        return found
-
-    remember.__module__ = "basemat"
     return remember
 
 
@@ -264,17 +211,29 @@ def _prepare_call(name: str) -> None:
     setattr(_core.Mesh, name, remember)
 
 
-def prepare() -> None:
+def _prepare_all() -> None:
     """Lets all descriptions pickle; once, when the package is imported."""
-    for described in _DESCRIBED:
-        _prepare(described)
-    _core.FreeField.__reduce__ = _reduce  # type: ignore[method-assign]
-    _core.FreeField.__repr__ = _repr  # type: ignore[method-assign]
-    for shown in _SHOWN:
-        shown.__repr__ = _values  # type: ignore[method-assign]
-    # A record is its samples.
-    _core.Record.__reduce__ = object.__reduce__  # type: ignore[method-assign]
-    for owner, name in _FIELDS:
+    classes: list[Any] = [own for own in vars(_core).values() if isinstance(own, type)]
+    for described in classes:
+        if described is _core.Record:
+            # A record is its samples.
+            described.__reduce__ = object.__reduce__  # type: ignore[method-assign]
+        elif described.__dictoffset__:
+            # There is room for what it was made of.
+            _prepare(described)
+            _PLAIN.add(described)
+        elif described.__repr__ is object.__repr__:
+            described.__repr__ = _values
+    # What was added to a mesh is kept with it.
+    _PLAIN.remove(_core.Mesh)
+    for owner, name in _RETURNING:
         _prepare_method(owner, name)
     for name in [name for name in vars(_core.Mesh) if name.startswith("add_")]:
         _prepare_call(name)
+    for name in _FUNCTIONS:
+        function = _remembering(getattr(_core, name), None, None)
+        function.__module__ = "basemat"
+        setattr(_core, name, function)
+
+
+_prepare_all()

@@ -3,20 +3,19 @@
 use std::path::PathBuf;
 
 use basemat::bem::layered::Stages;
-use basemat::bem::{ElasticGround, SharedKernels, Strip};
+use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 
 use super::PyGround;
 use super::impedance::{PyImpedances, contact};
-use super::strip::{Strips, grading};
+use super::strip::{Strips, grading, under};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, no_such};
 use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
-use crate::structure;
 use crate::ticker::watched;
 
 /// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
@@ -76,64 +75,6 @@ impl<'py> FromPyObject<'_, 'py> for Profile {
     }
 }
 
-/// Step coefficients and history of the ground.
-#[derive(Clone)]
-struct Options {
-    kind: HistoryMethod,
-    history_tolerance: Option<f64>,
-    memory: Option<usize>,
-    stages: Option<Stages>,
-    tolerance: Option<f64>,
-    file: Option<PathBuf>,
-    kernels: Option<SharedKernels>,
-}
-
-impl Options {
-    fn new(
-        kind: &str,
-        history_tolerance: Option<f64>,
-        memory: Option<usize>,
-        stages: Option<usize>,
-        tolerance: Option<f64>,
-        file: Option<PathBuf>,
-        kernels: Option<&Bound<'_, PySharedKernels>>,
-    ) -> PyResult<Self> {
-        let kind = kind.parse().or_raise()?;
-        let stages = stages.map(Stages::from_count).transpose().or_raise()?;
-        let kernels = kernels.map(|kernels| kernels.get().0.clone());
-        Ok(Self { kind, history_tolerance, memory, stages, tolerance, file, kernels })
-    }
-
-    fn of(&self, ground: ElasticGround) -> basemat::Result<ElasticGround> {
-        let mut options = HistoryOptions { tolerance: self.history_tolerance, ..self.kind.into() };
-        options.memory = self.memory.unwrap_or(options.memory);
-        let mut ground = ground.with_history(options)?;
-        if let Some(stages) = self.stages {
-            ground = ground.with_stages(stages);
-        }
-        if let Some(tolerance) = self.tolerance {
-            ground = ground.with_tolerance(tolerance)?;
-        }
-        if let Some(file) = &self.file {
-            ground = ground.with_kernel_file(file);
-        }
-        Ok(match &self.kernels {
-            Some(kernels) => ground.with_shared_kernels(kernels),
-            None => ground,
-        })
-    }
-}
-
-fn ground(
-    Profile(profile): Profile,
-    strips: impl Fn() -> basemat::Result<Vec<Strip>> + Clone + Send + Sync + 'static,
-    options: Options,
-) -> PyResult<PyClassInitializer<PyElasticGround>> {
-    let make = move || options.of(ElasticGround::new(profile.clone(), strips()?)?);
-    let base = PyGround::new(make.clone())?;
-    Ok(PyClassInitializer::from(base).add_subclass(PyElasticGround { make: Box::new(make) }))
-}
-
 #[pymethods]
 impl PyElasticGround {
     #[new]
@@ -149,17 +90,30 @@ impl PyElasticGround {
         kernel_file: Option<PathBuf>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let (memory, kernels) = (history_memory, kernels.as_ref());
-        let options = Options::new(
-            history,
-            history_tolerance,
-            memory,
-            stages,
-            tolerance,
-            kernel_file,
-            kernels,
-        )?;
-        ground(soil, move || Ok(strips.0.clone()), options)
+        let method: HistoryMethod = history.parse().or_raise()?;
+        let mut options = HistoryOptions { tolerance: history_tolerance, ..method.into() };
+        options.memory = history_memory.unwrap_or(options.memory);
+        let stages = stages.map(Stages::from_count).transpose().or_raise()?;
+        let kernels = kernels.map(|kernels| kernels.get().0.clone());
+        let make = move || {
+            let ground = ElasticGround::new(soil.0.clone(), strips.0.clone())?;
+            let mut ground = ground.with_history(options)?;
+            if let Some(stages) = stages {
+                ground = ground.with_stages(stages);
+            }
+            if let Some(tolerance) = tolerance {
+                ground = ground.with_tolerance(tolerance)?;
+            }
+            if let Some(file) = &kernel_file {
+                ground = ground.with_kernel_file(file);
+            }
+            Ok(match &kernels {
+                Some(kernels) => ground.with_shared_kernels(kernels),
+                None => ground,
+            })
+        };
+        let base = PyGround::new(make.clone())?;
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make) }))
     }
 
     /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is.
@@ -168,33 +122,20 @@ impl PyElasticGround {
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
     /// ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
     #[staticmethod]
-    #[pyo3(signature = (soil, structure, count, *, grading="cosine", history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
-    fn under(
-        soil: Profile,
-        structure: Bound<'_, PyAny>,
+    #[pyo3(
+        signature = (soil, structure, count, *, grading="cosine", **options),
+        text_signature = "(soil, structure, count, *, grading='cosine', history='auto', history_tolerance=None, \
+                          history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None)"
+    )]
+    fn under<'py>(
+        soil: Bound<'py, PyAny>,
+        structure: Bound<'py, PyAny>,
         #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
-        history: &str,
-        history_tolerance: Option<f64>,
-        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
-        #[pyo3(from_py_with = whole)] stages: Option<usize>,
-        tolerance: Option<f64>,
-        kernel_file: Option<PathBuf>,
-        kernels: Option<Bound<'_, PySharedKernels>>,
-    ) -> PyResult<Py<Self>> {
-        let (memory, kernels) = (history_memory, kernels.as_ref());
-        let options = Options::new(
-            history,
-            history_tolerance,
-            memory,
-            stages,
-            tolerance,
-            kernel_file,
-            kernels,
-        )?;
-        let (py, grading) = (structure.py(), self::grading(grading)?);
-        let structure = structure::recipe(&structure)?;
-        Py::new(py, ground(soil, move || Strip::under(&*structure()?, count, grading), options)?)
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let strips = under(&structure, count, self::grading(grading)?)?;
+        structure.py().get_type::<Self>().call((soil, strips), options)
     }
 
     /// Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array

@@ -1,12 +1,11 @@
 //! Impedances of a rigid strip.
 
-use basemat::Complex;
 use basemat::bem::layered::{StripContact, StripImpedance};
-use numpy::{Complex64, PyArray1};
+use numpy::Complex64;
 use pyo3::prelude::*;
 
-use crate::error::refuse;
-use crate::saved::{Reduced, reduced};
+use crate::array::{Array, complex};
+use crate::names::choice;
 
 /// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
 /// arrays of shape (m,), one value per frequency; the imaginary part is that of radiation and damping.
@@ -14,56 +13,20 @@ use crate::saved::{Reduced, reduced};
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
 
-type Array<'py> = Bound<'py, PyArray1<Complex64>>;
-
 pub(super) fn contact(name: &str) -> PyResult<StripContact> {
-    match name {
-        "bonded" => Ok(StripContact::Bonded),
-        "relaxed" => Ok(StripContact::Relaxed),
-        _ => Err(refuse(format!("contact is '{name}', but must be 'bonded' or 'relaxed'"))),
-    }
+    choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
 
-impl PyImpedances {
-    fn column<'py>(&self, py: Python<'py>, value: fn(&StripImpedance) -> Complex) -> Array<'py> {
-        let numbers = self.0.iter().map(value).map(|value| Complex64::new(value.re, value.im));
-        PyArray1::from_iter(py, numbers)
-    }
-}
-
-#[pymethods]
-impl PyImpedances {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
+getters! {
+    PyImpedances, own;
     /// Frequencies: array of shape (m,), Hz.
-    #[getter]
-    fn frequency<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_iter(py, self.0.iter().map(|own| own.frequency))
-    }
-
+    frequency: Array = own.0.iter().map(|at| at.frequency).collect();
     /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
-    #[getter]
-    fn horizontal<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.horizontal)
-    }
-
+    horizontal: Array<Complex64> = own.0.iter().map(|at| complex(at.horizontal)).collect();
     /// Vertical force by vertical translation: complex array of shape (m,), N/m².
-    #[getter]
-    fn vertical<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.vertical)
-    }
-
+    vertical: Array<Complex64> = own.0.iter().map(|at| complex(at.vertical)).collect();
     /// Moment by rotation: complex array of shape (m,), N.
-    #[getter]
-    fn rocking<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.rocking)
-    }
-
+    rocking: Array<Complex64> = own.0.iter().map(|at| complex(at.rocking)).collect();
     /// Horizontal force by rotation: complex array of shape (m,), N/m.
-    #[getter]
-    fn coupling<'py>(&self, py: Python<'py>) -> Array<'py> {
-        self.column(py, |own| own.coupling)
-    }
+    coupling: Array<Complex64> = own.0.iter().map(|at| complex(at.coupling)).collect();
 }

@@ -1,12 +1,13 @@
 //! Winkler's spring bed.
 
-use basemat::bem::SpringGround;
+use basemat::bem::{Grading, SpringGround};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
 
 use super::PyGround;
-use super::strip::Strips;
+use super::strip::{Strips, under};
 use crate::array::whole;
-use crate::structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
@@ -15,24 +16,6 @@ use crate::structure;
 /// them, ½ to 1; ½ unless given.
 #[pyclass(name = "SpringGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PySpringGround;
-
-fn ground(
-    make: impl Fn() -> basemat::Result<SpringGround> + Send + Sync + 'static,
-    dashpots: Option<[f64; 2]>,
-    theta: Option<f64>,
-) -> PyResult<PyClassInitializer<PySpringGround>> {
-    let base = PyGround::new(move || {
-        let mut ground = make()?;
-        if let Some([normal, tangential]) = dashpots {
-            ground = ground.with_dashpots(normal, tangential)?;
-        }
-        match theta {
-            Some(theta) => ground.with_theta(theta),
-            None => Ok(ground),
-        }
-    })?;
-    Ok(PyClassInitializer::from(base).add_subclass(PySpringGround))
-}
 
 #[pymethods]
 impl PySpringGround {
@@ -45,47 +28,38 @@ impl PySpringGround {
         dashpots: Option<[f64; 2]>,
         theta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let (normal, tangential) = (normal_stiffness, tangential_stiffness);
-        ground(move || SpringGround::on_strips(&strips.0, normal, tangential), dashpots, theta)
+        let base = PyGround::new(move || {
+            let (normal, tangential) = (normal_stiffness, tangential_stiffness);
+            let mut ground = SpringGround::on_strips(&strips.0, normal, tangential)?;
+            if let Some([normal, tangential]) = dashpots {
+                ground = ground.with_dashpots(normal, tangential)?;
+            }
+            match theta {
+                Some(theta) => ground.with_theta(theta),
+                None => Ok(ground),
+            }
+        })?;
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 
-    /// One strip from ``left`` to ``right`` (m) of ``count`` equal elements; ``normal_stiffness``,
+    /// Strips of ``count`` equal elements under each foundation of a ``structure``; ``normal_stiffness``,
     /// ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
     /// if given.
     #[staticmethod]
-    #[pyo3(signature = (left, right, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
-    fn strip(
-        py: Python<'_>,
-        left: f64,
-        right: f64,
+    #[pyo3(
+        signature = (structure, count, *stiffness, **options),
+        text_signature = "(structure, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None)"
+    )]
+    fn under<'py>(
+        structure: Bound<'py, PyAny>,
         #[pyo3(from_py_with = whole)] count: usize,
-        normal_stiffness: f64,
-        tangential_stiffness: f64,
-        dashpots: Option<[f64; 2]>,
-        theta: Option<f64>,
-    ) -> PyResult<Py<Self>> {
-        let (normal, tangential) = (normal_stiffness, tangential_stiffness);
-        let make = move || SpringGround::new(left..right, count, normal, tangential);
-        Py::new(py, ground(make, dashpots, theta)?)
-    }
-
-    /// Strips of ``count`` elements under each foundation of a ``structure``; ``normal_stiffness``,
-    /// ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
-    /// if given.
-    #[staticmethod]
-    #[pyo3(signature = (structure, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
-    fn under(
-        structure: Bound<'_, PyAny>,
-        #[pyo3(from_py_with = whole)] count: usize,
-        normal_stiffness: f64,
-        tangential_stiffness: f64,
-        dashpots: Option<[f64; 2]>,
-        theta: Option<f64>,
-    ) -> PyResult<Py<Self>> {
+        stiffness: &Bound<'py, PyTuple>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let mut arguments =
+            vec![under(&structure, count, Grading::Uniform)?.into_bound_py_any(structure.py())?];
+        arguments.extend(stiffness);
         let py = structure.py();
-        let structure = structure::recipe(&structure)?;
-        let (normal, tangential) = (normal_stiffness, tangential_stiffness);
-        let make = move || SpringGround::under(&*structure()?, count, normal, tangential);
-        Py::new(py, ground(make, dashpots, theta)?)
+        py.get_type::<Self>().call(PyTuple::new(py, arguments)?, options)
     }
 }

@@ -46,6 +46,17 @@ impl PyStrip {
     }
 }
 
+/// The strips under the foundations of a structure.
+pub(super) fn under(
+    structure: &Bound<'_, PyAny>,
+    count: usize,
+    grading: Grading,
+) -> PyResult<Vec<PyStrip>> {
+    let structure = crate::structure::recipe(structure)?().or_raise()?;
+    let strips = Strip::under(&*structure, count, grading).or_raise()?;
+    Ok(strips.into_iter().map(PyStrip).collect())
+}
+
 /// One strip, or a list of them.
 pub(super) struct Strips(pub(super) Vec<Strip>);
 

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use basemat::motion::Record;
-use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::formats::{baseline, read, unit};
 use super::{PyFreeField, PySpectrum};
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::ticker::watched;
 
@@ -42,6 +41,30 @@ impl PyRecord {
 #[pyfunction]
 pub(crate) fn el_centro_1940(py: Python<'_>) -> PyResult<Py<PyRecord>> {
     PyRecord::create(py, Ok(basemat::motion::el_centro_1940()))
+}
+
+getters! {
+    PyRecord, own;
+    /// Time step, s.
+    time_step: f64 = own.0.time_step();
+    /// Time of the last sample, s.
+    duration: f64 = own.0.duration();
+    /// Times of the samples: array of shape (samples,), s.
+    times: Array = (0..own.0.len()).map(|k| k as f64 * own.0.time_step()).collect();
+    /// Acceleration at the samples: array of shape (samples,), m/s².
+    accelerations: Array = own.0.accelerations().into();
+    /// Velocity at the samples: array of shape (samples,), m/s.
+    velocities: Array = own.0.velocities().into();
+    /// Displacement at the samples: array of shape (samples,), m.
+    displacements: Array = own.0.displacements().into();
+    /// Largest |acceleration|, m/s².
+    peak_acceleration: f64 = own.0.peaks().acceleration;
+    /// Largest |velocity|, m/s.
+    peak_velocity: f64 = own.0.peaks().velocity;
+    /// Largest |displacement|, m.
+    peak_displacement: f64 = own.0.peaks().displacement;
+    /// Arias intensity, m/s.
+    arias_intensity: f64 = own.0.arias_intensity();
 }
 
 #[pymethods]
@@ -87,66 +110,6 @@ impl PyRecord {
         #[pyo3(from_py_with = whole)] channel: Option<usize>,
     ) -> PyResult<Py<Self>> {
         Self::create(py, Ok(read(path, format, unit, time_step, columns, channel)?))
-    }
-
-    /// Time step, s.
-    #[getter]
-    fn time_step(&self) -> f64 {
-        self.0.time_step()
-    }
-
-    /// Time of the last sample, s.
-    #[getter]
-    fn duration(&self) -> f64 {
-        self.0.duration()
-    }
-
-    /// Times of the samples: array of shape (samples,), s.
-    #[getter]
-    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_iter(py, (0..self.0.len()).map(|k| k as f64 * self.0.time_step()))
-    }
-
-    /// Acceleration at the samples: array of shape (samples,), m/s².
-    #[getter]
-    fn accelerations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.0.accelerations())
-    }
-
-    /// Velocity at the samples: array of shape (samples,), m/s.
-    #[getter]
-    fn velocities<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.0.velocities())
-    }
-
-    /// Displacement at the samples: array of shape (samples,), m.
-    #[getter]
-    fn displacements<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.0.displacements())
-    }
-
-    /// Largest |acceleration|, m/s².
-    #[getter]
-    fn peak_acceleration(&self) -> f64 {
-        self.0.peaks().acceleration
-    }
-
-    /// Largest |velocity|, m/s.
-    #[getter]
-    fn peak_velocity(&self) -> f64 {
-        self.0.peaks().velocity
-    }
-
-    /// Largest |displacement|, m.
-    #[getter]
-    fn peak_displacement(&self) -> f64 {
-        self.0.peaks().displacement
-    }
-
-    /// Arias intensity, m/s.
-    #[getter]
-    fn arias_intensity(&self) -> f64 {
-        self.0.arias_intensity()
     }
 
     /// The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
@@ -239,7 +202,7 @@ impl PyRecord {
         )
     }
 
-    fn __getnewargs__<'py>(&self, py: Python<'py>) -> (f64, Bound<'py, PyArray1<f64>>) {
-        (self.time_step(), self.accelerations(py))
+    fn __getnewargs__(&self) -> (f64, Array) {
+        (self.time_step(), self.accelerations())
     }
 }

@@ -9,12 +9,13 @@ use basemat::motion::{
 use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
 };
-use numpy::{Complex64, PyArray1};
+use numpy::Complex64;
 use pyo3::prelude::*;
 
 use super::{PyFreeField, PyRecord, given};
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Numbers, complex, whole};
 use crate::error::{OrRaise, refuse};
+use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::site::{Iteration, PyEquivalentLinear, PyStrainCurves, iterate};
 use crate::soil::PySoil;
@@ -133,11 +134,7 @@ impl PyPlaneWave {
 pub(crate) struct PyColumn(SoilColumn);
 
 fn control(name: &str) -> PyResult<ControlPoint> {
-    match name {
-        "outcrop" => Ok(ControlPoint::Outcrop),
-        "within" => Ok(ControlPoint::Within),
-        _ => Err(refuse(format!("control is '{name}', but must be 'outcrop' or 'within'"))),
-    }
+    choice("control", name, &[("outcrop", ControlPoint::Outcrop), ("within", ControlPoint::Within)])
 }
 
 /// Part of its peak that a motion may lack without a warning: less than response spectra show.
@@ -157,13 +154,8 @@ impl PyColumn {
     #[new]
     #[pyo3(signature = (profile, wave="shear"))]
     fn new(profile: &PySoilProfile, wave: &str) -> PyResult<Self> {
-        let wave = match wave {
-            "shear" => VerticalWave::Shear,
-            "pressure" => VerticalWave::Pressure,
-            _ => {
-                return Err(refuse(format!("wave is '{wave}', but must be 'shear' or 'pressure'")));
-            }
-        };
+        let all = [("shear", VerticalWave::Shear), ("pressure", VerticalWave::Pressure)];
+        let wave = choice("wave", wave, &all)?;
         Ok(Self(SoilColumn::new(profile.0.clone(), wave).or_raise()?))
     }
 
@@ -171,17 +163,12 @@ impl PyColumn {
     /// shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
     /// base without layers) or "within" (the base under them).
     #[pyo3(signature = (frequencies, *, control="outcrop"))]
-    fn transfer<'py>(
-        &self,
-        py: Python<'py>,
-        frequencies: Numbers,
-        control: &str,
-    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+    fn transfer(&self, frequencies: Numbers, control: &str) -> PyResult<Array<Complex64>> {
         let control = self::control(control)?;
         let at = |frequency: &f64| self.0.transfer(control, *frequency);
         let values: Vec<Complex> =
             frequencies.0.iter().map(at).collect::<Result<_, _>>().or_raise()?;
-        Ok(PyArray1::from_iter(py, values.iter().map(|value| Complex64::new(value.re, value.im))))
+        Ok(values.into_iter().map(complex).collect())
     }
 
     /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
@@ -269,17 +256,12 @@ impl PyInclinedWave {
     /// vertical" (motions of the base without layers) or "incident" (the incident wave alone).
     #[pyo3(signature = (record, origin, *, control="outcrop horizontal"))]
     fn field(&self, record: &PyRecord, origin: f64, control: &str) -> PyResult<PyFreeField> {
-        let control = match control {
-            "outcrop horizontal" => InclinedControl::OutcropHorizontal,
-            "outcrop vertical" => InclinedControl::OutcropVertical,
-            "incident" => InclinedControl::Incident,
-            _ => {
-                return Err(refuse(format!(
-                    "control is '{control}', but must be 'outcrop horizontal', 'outcrop vertical' or \
-                     'incident'"
-                )));
-            }
-        };
+        let all = [
+            ("outcrop horizontal", InclinedControl::OutcropHorizontal),
+            ("outcrop vertical", InclinedControl::OutcropVertical),
+            ("incident", InclinedControl::Incident),
+        ];
+        let control = choice("control", control, &all)?;
         let (wave, record) = (self.0.clone(), Arc::clone(&record.0));
         field(move || wave.field(control, &record, origin))
     }

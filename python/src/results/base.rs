@@ -1,18 +1,17 @@
-//! Foundations and limits of service after a run.
+//! The base, foundations and limits of service after a run.
 
-use basemat::results::Extremes;
-use basemat::results::{ServiceCheck, SlipEvent, Summary};
+use basemat::results::{Extremes, ServiceCheck, Summary};
 use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
+use crate::error::OrRaise;
 
-use crate::saved::{Reduced, reduced};
-
-/// A foundation over a run, with the numbers of a :class:`Run`; forces are those of the structure on the
-/// soil, per metre of thickness.
-#[pyclass(name = "FoundationSummary", module = "basemat", frozen)]
+/// The whole base or one foundation over a run: largest values with their times, uplift and sliding.
+///
+/// Forces are those of the structure on the soil, per metre of thickness.
+#[pyclass(name = "Summary", module = "basemat", frozen, subclass)]
 #[derive(serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyFoundationSummary(pub(super) Summary);
+pub(crate) struct PySummary(pub(super) Summary);
 
 /// A text as HTML, in its lines.
 pub(crate) fn preformatted(text: &str) -> String {
@@ -20,92 +19,51 @@ pub(crate) fn preformatted(text: &str) -> String {
     format!("<pre style=\"line-height: 1.2\">{text}</pre>")
 }
 
-/// Slip events as tuples (start in s, end in s, slip in m).
-pub(super) fn events(list: &[SlipEvent]) -> Vec<(f64, f64, f64)> {
-    list.iter().map(|event| (event.start, event.end, event.slip)).collect()
-}
-
 /// The least value, if there is one.
 pub(super) fn known(extremes: Extremes) -> Option<PyPeak> {
     (!extremes.lowest.value.is_nan()).then_some(PyPeak(extremes.lowest))
 }
 
-#[pymethods]
-impl PyFoundationSummary {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
+getters! {
+    PySummary, own;
     /// x of its two ends, m.
-    #[getter]
-    fn ends(&self) -> [f64; 2] {
-        self.0.ends
-    }
-
+    ends: [f64; 2] = own.0.ends;
     /// Total pressure at the start, N/m.
-    #[getter]
-    fn static_normal_force(&self) -> f64 {
-        self.0.static_normal_force
-    }
-
+    static_normal_force: f64 = own.0.static_normal_force;
     /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
-    #[getter]
-    fn base_shear(&self) -> PyExtremes {
-        PyExtremes(self.0.base_shear)
-    }
-
-    /// Moment about its middle, counter-clockwise, N·m/m: its :class:`Extremes`.
-    #[getter]
-    fn base_moment(&self) -> PyExtremes {
-        PyExtremes(self.0.base_moment)
-    }
-
-    /// Total pressure, N/m: its :class:`Extremes`.
-    #[getter]
-    fn normal_force(&self) -> PyExtremes {
-        PyExtremes(self.0.normal_force)
-    }
-
+    base_shear: PyExtremes = PyExtremes(own.0.base_shear);
+    /// Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle: its :class:`Extremes`.
+    base_moment: PyExtremes = PyExtremes(own.0.base_moment);
+    /// Total pressure on the soil, N/m: its :class:`Extremes`.
+    normal_force: PyExtremes = PyExtremes(own.0.normal_force);
     /// Rotation, counter-clockwise, rad: its :class:`Extremes`.
-    #[getter]
-    fn base_rotation(&self) -> PyExtremes {
-        PyExtremes(self.0.base_rotation)
-    }
-
-    /// Largest ratio of its open length to its length: its :class:`Peak`.
-    #[getter]
-    fn uplifted_fraction(&self) -> PyPeak {
-        PyPeak(self.0.uplifted_fraction.highest)
-    }
-
+    base_rotation: PyExtremes = PyExtremes(own.0.base_rotation);
+    /// Largest ratio of the open length to the length: its :class:`Peak`.
+    uplifted_fraction: PyPeak = PyPeak(own.0.uplifted_fraction.highest);
+    /// Time with uplift, s.
+    uplift_duration: f64 = own.0.uplift.duration;
     /// Slip averaged over it, m: its :class:`Extremes`.
-    #[getter]
-    fn mean_slip(&self) -> PyExtremes {
-        PyExtremes(self.0.mean_slip)
-    }
-
+    mean_slip: PyExtremes = PyExtremes(own.0.mean_slip);
     /// Slip averaged over it at the end, m.
-    #[getter]
-    fn residual_slip(&self) -> f64 {
-        self.0.residual_slip
-    }
-
+    residual_slip: f64 = own.0.residual_slip;
+    /// Largest slip of any element, m: its :class:`Peak`.
+    largest_slip: PyPeak = PyPeak(own.0.largest_slip.highest);
     /// Slip events: list of tuples (start in s, end in s, slip in m).
-    #[getter]
-    fn slip_events(&self) -> Vec<(f64, f64, f64)> {
-        events(&self.0.sliding.events)
-    }
-
+    slip_events: Vec<(f64, f64, f64)> = own.0.sliding.events.iter().map(|event| (event.start, event.end, event.slip)).collect();
+    /// Sliding distance: |slip| of it summed over time, m.
+    slip_path: f64 = own.0.sliding.path;
     /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
-    #[getter]
-    fn least_sliding_safety(&self) -> Option<PyPeak> {
-        known(self.0.sliding_safety)
-    }
-
+    least_sliding_safety: Option<PyPeak> = known(own.0.sliding_safety);
     /// Least factor of safety against overturning, a :class:`Peak`.
-    #[getter]
-    fn least_overturning_safety(&self) -> PyPeak {
-        PyPeak(self.0.overturning_safety.lowest)
+    least_overturning_safety: PyPeak = PyPeak(own.0.overturning_safety.lowest);
+}
+
+#[pymethods]
+impl PySummary {
+    /// The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
+    /// "base_shear" or "free_field_horizontal".
+    fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
+        Ok(PyExtremes(self.0.extremes(quantity.parse().or_raise()?)))
     }
 }
 
@@ -114,48 +72,24 @@ impl PyFoundationSummary {
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyServiceCheck(pub(super) ServiceCheck);
 
+getters! {
+    PyServiceCheck, own;
+    /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
+    criterion: &'static str = own.0.criterion.name();
+    /// Its limit, in SI units.
+    limit: f64 = own.0.limit;
+    /// The run's value furthest from zero, a :class:`Peak` in SI units.
+    largest: PyPeak = PyPeak(own.0.largest);
+    /// End of the first step beyond the limit, s; None if there was none.
+    first_excess: Option<f64> = own.0.first_excess;
+    /// Whether the limit was kept.
+    is_met: bool = own.0.is_met();
+    /// Unused fraction of the limit; below zero where it is exceeded.
+    margin: f64 = own.0.margin();
+}
+
 #[pymethods]
 impl PyServiceCheck {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
-    /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
-    #[getter]
-    fn criterion(&self) -> &'static str {
-        self.0.criterion.name()
-    }
-
-    /// Its limit, in SI units.
-    #[getter]
-    fn limit(&self) -> f64 {
-        self.0.limit
-    }
-
-    /// The run's value furthest from zero, a :class:`Peak` in SI units.
-    #[getter]
-    fn largest(&self) -> PyPeak {
-        PyPeak(self.0.largest)
-    }
-
-    /// End of the first step beyond the limit, s; None if there was none.
-    #[getter]
-    fn first_excess(&self) -> Option<f64> {
-        self.0.first_excess
-    }
-
-    /// Whether the limit was kept.
-    #[getter]
-    fn is_met(&self) -> bool {
-        self.0.is_met()
-    }
-
-    /// Unused fraction of the limit; below zero where it is exceeded.
-    #[getter]
-    fn margin(&self) -> f64 {
-        self.0.margin()
-    }
-
     fn __str__(&self) -> String {
         self.0.to_string()
     }

@@ -4,104 +4,46 @@ use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::saved::{Reduced, reduced};
-
 /// Energies since the start, J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
 #[pyclass(name = "EnergyBalance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
+getters! {
+    PyEnergyBalance, own;
+    /// Kinetic energy ½ v·M v, J/m.
+    kinetic: f64 = own.0.kinetic;
+    /// Elastic energy of the structure, J/m.
+    strain: f64 = own.0.strain;
+    /// Heat of hysteretic parts of the structure, J/m.
+    hysteresis: f64 = own.0.hysteresis;
+    /// Work of the dashpots, J/m.
+    damping: f64 = own.0.damping;
+    /// Energy that the time scheme removes, J/m; negative if it makes any.
+    algorithmic: f64 = own.0.algorithmic;
+    /// Work done on the soil, radiated and stored, J/m.
+    soil: f64 = own.0.soil;
+    /// Loss by friction and impact, J/m.
+    contact: f64 = own.0.contact;
+    /// Elastic energy of compliant interfaces, J/m.
+    interface: f64 = own.0.interface;
+    /// Potential of the static tractions against gaps and slips, J/m.
+    static_contact: f64 = own.0.static_contact;
+    /// Work of loads and free field, and the energy of an initial motion, J/m.
+    input: f64 = own.0.input;
+    /// Relative input energy (Uang and Bertero 1990), J/m.
+    relative_input: f64 = own.0.relative_input;
+    /// Error bound of :attr:`soil` by an approximate history, J/m.
+    soil_error_bound: f64 = own.0.soil_error_bound;
+    /// Largest energy so far, to which :attr:`residual` is relative, J/m.
+    largest: f64 = own.0.largest;
+    /// Difference between the two sides of the balance, relative to the largest energy so far.
+    residual: f64 = own.0.residual();
+}
+
 #[pymethods]
 impl PyEnergyBalance {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
-    /// Kinetic energy ½ v·M v, J/m.
-    #[getter]
-    fn kinetic(&self) -> f64 {
-        self.0.kinetic
-    }
-
-    /// Elastic energy of the structure, J/m.
-    #[getter]
-    fn strain(&self) -> f64 {
-        self.0.strain
-    }
-
-    /// Heat of hysteretic parts of the structure, J/m.
-    #[getter]
-    fn hysteresis(&self) -> f64 {
-        self.0.hysteresis
-    }
-
-    /// Work of the dashpots, J/m.
-    #[getter]
-    fn damping(&self) -> f64 {
-        self.0.damping
-    }
-
-    /// Energy that the time scheme removes, J/m; negative if it makes any.
-    #[getter]
-    fn algorithmic(&self) -> f64 {
-        self.0.algorithmic
-    }
-
-    /// Work done on the soil, radiated and stored, J/m.
-    #[getter]
-    fn soil(&self) -> f64 {
-        self.0.soil
-    }
-
-    /// Loss by friction and impact, J/m.
-    #[getter]
-    fn contact(&self) -> f64 {
-        self.0.contact
-    }
-
-    /// Elastic energy of compliant interfaces, J/m.
-    #[getter]
-    fn interface(&self) -> f64 {
-        self.0.interface
-    }
-
-    /// Potential of the static tractions against gaps and slips, J/m.
-    #[getter]
-    fn static_contact(&self) -> f64 {
-        self.0.static_contact
-    }
-
-    /// Work of loads and free field, and the energy of an initial motion, J/m.
-    #[getter]
-    fn input(&self) -> f64 {
-        self.0.input
-    }
-
-    /// Relative input energy (Uang and Bertero 1990), J/m.
-    #[getter]
-    fn relative_input(&self) -> f64 {
-        self.0.relative_input
-    }
-
-    /// Error bound of :attr:`soil` by an approximate history, J/m.
-    #[getter]
-    fn soil_error_bound(&self) -> f64 {
-        self.0.soil_error_bound
-    }
-
-    /// Largest energy so far, to which :attr:`residual` is relative, J/m.
-    #[getter]
-    fn largest(&self) -> f64 {
-        self.0.largest
-    }
-
-    /// Difference between the two sides of the balance, relative to the largest energy so far.
-    #[getter]
-    fn residual(&self) -> f64 {
-        self.0.residual()
-    }
-
     /// All terms by their names: dict of numbers, J/m.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let terms = PyDict::new(py);

@@ -6,7 +6,7 @@ mod peak;
 mod run;
 mod series;
 
-pub(crate) use base::{PyFoundationSummary, PyServiceCheck, preformatted};
+pub(crate) use base::{PyServiceCheck, PySummary, preformatted};
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use peak::{PyExtremes, PyPeak};
 pub(crate) use run::PyRun;

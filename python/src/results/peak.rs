@@ -3,31 +3,21 @@
 use basemat::results::{Extremes, Peak};
 use pyo3::prelude::*;
 
-use crate::saved::{Reduced, reduced};
-
 /// A value of a run with its time; ``float()`` gives the value.
 #[pyclass(name = "Peak", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyPeak(pub(crate) Peak);
 
+getters! {
+    PyPeak, own;
+    /// The value, in the quantity's unit, with its sign.
+    value: f64 = own.0.value;
+    /// Its time, s.
+    time: f64 = own.0.time;
+}
+
 #[pymethods]
 impl PyPeak {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
-    /// The value, in the quantity's unit, with its sign.
-    #[getter]
-    fn value(&self) -> f64 {
-        self.0.value
-    }
-
-    /// Its time, s.
-    #[getter]
-    fn time(&self) -> f64 {
-        self.0.time
-    }
-
     fn __float__(&self) -> f64 {
         self.0.value
     }
@@ -42,37 +32,21 @@ impl PyPeak {
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyExtremes(pub(crate) Extremes);
 
-#[pymethods]
-impl PyExtremes {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
+getters! {
+    PyExtremes, own;
     /// The smallest value, a :class:`Peak` in the quantity's unit.
-    #[getter]
-    fn lowest(&self) -> PyPeak {
-        PyPeak(self.0.lowest)
-    }
-
+    lowest: PyPeak = PyPeak(own.0.lowest);
     /// The largest value, a :class:`Peak` in the quantity's unit.
-    #[getter]
-    fn highest(&self) -> PyPeak {
-        PyPeak(self.0.highest)
-    }
-
+    highest: PyPeak = PyPeak(own.0.highest);
     /// Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
     /// quantity's unit.
-    #[getter]
-    fn largest(&self) -> PyPeak {
-        PyPeak(self.0.largest())
-    }
-
+    largest: PyPeak = PyPeak(own.0.largest());
     /// Magnitude of :attr:`largest`, in the quantity's unit.
-    #[getter]
-    fn magnitude(&self) -> f64 {
-        self.0.magnitude()
-    }
+    magnitude: f64 = own.0.magnitude();
+}
 
+#[pymethods]
+impl PyExtremes {
     fn __repr__(&self) -> String {
         let Extremes { lowest, highest } = self.0;
         format!(

@@ -2,25 +2,22 @@
 
 use basemat::coupled::EnergyTerm;
 use basemat::results::{ElementEnvelope, Quantity, Run, TimeSeries};
-use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::base::{events, known, preformatted};
-use super::{PyEnergyBalance, PyExtremes, PyFoundationSummary, PyPeak, PyServiceCheck, series};
-use crate::array::Numbers;
+use super::base::preformatted;
+use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
+use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
-use crate::saved::{Reduced, reduced};
 
-type Array<'py> = Bound<'py, PyArray1<f64>>;
 type Column = fn(&ElementEnvelope) -> f64;
 
-/// A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
+/// A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
 /// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
 /// a page for a report.
-#[pyclass(name = "Run", module = "basemat", frozen)]
+#[pyclass(name = "Run", module = "basemat", frozen, extends = PySummary)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRun {
     pub(super) run: Run,
@@ -33,46 +30,74 @@ impl PyRun {
         Self { run, histories, names }
     }
 
+    /// The object of Python.
+    pub(crate) fn create(self, py: Python<'_>) -> PyResult<Py<Self>> {
+        let whole = PySummary(self.run.whole.clone());
+        Py::new(py, (self, whole))
+    }
+
     fn kept(&self) -> PyResult<&TimeSeries> {
         self.histories
             .as_ref()
             .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
     }
+
+    /// The time series, of which the `probe` is one.
+    fn probed(&self, probe: &str) -> PyResult<&TimeSeries> {
+        let (histories, known) = (self.kept()?, series::names(self.kept()?));
+        if known.iter().any(|own| own == probe) {
+            return Ok(histories);
+        }
+        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+        Err(refuse(format!("there is no probe called '{probe}', only {known}")))
+    }
+}
+
+getters! {
+    PyRun, own;
+    /// Number of steps made.
+    steps: usize = own.run.steps;
+    /// Time at the beginning, s.
+    start: f64 = own.run.start;
+    /// Time at the end, s.
+    end: f64 = own.run.end;
+    /// Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start.
+    time: PyResult<Array> = Ok(Array::from(own.kept()?.times()));
+    /// Names of the structure's degrees of freedom: list of n texts; None without names.
+    dof_names: Option<Vec<String>> = own.names.clone();
+    /// Largest gap of any element, m: its :class:`Peak`.
+    largest_gap: PyPeak = PyPeak(own.run.largest_gap());
+    /// Largest pressure of any element, Pa, a :class:`Peak`; None without elements.
+    largest_pressure: Option<PyPeak> = own.run.largest_pressure().map(|(_, peak)| PyPeak(peak));
+    /// Ratio of the largest base shear to the weight; None without weight.
+    shear_coefficient: Option<f64> = own.run.shear_coefficient();
+    /// Each foundation by itself: list of :class:`Summary`, from left to right.
+    foundations: Vec<PySummary> = own.run.foundations.iter().cloned().map(PySummary).collect();
+    /// A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`.
+    serviceability: Vec<PyServiceCheck> = own.run.serviceability.iter().copied().map(PyServiceCheck).collect();
+    /// Whether all limits of service were kept; None without limits.
+    is_serviceable: Option<bool> = own.run.is_serviceable();
+    /// Number of changes of contact mode.
+    mode_changes: usize = own.run.mode_changes;
+    /// The :class:`EnergyBalance` at the end.
+    energy_balance: PyEnergyBalance = PyEnergyBalance(own.run.energy_balance);
+    /// Largest residual of the energy balance, relative to the largest energy; NaN if none is kept.
+    energy_error: f64 = own.run.energy_error;
+    /// Number of linear solves of the search for contact modes.
+    trials: usize = own.run.trials;
+    /// Number of steps that the first search did not solve.
+    fallbacks: usize = own.run.fallbacks.total();
+    /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
+    warnings: Vec<String> = own.run.warnings.iter().map(|own| in_python(own.to_string())).collect();
+    /// Wall time, s.
+    wall: f64 = own.run.wall.as_secs_f64();
 }
 
 #[pymethods]
 impl PyRun {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
-
-    /// Number of steps made.
-    #[getter]
-    fn steps(&self) -> usize {
-        self.run.steps
-    }
-
-    /// Time at the beginning, s.
-    #[getter]
-    fn start(&self) -> f64 {
-        self.run.start
-    }
-
-    /// Time at the end, s.
-    #[getter]
-    fn end(&self) -> f64 {
-        self.run.end
-    }
-
-    /// Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start.
-    #[getter]
-    fn time<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        Ok(PyArray1::from_slice(py, self.kept()?.times()))
-    }
-
     /// Time series of the scalar or the probe ``name``: array of shape (steps + 1,).
-    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Array<'py>> {
-        series::named(py, self.kept()?, name)
+    fn __getitem__(&self, name: &str) -> PyResult<Array> {
+        series::named(self.kept()?, name)
     }
 
     /// All time series: dict of arrays of shape (steps + 1,), "time" first.
@@ -101,19 +126,13 @@ impl PyRun {
         series::motion(py, self.kept()?)
     }
 
-    /// Names of the structure's degrees of freedom: list of n texts; None without names.
-    #[getter]
-    fn dof_names(&self) -> Option<Vec<String>> {
-        self.names.clone()
-    }
-
     fn _repr_html_(&self) -> String {
         preformatted(&self.run.to_string())
     }
 
     /// The :class:`Record` of the acceleration probe called ``probe``.
     fn acceleration_record(&self, py: Python<'_>, probe: &str) -> PyResult<Py<PyRecord>> {
-        PyRecord::create(py, self.kept()?.acceleration_record(probe))
+        PyRecord::create(py, self.probed(probe)?.acceleration_record(probe))
     }
 
     /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
@@ -126,7 +145,7 @@ impl PyRun {
         periods: Numbers,
         damping: f64,
     ) -> PyResult<PySpectrum> {
-        let histories = self.kept()?;
+        let histories = self.probed(probe)?;
         let spectrum = py.detach(|| histories.floor_spectrum(probe, &periods.0, damping));
         Ok(PySpectrum(spectrum.or_raise()?))
     }
@@ -139,126 +158,6 @@ impl PyRun {
             probes.set_item(&probe.name, Py::new(py, PyExtremes(probe.extremes))?)?;
         }
         Ok(probes)
-    }
-
-    /// Total pressure at the start, N/m.
-    #[getter]
-    fn static_normal_force(&self) -> f64 {
-        self.run.whole.static_normal_force
-    }
-
-    /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
-    #[getter]
-    fn base_shear(&self) -> PyExtremes {
-        PyExtremes(self.run.whole.base_shear)
-    }
-
-    /// Moment on the soil, counter-clockwise, N·m/m: its :class:`Extremes`.
-    #[getter]
-    fn base_moment(&self) -> PyExtremes {
-        PyExtremes(self.run.whole.base_moment)
-    }
-
-    /// Total pressure on the soil, N/m: its :class:`Extremes`.
-    #[getter]
-    fn normal_force(&self) -> PyExtremes {
-        PyExtremes(self.run.whole.normal_force)
-    }
-
-    /// Rotation of the base, counter-clockwise, rad: its :class:`Extremes`.
-    #[getter]
-    fn base_rotation(&self) -> PyExtremes {
-        PyExtremes(self.run.whole.base_rotation)
-    }
-
-    /// Largest ratio of the open length to that of the base: its :class:`Peak`.
-    #[getter]
-    fn uplifted_fraction(&self) -> PyPeak {
-        PyPeak(self.run.whole.uplifted_fraction.highest)
-    }
-
-    /// Time with uplift, s.
-    #[getter]
-    fn uplift_duration(&self) -> f64 {
-        self.run.whole.uplift.duration
-    }
-
-    /// Slip averaged over the base, m: its :class:`Extremes`.
-    #[getter]
-    fn mean_slip(&self) -> PyExtremes {
-        PyExtremes(self.run.whole.mean_slip)
-    }
-
-    /// Slip averaged over the base at the end, m.
-    #[getter]
-    fn residual_slip(&self) -> f64 {
-        self.run.whole.residual_slip
-    }
-
-    /// Largest slip of any element, m: its :class:`Peak`.
-    #[getter]
-    fn largest_slip(&self) -> PyPeak {
-        PyPeak(self.run.whole.largest_slip.highest)
-    }
-
-    /// Largest gap of any element, m: its :class:`Peak`.
-    #[getter]
-    fn largest_gap(&self) -> PyPeak {
-        PyPeak(self.run.largest_gap())
-    }
-
-    /// Largest pressure of any element, Pa, a :class:`Peak`; None without elements.
-    #[getter]
-    fn largest_pressure(&self) -> Option<PyPeak> {
-        self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
-    }
-
-    /// Ratio of the largest base shear to the weight; None without weight.
-    #[getter]
-    fn shear_coefficient(&self) -> Option<f64> {
-        self.run.shear_coefficient()
-    }
-
-    /// Slip events of the whole base: list of tuples (start in s, end in s, slip in m).
-    #[getter]
-    fn slip_events(&self) -> Vec<(f64, f64, f64)> {
-        events(&self.run.whole.sliding.events)
-    }
-
-    /// Sliding distance: |slip| of the base summed over time, m.
-    #[getter]
-    fn slip_path(&self) -> f64 {
-        self.run.whole.sliding.path
-    }
-
-    /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
-    #[getter]
-    fn least_sliding_safety(&self) -> Option<PyPeak> {
-        known(self.run.whole.sliding_safety)
-    }
-
-    /// Least factor of safety against overturning, a :class:`Peak`.
-    #[getter]
-    fn least_overturning_safety(&self) -> PyPeak {
-        PyPeak(self.run.whole.overturning_safety.lowest)
-    }
-
-    /// Each foundation by itself: list of :class:`FoundationSummary`, from left to right.
-    #[getter]
-    fn foundations(&self) -> Vec<PyFoundationSummary> {
-        self.run.foundations.iter().cloned().map(PyFoundationSummary).collect()
-    }
-
-    /// A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`.
-    #[getter]
-    fn serviceability(&self) -> Vec<PyServiceCheck> {
-        self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
-    }
-
-    /// Whether all limits of service were kept; None without limits.
-    #[getter]
-    fn is_serviceable(&self) -> Option<bool> {
-        self.run.is_serviceable()
     }
 
     /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
@@ -296,28 +195,10 @@ impl PyRun {
         ];
         let envelope = PyDict::new(py);
         for (name, value) in columns {
-            envelope
-                .set_item(name, PyArray1::from_iter(py, self.run.envelope.iter().map(value)))?;
+            let column: Array = self.run.envelope.iter().map(value).collect();
+            envelope.set_item(name, column)?;
         }
         Ok(envelope)
-    }
-
-    /// Number of changes of contact mode.
-    #[getter]
-    fn mode_changes(&self) -> usize {
-        self.run.mode_changes
-    }
-
-    /// The :class:`EnergyBalance` at the end.
-    #[getter]
-    fn energy_balance(&self) -> PyEnergyBalance {
-        PyEnergyBalance(self.run.energy_balance)
-    }
-
-    /// Largest residual of the energy balance, relative to the largest energy; NaN if none is kept.
-    #[getter]
-    fn energy_error(&self) -> f64 {
-        self.run.energy_error
     }
 
     /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
@@ -330,30 +211,6 @@ impl PyRun {
             shares.set_item(name, share)?;
         }
         Ok(Some(shares))
-    }
-
-    /// Number of linear solves of the search for contact modes.
-    #[getter]
-    fn trials(&self) -> usize {
-        self.run.trials
-    }
-
-    /// Number of steps that the first search did not solve.
-    #[getter]
-    fn fallbacks(&self) -> usize {
-        self.run.fallbacks.total()
-    }
-
-    /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
-    #[getter]
-    pub(crate) fn warnings(&self) -> Vec<String> {
-        self.run.warnings.iter().map(|own| in_python(own.to_string())).collect()
-    }
-
-    /// Wall time, s.
-    #[getter]
-    fn wall(&self) -> f64 {
-        self.run.wall.as_secs_f64()
     }
 
     /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME".

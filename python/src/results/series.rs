@@ -7,26 +7,21 @@ use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::array::Array;
 use crate::error::refuse;
 use crate::names::mode_number;
 
-type Array<'py> = Bound<'py, PyArray1<f64>>;
-
 /// A scalar, or a probe, by its name.
-pub(super) fn named<'py>(
-    py: Python<'py>,
-    histories: &TimeSeries,
-    name: &str,
-) -> PyResult<Array<'py>> {
+pub(super) fn named(histories: &TimeSeries, name: &str) -> PyResult<Array> {
     if name == "time" {
-        return Ok(PyArray1::from_slice(py, histories.times()));
+        return Ok(Array::from(histories.times()));
     }
     if let Ok(values) = histories.probe(name) {
-        return Ok(PyArray1::from_slice(py, values));
+        return Ok(Array::from(values));
     }
     let words = Quantity::ALL.map(|quantity| quantity.to_string());
     match words.iter().zip(Quantity::ALL).find(|(word, _)| *word == name) {
-        Some((_, quantity)) => Ok(PyArray1::from_slice(py, histories.series(quantity))),
+        Some((_, quantity)) => Ok(Array::from(histories.series(quantity))),
         None => Err(pyo3::exceptions::PyKeyError::new_err(format!(
             "'{name}' is neither a time series ({}) nor a probe ({})",
             words.join(", "),
@@ -43,13 +38,12 @@ pub(super) fn names(histories: &TimeSeries) -> Vec<String> {
 /// All scalars and probes by their names.
 pub(super) fn all<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
-    series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
+    series.set_item("time", Array::from(histories.times()))?;
     for quantity in Quantity::ALL {
-        series
-            .set_item(quantity.to_string(), PyArray1::from_slice(py, histories.series(quantity)))?;
+        series.set_item(quantity.to_string(), Array::from(histories.series(quantity)))?;
     }
     for name in names(histories) {
-        series.set_item(&name, named(py, histories, &name)?)?;
+        series.set_item(&name, named(histories, &name)?)?;
     }
     Ok(series)
 }
@@ -60,15 +54,15 @@ pub(super) fn energy_balances<'py>(
     histories: &TimeSeries,
 ) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
-    series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
+    series.set_item("time", Array::from(histories.times()))?;
     for term in EnergyTerm::ALL {
         let values =
             histories.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
-        series.set_item(term.to_string(), PyArray1::from_iter(py, values))?;
+        series.set_item(term.to_string(), values.collect::<Array>())?;
     }
     let residuals =
         histories.energy_balances().iter().map(basemat::coupled::EnergyBalance::residual);
-    series.set_item("residual", PyArray1::from_iter(py, residuals))?;
+    series.set_item("residual", residuals.collect::<Array>())?;
     Ok(series)
 }
 
@@ -83,7 +77,7 @@ pub(super) fn contact<'py>(
     }
     let shape = [frames.len(), histories.elements().len()];
     let columns = PyDict::new(py);
-    columns.set_item("time", PyArray1::from_iter(py, frames.iter().map(|frame| frame.time)))?;
+    columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let value = |pick: fn(&ContactState) -> f64| {
         let values = frames.iter().flat_map(|frame| frame.states).map(pick);
         PyArray1::from_iter(py, values).reshape(shape)
@@ -106,7 +100,7 @@ pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<B
     };
     let shape = [frames.len(), first.displacement.len()];
     let columns = PyDict::new(py);
-    columns.set_item("time", PyArray1::from_iter(py, frames.iter().map(|frame| frame.time)))?;
+    columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let displacement: Vec<f64> =
         frames.iter().flat_map(|frame| frame.displacement).copied().collect();
     columns.set_item("displacement", displacement.to_pyarray(py).reshape(shape)?)?;

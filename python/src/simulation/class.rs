@@ -5,13 +5,12 @@ use std::sync::{Mutex, MutexGuard};
 use basemat::Simulation;
 use basemat::coupled::Checkpoint;
 use basemat::results::Recorder;
-use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::build;
 use super::watched::{Watched, prepared, settled};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Numbers, whole};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, locked, raise, refuse, take_raised};
 use crate::ground::PyGround;
@@ -99,6 +98,22 @@ macro_rules! with_given {
 /// A part for one simulation.
 fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
     recipe().or_raise()
+}
+
+getters! {
+    PySimulation, own;
+    /// The :class:`State` at the end of the last accepted step (at first: the static state).
+    state: PyResult<PyState> = Ok(PyState(own.lock()?.state().clone()));
+    /// Time step, s.
+    time_step: PyResult<f64> = Ok(own.lock()?.time_step());
+    /// Names of the probes, in their order.
+    probe_names: PyResult<Vec<String>> = Ok(own.lock()?.probes().iter().map(|probe| probe.name.clone()).collect());
+    /// Ends of the contact elements: list of (left, right), m.
+    elements: PyResult<Vec<(f64, f64)>> = Ok(own.lock()?.ground().elements().iter().map(|e| (e.left, e.right)).collect());
+    /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
+    static_displacement: PyResult<Array> = Ok(Array::from(own.lock()?.static_displacement()));
+    /// Which history the ground keeps and why, in words; None if it has not chosen one yet.
+    history_choice: PyResult<Option<String>> = Ok(own.lock()?.ground().history_choice().map(|choice| choice.to_string()));
 }
 
 #[pymethods]
@@ -219,7 +234,7 @@ impl PySimulation {
         #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
         #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
         warn: bool,
-    ) -> PyResult<PyRun> {
+    ) -> PyResult<Py<PyRun>> {
         let steps = build::count(py, &*self.lock()?, self.duration, steps, duration)?;
         if observe_every == 0 {
             return Err(refuse("observe_every is 0, but must be one or more"));
@@ -255,7 +270,7 @@ impl PySimulation {
         if warn {
             run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;
         }
-        Ok(run)
+        run.create(py)
     }
 
     /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
@@ -282,12 +297,6 @@ impl PySimulation {
         Ok(PySteps { simulation: slf.into_any().unbind(), left })
     }
 
-    /// The :class:`State` at the end of the last accepted step (at first: the static state).
-    #[getter]
-    fn state(&self) -> PyResult<PyState> {
-        Ok(PyState(self.lock()?.state().clone()))
-    }
-
     /// The structure as it was given; of one written in Python with a ``force`` of its own the copy that
     /// this simulation works on, with its internal variables.
     #[getter]
@@ -301,36 +310,6 @@ impl PySimulation {
     #[getter]
     fn hysteresis(&self, py: Python<'_>) -> Vec<Py<PyAny>> {
         self.hysteresis.iter().map(|own| own.clone_ref(py)).collect()
-    }
-
-    /// Time step, s.
-    #[getter]
-    fn time_step(&self) -> PyResult<f64> {
-        Ok(self.lock()?.time_step())
-    }
-
-    /// Names of the probes, in their order.
-    #[getter]
-    fn probe_names(&self) -> PyResult<Vec<String>> {
-        Ok(self.lock()?.probes().iter().map(|probe| probe.name.clone()).collect())
-    }
-
-    /// Ends of the contact elements: list of (left, right), m.
-    #[getter]
-    fn elements(&self) -> PyResult<Vec<(f64, f64)>> {
-        Ok(self.lock()?.ground().elements().iter().map(|e| (e.left, e.right)).collect())
-    }
-
-    /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
-    #[getter]
-    fn static_displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(PyArray1::from_slice(py, self.lock()?.static_displacement()))
-    }
-
-    /// Which history the ground keeps and why, in words; None if it has not chosen one yet.
-    #[getter]
-    fn history_choice(&self) -> PyResult<Option<String>> {
-        Ok(self.lock()?.ground().history_choice().map(|choice| choice.to_string()))
     }
 
     /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.

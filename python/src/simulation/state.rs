@@ -2,16 +2,12 @@
 
 use basemat::contact::SearchMethod;
 use basemat::coupled::{Foundation, State};
-use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::array::whole;
+use crate::array::{Array, whole};
 use crate::error::refuse;
 use crate::names::{mode_name, mode_number};
 use crate::results::PyEnergyBalance;
-use crate::saved::{Reduced, reduced};
-
-type Array<'py> = Bound<'py, PyArray1<f64>>;
 
 /// The simulation at the end of an accepted step.
 ///
@@ -40,56 +36,59 @@ pub(crate) struct PyFoundation {
     rotation: f64,
 }
 
-#[pymethods]
-impl PyFoundation {
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        reduced(slf)
-    }
+getters! {
+    PyState, own;
+    /// Number of steps made.
+    step: usize = own.0.step;
+    /// Time, s.
+    time: f64 = own.0.time;
+    /// Gap of each element: array of shape (elements,), m.
+    gap: Array = own.0.contact.iter().map(|contact| contact.gap).collect();
+    /// Slip of each element: array of shape (elements,), m.
+    slip: Array = own.0.contact.iter().map(|contact| contact.slip).collect();
+    /// Pressure on each element: array of shape (elements,), Pa.
+    pressure: Array = own.0.contact.iter().map(|contact| contact.pressure).collect();
+    /// Shear traction on each element: array of shape (elements,), Pa.
+    shear: Array = own.0.contact.iter().map(|contact| contact.shear).collect();
+    /// Values of the probes: array of shape (probes,), in their order.
+    probes: Array = own.0.probes.as_slice().into();
+    /// Horizontal force on the soil, positive to the right, N/m.
+    base_shear: f64 = own.0.base_shear;
+    /// Moment on the soil, counter-clockwise, N·m/m.
+    base_moment: f64 = own.0.base_moment;
+    /// Total pressure on the soil, N/m.
+    normal_force: f64 = own.0.normal_force;
+    /// Ratio of the length of open elements to that of the base.
+    uplifted_fraction: f64 = own.0.uplifted_fraction;
+    /// Slip averaged over the base, m.
+    mean_slip: f64 = own.0.mean_slip;
+    /// Largest |slip| of any element, m.
+    largest_slip: f64 = own.0.largest_slip();
+    /// Rotation of the base, counter-clockwise, rad.
+    base_rotation: f64 = own.0.base_rotation;
+    /// Mean displacement (to the right, up) of the free field under the base, m.
+    free_field: [f64; 2] = own.0.free_field;
+    /// The :class:`EnergyBalance` since the start.
+    energy_balance: PyEnergyBalance = PyEnergyBalance(own.0.energy_balance);
+    /// Number of linear solves that the search for contact modes needed.
+    trials: usize = own.0.trials;
+    /// Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad.
+    displacement: Array = own.0.displacement().into();
+    /// Displacement of the degrees of freedom with the translation of the free field: array of shape
+    /// (n,), m and rad.
+    absolute_displacement: Array = own.0.absolute_displacement().into();
+    /// Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s.
+    velocity: Array = own.0.velocity().into();
+    /// Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s².
+    acceleration: Array = own.0.acceleration().into();
 }
 
 #[pymethods]
 impl PyState {
-    /// Number of steps made.
-    #[getter]
-    fn step(&self) -> usize {
-        self.0.step
-    }
-
-    /// Time, s.
-    #[getter]
-    fn time(&self) -> f64 {
-        self.0.time
-    }
-
-    /// Gap of each element: array of shape (elements,), m.
-    #[getter]
-    fn gap<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.gap))
-    }
-
-    /// Slip of each element: array of shape (elements,), m.
-    #[getter]
-    fn slip<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.slip))
-    }
-
-    /// Pressure on each element: array of shape (elements,), Pa.
-    #[getter]
-    fn pressure<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.pressure))
-    }
-
-    /// Shear traction on each element: array of shape (elements,), Pa.
-    #[getter]
-    fn shear<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.shear))
-    }
-
     /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
     #[getter]
-    fn modes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
-        let modes = self.0.modes.iter().map(|mode| mode_number(*mode));
-        Ok(PyArray1::from_vec(py, modes.collect::<PyResult<_>>()?))
+    fn modes(&self) -> PyResult<Array<u8>> {
+        self.0.modes.iter().map(|mode| mode_number(*mode)).collect()
     }
 
     /// Changes of mode in this step: list of tuples (element, mode before, mode now).
@@ -99,54 +98,6 @@ impl PyState {
         changes
             .map(|change| Ok((change.element, mode_name(change.from)?, mode_name(change.to)?)))
             .collect()
-    }
-
-    /// Values of the probes: array of shape (probes,), in their order.
-    #[getter]
-    fn probes<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_slice(py, &self.0.probes)
-    }
-
-    /// Horizontal force on the soil, positive to the right, N/m.
-    #[getter]
-    fn base_shear(&self) -> f64 {
-        self.0.base_shear
-    }
-
-    /// Moment on the soil, counter-clockwise, N·m/m.
-    #[getter]
-    fn base_moment(&self) -> f64 {
-        self.0.base_moment
-    }
-
-    /// Total pressure on the soil, N/m.
-    #[getter]
-    fn normal_force(&self) -> f64 {
-        self.0.normal_force
-    }
-
-    /// Ratio of the length of open elements to that of the base.
-    #[getter]
-    fn uplifted_fraction(&self) -> f64 {
-        self.0.uplifted_fraction
-    }
-
-    /// Slip averaged over the base, m.
-    #[getter]
-    fn mean_slip(&self) -> f64 {
-        self.0.mean_slip
-    }
-
-    /// Largest |slip| of any element, m.
-    #[getter]
-    fn largest_slip(&self) -> f64 {
-        self.0.largest_slip()
-    }
-
-    /// Rotation of the base, counter-clockwise, rad.
-    #[getter]
-    fn base_rotation(&self) -> f64 {
-        self.0.base_rotation
     }
 
     /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
@@ -164,24 +115,6 @@ impl PyState {
         self.0.foundations.iter().map(own).collect()
     }
 
-    /// Mean displacement (to the right, up) of the free field under the base, m.
-    #[getter]
-    fn free_field(&self) -> [f64; 2] {
-        self.0.free_field
-    }
-
-    /// The :class:`EnergyBalance` since the start.
-    #[getter]
-    fn energy_balance(&self) -> PyEnergyBalance {
-        PyEnergyBalance(self.0.energy_balance)
-    }
-
-    /// Number of linear solves that the search for contact modes needed.
-    #[getter]
-    fn trials(&self) -> usize {
-        self.0.trials
-    }
-
     /// Method that found the modes: "active set", "gauss-seidel" or "path".
     #[getter]
     fn method(&self) -> &'static str {
@@ -190,31 +123,6 @@ impl PyState {
             SearchMethod::Path => "path",
             _ => "active set",
         }
-    }
-
-    /// Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad.
-    #[getter]
-    fn displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_slice(py, self.0.displacement())
-    }
-
-    /// Displacement of the degrees of freedom with the translation of the free field: array of shape
-    /// (n,), m and rad.
-    #[getter]
-    fn absolute_displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_slice(py, self.0.absolute_displacement())
-    }
-
-    /// Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s.
-    #[getter]
-    fn velocity<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_slice(py, self.0.velocity())
-    }
-
-    /// Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s².
-    #[getter]
-    fn acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_slice(py, self.0.acceleration())
     }
 
     /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it

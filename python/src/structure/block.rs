@@ -30,6 +30,14 @@ fn placed(
     Ok(PyClassInitializer::from(base).add_subclass(PyRigidBlock(block)))
 }
 
+getters! {
+    PyRigidBlock, own;
+    /// Mass, kg/m.
+    total_mass: f64 = own.0.total_mass();
+    /// Rotary inertia about the middle of the base, kg m²/m.
+    base_inertia: f64 = own.0.base_inertia();
+}
+
 #[pymethods]
 impl PyRigidBlock {
     #[new]
@@ -71,18 +79,6 @@ impl PyRigidBlock {
     /// Number of the degree of freedom of the rotation.
     #[classattr]
     const ROTATION: usize = RigidBlock::ROTATION;
-
-    /// Mass, kg/m.
-    #[getter]
-    fn total_mass(&self) -> f64 {
-        self.0.total_mass()
-    }
-
-    /// Rotary inertia about the middle of the base, kg m²/m.
-    #[getter]
-    fn base_inertia(&self) -> f64 {
-        self.0.base_inertia()
-    }
 
     /// The :class:`DofCombination` of the displacement to the right at a ``height`` (m) above the base.
     fn horizontal_at(&self, height: f64) -> PyDofCombination {

@@ -97,6 +97,16 @@ impl PyShearBuilding {
     }
 }
 
+getters! {
+    PyShearBuilding, own;
+    /// Mass, kg/m.
+    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
+    /// First natural frequency on a fixed base without P–Δ, Hz.
+    fixed_base_frequency: PyResult<f64> = Ok(own.made()?.fixed_base_frequency());
+    /// Number of the degree of freedom of the topmost floor.
+    roof: PyResult<usize> = Ok(own.made()?.roof());
+}
+
 #[pymethods]
 impl PyShearBuilding {
     #[new]
@@ -148,24 +158,6 @@ impl PyShearBuilding {
         let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
         let made = Self::of(move || following(make()?.isolated(level, own()?)?, &laws))?;
         Py::new(building.py(), made)
-    }
-
-    /// Mass, kg/m.
-    #[getter]
-    fn total_mass(&self) -> PyResult<f64> {
-        Ok(self.made()?.total_mass())
-    }
-
-    /// First natural frequency on a fixed base without P–Δ, Hz.
-    #[getter]
-    fn fixed_base_frequency(&self) -> PyResult<f64> {
-        Ok(self.made()?.fixed_base_frequency())
-    }
-
-    /// Number of the degree of freedom of the topmost floor.
-    #[getter]
-    fn roof(&self) -> PyResult<usize> {
-        Ok(self.made()?.roof())
     }
 
     /// Number of the degree of freedom of the floor above a ``storey`` (0: the lowest).

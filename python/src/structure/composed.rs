@@ -19,6 +19,14 @@ use crate::row::{PyDofCombination, RowLike};
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
+getters! {
+    PyRayleighDamping, own;
+    /// Factor of the mass, 1/s.
+    mass: f64 = own.0.mass();
+    /// Factor of the stiffness, s.
+    stiffness: f64 = own.0.stiffness();
+}
+
 #[pymethods]
 impl PyRayleighDamping {
     #[new]
@@ -30,18 +38,6 @@ impl PyRayleighDamping {
     #[staticmethod]
     fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
         Ok(Self(RayleighDamping::from_ratios(frequencies, ratios).or_raise()?))
-    }
-
-    /// Factor of the mass, 1/s.
-    #[getter]
-    fn mass(&self) -> f64 {
-        self.0.mass()
-    }
-
-    /// Factor of the stiffness, s.
-    #[getter]
-    fn stiffness(&self) -> f64 {
-        self.0.stiffness()
     }
 
     /// Damping ratio at a ``frequency`` (Hz).

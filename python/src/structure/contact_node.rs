@@ -18,6 +18,16 @@ impl From<ContactNode> for PyContactNode {
     }
 }
 
+getters! {
+    PyContactNode, own;
+    /// Coordinate to the right, m.
+    x: f64 = own.0.x;
+    /// The :class:`DofCombination` of its displacement to the right.
+    horizontal: PyDofCombination = PyDofCombination(own.0.horizontal.clone(), own.1);
+    /// The :class:`DofCombination` of its displacement up.
+    vertical: PyDofCombination = PyDofCombination(own.0.vertical.clone(), own.1);
+}
+
 #[pymethods]
 impl PyContactNode {
     #[new]
@@ -42,24 +52,6 @@ impl PyContactNode {
         #[pyo3(from_py_with = whole)] dofs: [usize; 3],
     ) -> Vec<Self> {
         ContactNode::rigid_base(left, right, dofs).into_iter().map(Self::from).collect()
-    }
-
-    /// Coordinate to the right, m.
-    #[getter]
-    fn x(&self) -> f64 {
-        self.0.x
-    }
-
-    /// The :class:`DofCombination` of its displacement to the right.
-    #[getter]
-    fn horizontal(&self) -> PyDofCombination {
-        PyDofCombination(self.0.horizontal.clone(), self.1)
-    }
-
-    /// The :class:`DofCombination` of its displacement up.
-    #[getter]
-    fn vertical(&self) -> PyDofCombination {
-        PyDofCombination(self.0.vertical.clone(), self.1)
     }
 
     fn __repr__(&self) -> String {

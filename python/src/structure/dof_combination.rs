@@ -27,7 +27,10 @@ impl PyDofCombination {
         let Numbers(dofs) = dofs;
         self.1.check("the row", dofs.len())?;
         if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= dofs.len()) {
-            return Err(refuse(format!("unknown {index} of a row, of {} given", dofs.len())));
+            return Err(refuse(format!(
+                "degree of freedom {index} of a row, of {} given",
+                dofs.len()
+            )));
         }
         Ok(self.0.value(&dofs))
     }
@@ -45,9 +48,9 @@ impl PyDofCombination {
         })?;
         weights.resize(dofs, 0.0);
         for &(index, weight) in &self.0 {
-            *weights
-                .get_mut(index)
-                .ok_or_else(|| refuse(format!("unknown {index} of a row, of {dofs}")))? += weight;
+            *weights.get_mut(index).ok_or_else(|| {
+                refuse(format!("degree of freedom {index} of a row, of {dofs}"))
+            })? += weight;
         }
         Ok(PyArray1::from_vec(py, weights))
     }

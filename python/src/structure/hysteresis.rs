@@ -127,6 +127,14 @@ impl PyFrictionPendulum {
 #[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyLeadRubber(LeadRubber);
 
+getters! {
+    PyLeadRubber, own;
+    /// Strength: force at zero deformation, N/m.
+    strength: f64 = own.0.strength();
+    /// Stiffness after yielding, N/m per metre.
+    stiffness: f64 = own.0.stiffness();
+}
+
 #[pymethods]
 impl PyLeadRubber {
     #[new]
@@ -158,17 +166,5 @@ impl PyLeadRubber {
             .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
             .or_raise()?;
         Py::new(py, law(own.clone(), Self(own)))
-    }
-
-    /// Strength: force at zero deformation, N/m.
-    #[getter]
-    fn strength(&self) -> f64 {
-        self.0.strength()
-    }
-
-    /// Stiffness after yielding, N/m per metre.
-    #[getter]
-    fn stiffness(&self) -> f64 {
-        self.0.stiffness()
     }
 }

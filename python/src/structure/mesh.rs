@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use crate::array::{Numbers, Pairs, Table, whole};
 use crate::error::{OrRaise, refuse};
+use crate::names::choice;
 
 /// A direction by its name: "x", "y" or "rotation".
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
@@ -20,16 +21,13 @@ pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulatio
     let percent = u8::try_from(percent).map_err(|_| {
         refuse(format!("hourglass_percent is {percent}, but must be {} or less", u8::MAX))
     })?;
-    match name {
-        "full" => Ok(QuadFormulation::Full),
-        "incompatible modes" => Ok(QuadFormulation::IncompatibleModes),
-        "one point" => Ok(QuadFormulation::OnePoint),
-        "hourglass" => Ok(QuadFormulation::Hourglass { percent }),
-        _ => Err(refuse(format!(
-            "formulation is '{name}', but must be 'full', 'incompatible modes', 'one point' or \
-             'hourglass'"
-        ))),
-    }
+    let all = [
+        ("full", QuadFormulation::Full),
+        ("incompatible modes", QuadFormulation::IncompatibleModes),
+        ("one point", QuadFormulation::OnePoint),
+        ("hourglass", QuadFormulation::Hourglass { percent }),
+    ];
+    choice("formulation", name, &all)
 }
 
 /// Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,

@@ -7,6 +7,7 @@ use basemat::interface::{
     Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use super::{PyContactState, PyPreviousContact};
 use crate::array::{Count, Numbers};
@@ -16,7 +17,7 @@ use crate::names::{mode, mode_name};
 /// One linear condition on an element at the end of a step:
 /// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
 /// pressure p and shear traction τ (Pa); what is not given is 0.
-#[pyclass(name = "Condition", module = "basemat", frozen, dict)]
+#[pyclass(name = "Condition", module = "basemat", frozen)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
 #[pymethods]
@@ -49,6 +50,12 @@ impl PyCondition {
     #[staticmethod]
     fn shear_is(value: f64) -> Self {
         Self(Condition::shear_is(value))
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {
+        let Condition { gap, slip, pressure, shear, value } = self.0;
+        let names = ["gap", "slip", "pressure", "shear", "value"];
+        Ok(((), names.into_iter().zip([gap, slip, pressure, shear, value]).into_py_dict(py)?))
     }
 
     fn __repr__(&self) -> String {

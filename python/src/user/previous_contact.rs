@@ -77,6 +77,30 @@ impl PyPreviousContact {
     }
 }
 
+getters! {
+    PyPreviousContact, own;
+    /// Gap, m; positive when open.
+    gap: f64 = own.state.gap;
+    /// Slip since the static state, m; positive to the right.
+    slip: f64 = own.state.slip;
+    /// Pressure, Pa; positive in compression.
+    pressure: f64 = own.state.pressure;
+    /// Shear traction of the structure on the soil, Pa; positive to the right.
+    shear: f64 = own.state.shear;
+    /// Mode of the step before, as in :data:`basemat.MODES`.
+    mode: PyResult<&'static str> = mode_name(own.mode);
+    /// Whether the element has been open.
+    has_opened: bool = own.has_opened;
+    /// Slip rate of the step before, m/s.
+    slip_rate: f64 = own.slip_rate;
+    /// Pressure of the static state, Pa.
+    static_pressure: f64 = own.static_pressure;
+    /// Time step, s.
+    time_step: f64 = own.time_step;
+    /// State variables of the law: list of numbers.
+    memory: Vec<f64> = own.memory.clone();
+}
+
 #[pymethods]
 impl PyPreviousContact {
     #[new]
@@ -91,65 +115,5 @@ impl PyPreviousContact {
         let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
         let start = PreviousContact::new(state.core(), crate::names::mode(mode)?, time_step);
         Ok(Self { slip_rate, memory, ..Self::of(&start) })
-    }
-
-    /// Gap, m; positive when open.
-    #[getter]
-    fn gap(&self) -> f64 {
-        self.state.gap
-    }
-
-    /// Slip since the static state, m; positive to the right.
-    #[getter]
-    fn slip(&self) -> f64 {
-        self.state.slip
-    }
-
-    /// Pressure, Pa; positive in compression.
-    #[getter]
-    fn pressure(&self) -> f64 {
-        self.state.pressure
-    }
-
-    /// Shear traction of the structure on the soil, Pa; positive to the right.
-    #[getter]
-    fn shear(&self) -> f64 {
-        self.state.shear
-    }
-
-    /// Mode of the step before, as in :data:`basemat.MODES`.
-    #[getter]
-    fn mode(&self) -> PyResult<&'static str> {
-        mode_name(self.mode)
-    }
-
-    /// Whether the element has been open.
-    #[getter]
-    fn has_opened(&self) -> bool {
-        self.has_opened
-    }
-
-    /// Slip rate of the step before, m/s.
-    #[getter]
-    fn slip_rate(&self) -> f64 {
-        self.slip_rate
-    }
-
-    /// Pressure of the static state, Pa.
-    #[getter]
-    fn static_pressure(&self) -> f64 {
-        self.static_pressure
-    }
-
-    /// Time step, s.
-    #[getter]
-    fn time_step(&self) -> f64 {
-        self.time_step
-    }
-
-    /// State variables of the law: list of numbers.
-    #[getter]
-    fn memory(&self) -> Vec<f64> {
-        self.memory.clone()
     }
 }
