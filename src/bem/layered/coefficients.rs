@@ -38,7 +38,7 @@ pub(crate) const BLOCKS: usize = 25;
 const POINTS_PER_LAG: usize = 4;
 /// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
 /// the others where a slab carries waves along.
-const WAVENUMBERS: [f64; 3] = [0.01, 0.5, 2.0];
+const WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
 /// Tolerance over its own with which a panel must look resolved before it is sampled: half of those at the limit are.
 pub(super) const DOUBT: f64 = 100.0;
 
