@@ -346,8 +346,8 @@ pub enum Error {
     /// A mat in plan that cannot be computed as asked.
     #[error("mat in plan: {0}")]
     Plan(#[from] PlanError),
-    /// A site that cannot be iterated to strain-compatible properties.
-    #[error("site response: {0}")]
+    /// A soil profile that makes no sense, or cannot be iterated to strain-compatible properties.
+    #[error("site: {0}")]
     Site(#[from] SiteError),
     /// Parameters, a table or files of a sweep that cannot be used.
     #[error(transparent)]

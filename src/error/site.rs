@@ -1,6 +1,8 @@
 //! Errors of site response.
 
-/// Reasons why a site cannot be iterated to strain-compatible properties.
+use super::Error;
+
+/// Reasons why a soil profile makes no sense, or cannot be iterated to strain-compatible properties.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SiteError {
@@ -27,4 +29,16 @@ pub enum SiteError {
     /// A column of pressure waves.
     #[error("strain curves are those of shear: the column must be one of shear waves")]
     PressureWaves,
+}
+
+impl SiteError {
+    /// An error of one quantity with its layer, counted from 0.
+    pub(crate) fn of_layer(index: usize, error: Error) -> Error {
+        match error {
+            Error::Input { quantity, value, needed } => {
+                Self::Layer { layer: index + 1, quantity, value, needed }.into()
+            }
+            other => other,
+        }
+    }
 }

@@ -329,20 +329,14 @@ fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// An error with its layer, counted from 0.
+/// An error with its layer, counted from 0; that of a damping ratio which no law fits, as one of the layer.
 fn of_layer(index: usize, error: Error) -> Error {
-    let layer = index + 1;
-    match error {
-        Error::Input { quantity, value, needed } => {
-            SiteError::Layer { layer, quantity, value, needed }.into()
-        }
-        Error::Layered(LayeredError::Fit { ratio, .. }) => {
-            let quantity = "strain-compatible damping ratio";
-            let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
-            SiteError::Layer { layer, quantity, value: ratio, needed }.into()
-        }
-        other => other,
-    }
+    let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
+        return SiteError::of_layer(index, error);
+    };
+    let quantity = "strain-compatible damping ratio";
+    let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
+    SiteError::Layer { layer: index + 1, quantity, value: ratio, needed }.into()
 }
 
 impl EquivalentLinear {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{Error, LayeredError, Result, positive};
+use crate::error::{Error, LayeredError, Result, SiteError, positive};
 use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
@@ -76,12 +76,9 @@ impl SoilProfile {
     /// Profile from its layers, from the surface down, and its base.
     ///
     /// # Errors
-    /// [`Error::Input`] for a thickness that is not finite and positive or more than 1000 layers,
+    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`] for more than 1000 layers,
     /// [`Error::Size`] for a rigid base without layers.
     pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self> {
-        for layer in &layers {
-            positive("thickness of a soil layer", layer.thickness)?;
-        }
         let profile = Self { layers, base };
         profile.check_depth()?;
         profile.check()?;
@@ -92,9 +89,8 @@ impl SoilProfile {
     /// [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
-    /// [`Error::Input`] for a thickness that is not finite and positive, or more than 1000 layers.
+    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`] for more than 1000 layers.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
-        positive("thickness of a soil layer", thickness)?;
         self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
         self.check_depth()?;
         Ok(self)
@@ -196,6 +192,10 @@ impl SoilProfile {
                 value: self.layers.len() as f64,
                 needed: "at most 1000",
             });
+        }
+        for (index, layer) in self.layers.iter().enumerate() {
+            let of_layer = |error| SiteError::of_layer(index, error);
+            positive("thickness (m)", layer.thickness).map_err(of_layer)?;
         }
         if !self.layers.is_empty() {
             positive("depth of the soil layers", self.depth())?;

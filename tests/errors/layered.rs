@@ -3,6 +3,7 @@
 //! REFERENCE: the fields of the error, and the clock.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use basemat::bem::layered::{
     LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
@@ -15,7 +16,7 @@ use basemat::soil::{
     SoilProfile,
 };
 use basemat::structure::RigidBlock;
-use basemat::{Complex, Error, LayeredError, Soil};
+use basemat::{Complex, Error, LayeredError, SiteError, Soil};
 
 use basemat_problems::profiles::{gmb, p1};
 
@@ -65,10 +66,15 @@ fn hysteretic_damping_is_refused_in_time() {
 #[test]
 fn profiles_are_validated() {
     for thickness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(SoilProfile::on_rigid_base().with_layer(soil(), thickness).is_err());
-        let damping = std::sync::Arc::new(Elastic);
-        let layers = vec![SoilLayer { soil: soil(), thickness, damping }];
-        assert!(SoilProfile::new(layers, Base::Rigid).is_err());
+        let good = SoilProfile::on_rigid_base().with_layer(soil(), 1.0).unwrap();
+        let layer = |thickness| SoilLayer { soil: soil(), thickness, damping: Arc::new(Elastic) };
+        let layers = vec![layer(1.0), layer(thickness)];
+        for found in [good.with_layer(soil(), thickness), SoilProfile::new(layers, Base::Rigid)] {
+            let Err(Error::Site(SiteError::Layer { layer: 2, value, quantity, .. })) = found else {
+                panic!("{thickness}: {found:?}");
+            };
+            assert_eq!((quantity, value.to_bits()), ("thickness (m)", thickness.to_bits()));
+        }
     }
     assert!(SoilProfile::new(vec![], Base::Rigid).is_err());
     let huge = SoilProfile::on_rigid_base().with_layer(soil(), 1e308).unwrap();

@@ -10,6 +10,10 @@
 //! Fourier transform from a circle |z| = r of L points, rᴸ = ε: aliases are ε, and errors of F grow
 //! by r⁻ⁿ (Lubich 1988).
 //!
+//! Panels of the circle are sampled only where they look resolved with the surface compliance at a few wavenumbers for
+//! the mobility, which costs a hundredth: waves that go straight down have the reflections, and their resonances
+//! are where the mobility has branch points (those at other wavenumbers are smooth in the integral).
+//!
 //! Lags N+1 … 2N always come from L = 4N, N a power of two: the bits of a lag depend on nothing else.
 
 use std::ops::Range;
@@ -32,6 +36,11 @@ pub(crate) const FIRST: usize = 128;
 pub(crate) const BLOCKS: usize = 25;
 /// Points of the circle per N of lags N+1 … 2N; 2N of the first block.
 const POINTS_PER_LAG: usize = 4;
+/// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
+/// the others where a slab carries waves along.
+const WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
+/// Tolerance over its own with which a panel must look resolved before it is sampled: half of those at the limit are.
+pub(super) const DOUBT: f64 = 100.0;
 
 /// Coefficients of neighbouring lags, all classes.
 #[derive(Debug)]
@@ -229,7 +238,11 @@ impl Quadrature {
             value: count as f64,
             needed: "few enough for the memory of the machine",
         })?;
-        spectra.resize(count * functions, Complex::default());
+        for function in 1..=functions {
+            // The system may take its time to find the memory.
+            samples.reach(0)?;
+            spectra.resize(count * function, Complex::default());
+        }
         for (node, panels) in self.panels.iter().enumerate() {
             let (covering, alone) = circle.covered(node, |places| {
                 self.sample(node, panels, places, threads, samples)?;
@@ -241,16 +254,59 @@ impl Quadrature {
             }
             let places = alone.iter().map(|point| [circle.logarithm, circle.angle(*point)]);
             let values = self.shares(node, &places.collect::<Vec<_>>(), threads, samples)?;
-            for (point, values) in alone.iter().zip(values.chunks(self.classes)) {
-                for (row, value) in spectra.chunks_mut(count).zip(values.as_flattened()) {
-                    row[*point] += *value;
-                }
+            for (function, row) in spectra.chunks_exact_mut(count).enumerate() {
+                samples.reach(0)?;
+                let values = values.as_flattened().iter().skip(function).step_by(functions);
+                alone.iter().zip(values).for_each(|(point, value)| row[*point] += *value);
             }
         }
         Ok(spectra)
     }
 
-    /// Samples those of the panels at `places` that have not been met before.
+    /// Whether a panel looks resolved to so many times the tolerance: for the surface compliance at a small wavenumber,
+    /// and for waves along the shortest element and the patch.
+    pub(super) fn looks(
+        &self,
+        node: usize,
+        place: Place,
+        work: &mut Workspace,
+    ) -> Result<impl Fn(f64) -> bool> {
+        let Wavenumbers { span, shortest, .. } = self.integrals;
+        let mut values = vec![];
+        let wavenumbers = if self.has_slab() { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
+        for point in place.places() {
+            let over = factor(node, point).inverse();
+            for node in self.nodes(point).skip(node).take(1) {
+                work.compliance.set(&self.profile, self.variable(node))?;
+                work.evaluations += wavenumbers.len();
+                let (_, q2, _) = work.compliance.top();
+                let one = Complex::real(1.0);
+                let waves = [shortest, span].map(|way| {
+                    let turn = q2.sqrt().scale(way);
+                    (-turn).exp() / (one + turn)
+                });
+                let weight = node.weight * over * (one + waves[0] + waves[1]);
+                for wavenumber in wavenumbers {
+                    let c = work.compliance.at(wavenumber / span);
+                    values.extend([c.zz, c.xx, c.xz].map(|value| weight * value));
+                }
+            }
+        }
+        let own: Vec<_> = (0..wavenumbers.len()).map(|place| [place; 2]).collect();
+        let tolerance = self.tolerance;
+        Ok(move |times| Polynomials::through(&values, &own, times * tolerance).is_some())
+    }
+
+    /// Whether the top layer carries more along the patch than the ground below it.
+    fn has_slab(&self) -> bool {
+        let top = self.profile.layers().first();
+        top.zip(self.profile.soils().nth(1)).is_some_and(|(top, (below, _))| {
+            let carried = top.soil.shear_modulus() * top.thickness;
+            carried > below.shear_modulus() * self.integrals.span
+        })
+    }
+
+    /// Samples those of the panels at `places` that have not been met before and look resolved.
     fn sample(
         &self,
         node: usize,
@@ -259,10 +315,15 @@ impl Quadrature {
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {
-        let missing: Vec<_> = {
-            let kept = panels.kept();
-            places.iter().filter(|place| !kept.contains_key(place)).collect()
-        };
+        let (mut missing, mut work) = (vec![], Workspace::default());
+        for place in places.iter().filter(|place| panels.known(**place).is_none()) {
+            samples.reach(0)?;
+            if self.looks(node, *place, &mut work)?(DOUBT) {
+                missing.push(place);
+            } else {
+                panels.kept().insert(*place, None);
+            }
+        }
         let points: Vec<_> = missing.iter().flat_map(|place| place.places()).collect();
         let mut values = self.shares(node, &points, threads, samples)?;
         for (point, row) in points.iter().zip(values.chunks_mut(self.classes)) {

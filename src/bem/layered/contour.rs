@@ -235,8 +235,8 @@ impl Circle {
     }
 }
 
-/// Values evaluated between two calls of `heard`, about: a tenth of a second.
-const HEARD: usize = 1 << 21;
+/// Values evaluated between two calls of `heard`, about: a hundredth of a second.
+const HEARD: usize = 1 << 18;
 
 /// Adds an eigenvalue's share by a panel to the values at the points of a circle, row by row one function of them.
 /// An error of `heard` ends it.
