@@ -237,7 +237,7 @@ impl Quadrature {
             }
         }
         let own: Vec<_> = (0..wavenumbers.len()).map(|place| [place; 2]).collect();
-        Ok(Polynomials::through(&values, &own, self.tolerance).is_some())
+        Ok(Polynomials::through::<KINDS>(&values, &own, self.tolerance).is_some())
     }
 
     /// Whether the top layer carries more along the patch than the ground below it.

@@ -256,7 +256,7 @@ impl LayeredKernel {
     fn check(&self, watch: &mut Watch) -> Result<u64> {
         let fingerprint = passivity::check(&self.quadrature, &self.classes, watch)?;
         if let Some(path) = &self.file {
-            let blocks = file::read(path, fingerprint, self.classes.count())?;
+            let blocks = file::read(path, fingerprint, [self.classes.count(), KINDS])?;
             for (place, block) in self.blocks.iter().zip(blocks) {
                 let _ = place.set(Ok(block));
             }
@@ -339,7 +339,7 @@ impl ConvolutionWeights for LayeredKernel {
                 self.fits(&(number..number + 1))?;
                 self.admit(number..number + 1, None, &mut Watch::nobody())?;
             }
-            let found = self.block(number, &mut Watch::nobody(), 0..0)?.from(class, place);
+            let found = self.block(number, &mut Watch::nobody(), 0..0)?.from::<KINDS>(class, place);
             let count = found[0].len().min(lags - done);
             for (values, found) in values.iter_mut().zip(found) {
                 values[done..done + count].copy_from_slice(&found[..count]);

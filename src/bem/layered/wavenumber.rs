@@ -28,6 +28,25 @@ const MOST_PANELS: f64 = 65_536.0;
 /// Panels that short elements may ask for.
 const MOST_FOR_SHORT: f64 = 100.0;
 
+/// Compliances of classes of pairs, of some kinds each.
+pub(crate) trait Compliances<const KINDS: usize>: Sync {
+    /// What one thread needs for one after the other.
+    type Workspace: Default;
+
+    /// Overwrites `values`, one per class, with the compliances at `s`, Re s > 0 (or damped layers), integrals over
+    /// receiver and source.
+    ///
+    /// # Errors
+    /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
+    fn compliance(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Self::Workspace,
+        values: &mut [[Complex; KINDS]],
+    ) -> Result<()>;
+}
+
 /// Integrals over the wavenumber for the pairs of a patch.
 #[derive(Debug)]
 pub(crate) struct Wavenumbers {
@@ -93,31 +112,15 @@ pub(super) enum Found<'a> {
     Moments(&'a [[f64; 6]; DEGREES]),
 }
 
-impl Wavenumbers {
-    pub(crate) fn new(classes: &PairClasses, tolerance: f64) -> Self {
-        let forms = FormFactors::new(classes);
-        let lengths = || classes.elements().iter().map(crate::bem::ContactElement::length);
-        Self {
-            polynomials: forms.rule.nodes.iter().map(|x| legendre(*x)).collect(),
-            tails: Tails::default(),
-            span: classes.span(),
-            shortest: lengths().fold(f64::INFINITY, f64::min),
-            longest: lengths().fold(0.0, f64::max),
-            tolerance,
-            forms,
-        }
-    }
+/// Of a class zz, xx, zx.
+impl Compliances<KINDS> for Wavenumbers {
+    type Workspace = Workspace;
 
-    /// Overwrites `values` (one per class: zz, xx, zx) with the compliances at `s`, Re s > 0 (or damped
-    /// layers), integrals over receiver and source.
-    ///
-    /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
-    pub(crate) fn compliance(
+    fn compliance(
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Workspace,
+        work: &mut Self::Workspace,
         values: &mut [[Complex; KINDS]],
     ) -> Result<()> {
         let mut compliance = std::mem::take(&mut work.compliance);
@@ -133,12 +136,28 @@ impl Wavenumbers {
         self.read(work, values);
         Ok(())
     }
+}
+
+impl Wavenumbers {
+    pub(crate) fn new(classes: &PairClasses, tolerance: f64) -> Self {
+        let forms = FormFactors::new(classes);
+        let lengths = || classes.elements().iter().map(crate::bem::ContactElement::length);
+        Self {
+            polynomials: forms.rule.nodes.iter().map(|x| legendre(*x)).collect(),
+            tails: Tails::default(),
+            span: classes.span(),
+            shortest: lengths().fold(f64::INFINITY, f64::min),
+            longest: lengths().fold(0.0, f64::max),
+            tolerance,
+            forms,
+        }
+    }
 
     /// Work for the compliances at `s`: all of it but the pairs'. `meet` is called with each panel, and whether it
     /// is halved.
     ///
     /// # Errors
-    /// As for [`Wavenumbers::compliance`].
+    /// As for [`Compliances::compliance`].
     pub(crate) fn counts(
         &self,
         profile: &SoilProfile,
@@ -259,7 +278,7 @@ impl Wavenumbers {
     /// Number of panels that an integral begins with at `s`.
     ///
     /// # Errors
-    /// As for [`Wavenumbers::compliance`].
+    /// As for [`Compliances::compliance`].
     pub(crate) fn widest(&self, profile: &SoilProfile, s: Complex) -> Result<usize> {
         let mut compliance = Compliance::default();
         compliance.set(profile, s)?;

@@ -6,7 +6,7 @@ use super::*;
 use crate::Error;
 use crate::bem::layered::runge_kutta::Stages;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
-use crate::bem::layered::wavenumber::Wavenumbers;
+use crate::bem::layered::wavenumber::{Compliances, Wavenumbers};
 use crate::bem::{Grading, Strip};
 use crate::soil::{
     Elastic, GeneralizedMaxwell, KelvinVoigt, Kjartansson, Relaxation, Soil, SoilProfile,
