@@ -7,7 +7,7 @@
 //! | runge_kutta, contour, coefficients, kernel | step coefficients Gⁿ by convolution quadrature |
 //! | cost | what they cost, beforehand |
 //! | passivity | the gate that they pass |
-//! | file | coefficients kept in a file |
+//! | kept, file | coefficients kept in memory, in a file |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
 mod coefficients;
@@ -18,6 +18,7 @@ mod file;
 mod form_factors;
 mod halving;
 mod impedance;
+mod kept;
 mod kernel;
 mod passivity;
 mod runge_kutta;
