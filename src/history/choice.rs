@@ -316,6 +316,8 @@ impl Estimate {
 /// Whether the coupling of the pair farthest apart never ends.
 fn couples_without_end(kernel: &dyn ConvolutionWeights) -> Result<bool> {
     let classes = kernel.classes();
-    let farthest = classes.pairs()[classes.elements().len() - 1].class;
-    Ok(kernel.last_coupling_lag(farthest)?.is_none())
+    let farthest = classes.pairs().get(classes.elements().len() - 1);
+    // In plan the last class is that of the largest offset.
+    let class = farthest.map_or(classes.count() - 1, |pair| pair.class);
+    Ok(kernel.last_coupling_lag(class)?.is_none())
 }

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::exponentials::ExponentialSum;
-use super::pair_classes::{ACTIONS, KINDS, PairClasses};
+use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::wave_level::SharedSpectra;
-use crate::error::{CheckpointError, Observer, Result, same_length};
+use crate::error::{CheckpointError, Error, Observer, Result, same_length};
+use crate::geometry::SERIES;
 use crate::linalg::dot;
 
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
@@ -146,6 +147,21 @@ pub trait ConvolutionWeights: Send + Sync {
         values: [&mut [f64]; KINDS],
     ) -> Result<()>;
 
+    /// The same for cells of a lattice in plan, for kinds zz, xx, yy, xy, zx and zy, integrals over the receiver in
+    /// m³/Pa: zx is down due to shear along x with the receiver to the right of the source, zy down due to shear along
+    /// y with the receiver behind it, xy along one due to shear along the other with both.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a kernel of strips (the default); as for [`ConvolutionWeights::coefficients`].
+    fn coefficients_in_plan(
+        &self,
+        _class: usize,
+        _first_lag: usize,
+        _values: [&mut [f64]; SERIES],
+    ) -> Result<()> {
+        Err(OTHER_KINDS)
+    }
+
     /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
     /// default) if it never ends. An end saves time and memory.
     ///
@@ -177,17 +193,53 @@ pub trait ConvolutionWeights: Send + Sync {
         let classes = self.classes();
         same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
         self.prepare(1)?;
-        let first = (0..classes.count())
-            .map(|class| {
-                let mut lag = [[0.0]; KINDS];
-                self.coefficients(class, 1, lag.each_mut().map(<[f64; 1]>::as_mut_slice))?;
-                Ok(lag.map(|[value]| value))
-            })
-            .collect::<Result<Vec<_>>>()?;
-        classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
-        Ok(())
+        if classes.plan().is_some() {
+            scatter_first(classes, matrix, |class, lag| self.coefficients_in_plan(class, 1, lag))
+        } else {
+            scatter_first(classes, matrix, |class, lag| self.coefficients(class, 1, lag))
+        }
     }
 }
+
+/// Overwrites `matrix` with means by the coefficients of one lag.
+fn scatter_first<const KINDS: usize>(
+    classes: &PairClasses,
+    matrix: &mut [f64],
+    get: impl Fn(usize, [&mut [f64]; KINDS]) -> Result<()>,
+) -> Result<()> {
+    let first = (0..classes.count())
+        .map(|class| {
+            let mut lag = [[0.0]; KINDS];
+            get(class, lag.each_mut().map(<[f64; 1]>::as_mut_slice))?;
+            Ok(lag.map(|[value]| value))
+        })
+        .collect::<Result<Vec<_>>>()?;
+    classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
+    Ok(())
+}
+
+/// Coefficients of a class, one slice for each kind, in the plane or in plan.
+pub(super) fn all_kinds(
+    kernel: &dyn ConvolutionWeights,
+    class: usize,
+    first_lag: usize,
+    values: &mut [&mut [f64]],
+) -> Result<()> {
+    match values {
+        [normal, tangential, coupling] => {
+            kernel.coefficients(class, first_lag, [normal, tangential, coupling])
+        }
+        [zz, xx, yy, xy, zx, zy] => {
+            kernel.coefficients_in_plan(class, first_lag, [zz, xx, yy, xy, zx, zy])
+        }
+        _ => Err(OTHER_KINDS),
+    }
+}
+
+const OTHER_KINDS: Error = Error::Scene {
+    quantity: "coefficients of a kernel",
+    needed: "`coefficients` are those of strips, `coefficients_in_plan` those of mats in plan",
+};
 
 /// A kernel whose late lags are sums of decaying exponentials.
 ///
@@ -226,7 +278,7 @@ pub struct DirectHistory {
     capacity: usize,
     /// Of each kind, class by class: the coefficient of lag n at the length less n. The coupling only
     /// as long as it is not zero.
-    kinds: [Vec<Vec<f64>>; KINDS],
+    kinds: Vec<Vec<Vec<f64>>>,
     /// Per contact component: its value at every step.
     traction: Vec<Vec<f64>>,
     steps: usize,
@@ -240,7 +292,7 @@ impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
-        let kinds = [(); KINDS].map(|()| vec![Vec::new(); classes.count()]);
+        let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()[0]];
         let traction = vec![Vec::new(); classes.layout().len()];
         Self { kernel, capacity: 0, kinds, traction, steps: 0 }
     }
@@ -248,19 +300,20 @@ impl DirectHistory {
     /// Makes lags up to `lags` available.
     fn grow(&mut self, lags: usize) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
-        let mut lags = [(); KINDS].map(|()| vec![0.0; new - old]);
+        let [_, own] = self.kernel.classes().kinds();
+        let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
         self.kernel.prepare(new)?;
         for class in 0..self.kernel.classes().count() {
             let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
-            let values = lags.each_mut().map(Vec::as_mut_slice);
-            self.kernel.coefficients(class, old + 1, values)?;
-            let [normal, tangential, coupling] = &mut self.kinds;
-            let [zz, xx, zx] = &lags;
-            prepend_reversed(&mut normal[class], zz);
-            prepend_reversed(&mut tangential[class], xx);
-            if last > coupling[class].len() {
-                let kept = last - old.min(last);
-                prepend_reversed(&mut coupling[class], &zx[..kept]);
+            let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
+            all_kinds(&*self.kernel, class, old + 1, &mut values)?;
+            for (kind, (stored, lags)) in self.kinds.iter_mut().zip(&lags).enumerate() {
+                if kind < own {
+                    prepend_reversed(&mut stored[class], lags);
+                } else if last > stored[class].len() {
+                    let kept = last - old.min(last);
+                    prepend_reversed(&mut stored[class], &lags[..kept]);
+                }
             }
         }
         self.capacity = new;
@@ -301,7 +354,7 @@ impl ConvolutionHistory for DirectHistory {
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         let classes = self.kernel.classes();
-        let (layout, count) = (classes.layout(), classes.elements().len());
+        let layout = classes.layout();
         same_length("displacement of the history", displacement.len(), layout.len())?;
         displacement.fill(0.0);
         let past = self.steps;
@@ -314,19 +367,20 @@ impl ConvolutionHistory for DirectHistory {
         // Input m (from 0) is seen with lag past + 1 − m.
         for begin in (0..past).step_by(CHUNK) {
             let end = (begin + CHUNK).min(past);
-            for (place, pair) in self.kernel.classes().pairs().iter().enumerate() {
-                for action in &ACTIONS {
-                    let factor = pair.factor(action) * pair.scale;
-                    let lags = &self.kinds[action.kind][pair.class];
+            self.kernel.classes().each(|[receiver, source], pair, terms| {
+                for term in terms {
+                    let factor = term.factor * pair.scale;
+                    let lags = &self.kinds[term.kind][pair.class];
                     let first = (past + 1).saturating_sub(lags.len()).max(begin);
                     if first < end && factor != 0.0 {
                         let seen = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
-                        let traction = &self.traction[layout.place(action.traction, place % count)];
-                        displacement[layout.place(action.displacement, place / count)] +=
+                        let [to, from] = term.components;
+                        let traction = &self.traction[layout.place(from, source)];
+                        displacement[layout.place(to, receiver)] +=
                             factor * dot(&lags[seen], &traction[first..end]);
                     }
                 }
-            }
+            });
         }
         Ok(())
     }

@@ -185,7 +185,10 @@ impl LayeredKernel {
         if open || !first.is_empty() {
             self.quadrature.afford(first, open, self.limit, outlook.filter(|_| !late))?;
         }
-        let check = |watch: &mut Watch| passivity::check(&self.quadrature, &self.classes, watch);
+        let elements = self.classes.elements().iter();
+        let ends = elements.flat_map(|element| [element.left, element.right]);
+        let check =
+            |watch: &mut Watch| passivity::check(&self.quadrature, &self.classes, ends, watch);
         let fingerprint = self.kept.gate(watch, check)?;
         let rest = self.kept.missing(wanted);
         if late && !rest.is_empty() {

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::faces::Face;
-use super::lattice::Lattice;
 use crate::error::{Error, PlanError, Result, finite, memory, positive};
+use crate::geometry::Lattice;
 
 /// How far outer cells reach beyond the outline, of their side: piecewise constant tractions under a rigid base behave
 /// like a mat whose edge lies so far inside them.

@@ -9,10 +9,10 @@
 //! | file | what is in it |
 //! |---|---|
 //! | cells, faces | plan: cells on a lattice under faces, discs, masks |
-//! | lattice | offsets between cells, and their signs |
 //! | sh | surface compliance across the wavenumber |
 //! | angular_means, static_cells, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
+//! | kernel | step coefficients by convolution quadrature |
 //! | sectors, impedance | rigid mats at one frequency |
 
 mod angular_means;
@@ -21,7 +21,7 @@ mod faces;
 mod form_table;
 mod impedance;
 mod integrals;
-mod lattice;
+mod kernel;
 mod sectors;
 mod sh;
 mod static_cells;

@@ -5,7 +5,7 @@ use realfft::num_complex::Complex64;
 use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1};
 use crate::bem::layered::{Stages, on_circle};
-use crate::bem::plan::lattice::offset;
+use crate::geometry::offset;
 use crate::soil::Soil;
 
 fn all(
@@ -16,7 +16,8 @@ fn all(
 ) -> (Vec<[Complex; SERIES]>, usize) {
     let mut watch = Watch::nobody();
     let integrals = Integrals::new(lattice, profile, [s], tolerance, &mut watch).unwrap();
-    let (mut work, mut values) = (Workspace::default(), vec![]);
+    let mut work = Workspace::default();
+    let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
     (values, work.evaluations)
 }
@@ -175,12 +176,11 @@ impl<'a> Quadrature<'a> {
 
     fn mobility(&mut self, logarithm: f64, angle: f64) -> Vec<[Complex; SERIES]> {
         let [z, rest] = on_circle(logarithm, angle);
-        let mut sums = vec![];
-        let mut values = vec![];
+        let mut sums = vec![[Complex::default(); SERIES]; self.integrals.table.classes];
+        let mut values = sums.clone();
         for node in Stages::Two.nodes(z, rest) {
             let s = node.lambda.scale(1.0 / STEP);
             self.integrals.compliance(self.profile, s, &mut self.work, &mut values).unwrap();
-            sums.resize(values.len(), [Complex::default(); SERIES]);
             for (sum, value) in sums.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
                 *sum += node.weight * *value;
             }
