@@ -6,6 +6,9 @@
 //! components (pressure p, positive in compression, and displacement **down**), then the Q
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
+//!
+//! A ground in plan has three [directions](Ground::directions): its vectors have 3Q entries, down, along x (to the
+//! right) and along y (away from the reader). Its elements are rectangles, in any order.
 
 mod elastic_ground;
 #[cfg(feature = "full-plane")]
@@ -35,7 +38,7 @@ use std::sync::Arc;
 pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Observer, Result};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE, Patch, SPACE};
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
@@ -51,8 +54,18 @@ use crate::soil::Soil;
 /// your own type, and what it has found or kept.
 #[auto_impl::auto_impl(Box)]
 pub trait Ground: Any + Send {
-    /// The elements, from left to right, not overlapping.
+    /// The elements, from left to right, not overlapping; of a ground in plan their sides along x, in any order.
     fn elements(&self) -> &[ContactElement];
+
+    /// Directions in which elements move: two in the plane (the default), three in plan.
+    fn directions(&self) -> usize {
+        PLANE
+    }
+
+    /// Front and back end of an element along y, m, for a ground in plan. The default is a metre, as in the plane.
+    fn depth(&self, _element: usize) -> [f64; 2] {
+        [0.0, 1.0]
+    }
 
     /// Prepares for steps of `time_step` seconds and forgets all tractions. Called once, first.
     ///
@@ -141,16 +154,36 @@ pub trait Ground: Any + Send {
         Err(CheckpointError::Unsupported { part: "ground" }.into())
     }
 
-    /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
+    /// Overwrites `displacement` (2Q or 3Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let [down, along] = ContactLayout::new(self.elements().len()).split_mut(displacement);
+        let layout = ContactLayout::new(self.directions(), self.elements().len());
+        if layout.components() == SPACE {
+            for (e, element) in self.elements().iter().enumerate() {
+                let [front, back] = self.depth(e);
+                let place = [element.center(), 0.5 * (front + back)];
+                let [east, north, up] = motion.displacement_at(place, time);
+                for (place, value) in layout.places::<SPACE>(e).into_iter().zip([-up, east, north])
+                {
+                    displacement[place] = value;
+                }
+            }
+            return;
+        }
+        let [down, along] = layout.split_mut(displacement);
         for (element, (down, along)) in self.elements().iter().zip(down.iter_mut().zip(along)) {
             let [horizontal, vertical] = motion.displacement(element.center(), time);
             *down = -vertical;
             *along = horizontal;
         }
     }
+}
+
+/// The elements of a ground, checked.
+pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
+    let elements = ground.elements().to_vec();
+    let depths = (0..elements.len()).map(|element| ground.depth(element)).collect();
+    Patch::new(ground.directions(), elements, depths)
 }
 
 /// A soil that knows its step coefficients and its static compliance: all that

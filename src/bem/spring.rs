@@ -2,7 +2,7 @@
 
 use super::{Grading, Ground, Strip};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
-use crate::geometry::{ContactElement, ContactLayout, check_order};
+use crate::geometry::{ContactElement, ContactLayout, PLANE, check_order};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
@@ -75,7 +75,7 @@ impl SpringGround {
         positive("normal stiffness of the spring bed", normal_stiffness)?;
         positive("tangential stiffness of the spring bed", tangential_stiffness)?;
         Ok(Self {
-            displacement: vec![0.0; ContactLayout::new(elements.len()).len()],
+            displacement: vec![0.0; ContactLayout::new(PLANE, elements.len()).len()],
             elements,
             stiffness: [normal_stiffness, tangential_stiffness],
             dashpot: [0.0; 2],
@@ -135,7 +135,7 @@ impl SpringGround {
     }
 
     fn component(&self, index: usize) -> usize {
-        ContactLayout::new(self.elements.len()).origin(index)[0]
+        ContactLayout::new(PLANE, self.elements.len()).origin(index)[0]
     }
 }
 

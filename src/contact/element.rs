@@ -1,7 +1,7 @@
 //! The contact problem of one element, the tractions of the others held.
 
 use super::problem::{ContactInput, ContactSolver};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
 /// Solves element `e` alone, the tractions of the others held, and returns its mode.
@@ -11,7 +11,7 @@ pub(super) fn local_mode(
     e: usize,
     current: Mode,
 ) -> Mode {
-    let layout = ContactLayout::new(solver.states.len());
+    let layout = ContactLayout::new(PLANE, solver.states.len());
     let (size, [n, t]) = (layout.len(), layout.places(e));
     let row = |i: usize| &input.delassus[i * size..(i + 1) * size];
     let others = |i: usize| {

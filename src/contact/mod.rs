@@ -15,7 +15,7 @@ pub(crate) use search::ModeSearch;
 pub use search::{ContactSearch, SearchMethod};
 
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
-use crate::geometry::{COMPONENTS, ContactLayout};
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
 };
@@ -144,11 +144,11 @@ impl ContactProblem {
     /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
     /// laws that remember more than ten million numbers.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
-        let count = delassus.len().isqrt() / COMPONENTS;
-        let layout = ContactLayout::new(count);
+        let count = delassus.len().isqrt() / PLANE;
+        let layout = ContactLayout::new(PLANE, count);
         if count == 0 || layout.square() != delassus.len() {
             let (quantity, needed) =
-                ("Delassus operator", ContactLayout::new(count.max(1)).square());
+                ("Delassus operator", ContactLayout::new(PLANE, count.max(1)).square());
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
         if laws.len() != 1 && laws.len() != count {
@@ -167,7 +167,7 @@ impl ContactProblem {
             delassus: delassus.into(),
             laws,
             static_traction: vec![0.0; layout.len()],
-            solver: ContactSolver::new(count),
+            solver: ContactSolver::new(layout),
             search: ModeSearch::new(count, ContactSearch::default()),
             modes: vec![Mode::Stick; count],
             steps: 0,

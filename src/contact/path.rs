@@ -17,7 +17,7 @@
 //! pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 
@@ -46,7 +46,7 @@ pub(crate) struct Path {
 
 impl Path {
     pub(crate) fn new(count: usize) -> Self {
-        let size = ContactLayout::new(count).len();
+        let size = ContactLayout::new(PLANE, count).len();
         Self {
             offset: vec![0.0; size],
             jump: vec![0.0; size],
@@ -152,11 +152,11 @@ impl Path {
         spread: impl Fn(usize) -> f64,
         modes: &mut [Mode],
     ) {
-        let layout = ContactLayout::new(modes.len());
+        let layout = ContactLayout::new(PLANE, modes.len());
         let size = layout.len();
         let mut pressure = 0.0_f64;
         for e in 0..modes.len() {
-            for i in layout.places(e) {
+            for i in layout.places::<PLANE>(e) {
                 pressure = pressure.max(input.free_jump[i].abs() / input.delassus[i * (size + 1)]);
             }
             pressure = pressure.max(input.start.state(e).pressure.abs());

@@ -11,7 +11,7 @@
 
 use super::delassus::Delassus;
 use crate::error::LawError;
-use crate::geometry::{COMPONENTS, ContactLayout};
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
     law_of,
@@ -150,6 +150,8 @@ pub(crate) struct ContactSolver {
     pub(crate) traction: Vec<f64>,
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
+    /// In plan: slip and total shear traction along y of the last trial, per element.
+    pub(crate) across: [Vec<f64>; 2],
     jump: Vec<f64>,
     /// A law that returned a number that is not finite since this was taken last.
     pub(super) fault: Option<LawError>,
@@ -158,9 +160,8 @@ pub(crate) struct ContactSolver {
 }
 
 impl ContactSolver {
-    pub(crate) fn new(count: usize) -> Self {
-        let layout = ContactLayout::new(count);
-        let size = layout.len();
+    pub(crate) fn new(layout: ContactLayout) -> Self {
+        let (size, count) = (layout.len(), layout.elements());
         Self {
             layout,
             conditions: vec![[Condition::default(); 2]; count],
@@ -173,10 +174,16 @@ impl ContactSolver {
             dofs: Vec::with_capacity(size),
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
+            across: [(); 2].map(|()| vec![0.0; size - PLANE * count]),
             jump: vec![0.0; size],
             fault: None,
             factorings: 0,
         }
+    }
+
+    /// Whether it is the problem of a ground in plan.
+    pub(super) fn is_plan(&self) -> bool {
+        self.layout.components() != PLANE
     }
 
     /// Forgets the factors: to be called when W has changed.
@@ -198,6 +205,9 @@ impl ContactSolver {
         for (e, conditions) in self.conditions.iter_mut().enumerate() {
             let at_rest = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
             *conditions = input.conditions(e, at_rest)?;
+        }
+        if self.is_plan() {
+            return Ok(dense_condition(delassus, self.layout.len()));
         }
         let regular = self.assemble(&input);
         self.valid = false;
@@ -230,6 +240,9 @@ impl ContactSolver {
         let same = |a: &Condition, b: &Condition| {
             (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
         };
+        if self.is_plan() {
+            return self.bonded(input);
+        }
         let unchanged = self.valid
             && self
                 .conditions
@@ -245,6 +258,21 @@ impl ContactSolver {
         self.traction.iter().all(|t| t.is_finite())
     }
 
+    /// Solves for a base in plan, which is bonded: no jump is left.
+    fn bonded(&mut self, input: &ContactInput<'_>) -> bool {
+        if !self.valid {
+            self.factorings += 1;
+            self.valid = self.factor.factor(input.delassus, self.layout.len());
+        }
+        if !self.valid {
+            return false;
+        }
+        self.traction.iter_mut().zip(input.free_jump).for_each(|(t, jump)| *t = -jump);
+        self.factor.solve(&mut self.traction);
+        self.evaluate(input);
+        self.traction.iter().all(|t| t.is_finite())
+    }
+
     /// Sorts conditions into those that fix a component alone and those that need the system, and
     /// factors the latter.
     fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
@@ -253,7 +281,7 @@ impl ContactSolver {
         self.dofs.clear();
         for (e, pair) in self.conditions.iter().enumerate() {
             let fixed = pair.map(fixed_component);
-            for component in 0..COMPONENTS {
+            for component in 0..PLANE {
                 if !fixed.contains(&Some(component)) {
                     self.dofs.push(layout.place(component, e));
                 }
@@ -344,6 +372,12 @@ impl ContactSolver {
                 pressure: input.static_traction[n] + self.traction[n],
                 shear: input.static_traction[t] + self.traction[t],
             };
+        }
+        let [slip, shear] = &mut self.across;
+        for (e, (slip, shear)) in slip.iter_mut().zip(shear).enumerate() {
+            let across = self.layout.place(PLANE, e);
+            *slip = -self.jump[across];
+            *shear = input.static_traction[across] + self.traction[across];
         }
     }
 

@@ -130,6 +130,9 @@ impl ModeSearch {
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
         }
+        if solver.is_plan() {
+            return Err(StepError::Singular { matrix: "Delassus operator" });
+        }
         let mut bonds = std::mem::take(&mut self.bonds);
         let found = self.break_bonds(solver, input, modes, &mut bonds, &mut trials);
         self.bonds = bonds;

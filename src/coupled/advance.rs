@@ -40,11 +40,13 @@ impl State {
             origin: Origin::new(),
             context: Arc::new(Context {
                 probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
-                elements: scene.elements.clone(),
+                elements: scene.elements.to_vec(),
                 friction: scene.safety_friction.clone(),
             }),
             motion: Motion::new(model),
             contact,
+            slip_across: vec![0.0; count * usize::from(scene.elements.is_plan())],
+            shear_across: at.traction[2 * count..].to_vec(),
             modes,
             transitions: Vec::with_capacity(count),
             probes: vec![0.0; scene.probes.len()],
@@ -56,6 +58,7 @@ impl State {
             base_rotation: 0.0,
             foundations: foundations.collect(),
             free_field: [0.0; 2],
+            free_field_across: 0.0,
             energy_balance: EnergyBalance::default(),
             trials: 0,
             method: SearchMethod::ActiveSet,
@@ -76,8 +79,14 @@ impl State {
         std::mem::swap(&mut motion.acceleration, &mut increment.acceleration);
         motion.translations.copy_from_slice(&forcing.translations);
         motion.changed();
-        self.free_field = scene.base.mean(&forcing.free_field);
+        let [right, up, away] = scene.base.mean(&forcing.free_field);
+        (self.free_field, self.free_field_across) = ([right, up], away);
         self.contact.copy_from_slice(&increment.contact);
+        for (own, new) in
+            [&mut self.slip_across, &mut self.shear_across].into_iter().zip(&increment.across)
+        {
+            own.copy_from_slice(new);
+        }
         self.transitions.clear();
         let (step, time) = (self.step, self.time);
         for (element, (from, &to)) in self.modes.iter_mut().zip(&increment.modes).enumerate() {
@@ -95,19 +104,19 @@ impl State {
     pub(super) fn update_resultants(&mut self, scene: &Scene) {
         let state = self;
         let Motion { displacement, velocity, acceleration, .. } = &state.motion;
+        let areas = scene.base.areas();
         let (mut total, mut open, mut slip, mut width) = ([0.0; 3], 0.0, 0.0, 0.0);
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
-            let (first, last) = (foundation.elements.start, foundation.elements.end - 1);
             let [mut shear, mut normal, mut moment] = [0.0; 3];
             let [mut own_open, mut own_slip, mut own_width] = [0.0; 3];
-            for e in first..=last {
-                let (contact, length) = (&state.contact[e], scene.base.length(e));
+            for e in foundation.elements.clone() {
+                let (contact, length) = (&state.contact[e], areas[e]);
                 own_width += length;
                 shear += length * contact.shear;
                 normal += length * contact.pressure;
                 own_slip += length * contact.slip;
-                moment -= length * contact.pressure * scene.arms[e];
+                moment -= length * contact.pressure * scene.arms[e][0];
                 if !state.modes[e].is_closed() {
                     own_open += length;
                 }
@@ -118,11 +127,22 @@ impl State {
             open += own_open;
             slip += own_slip;
             width += own_width;
-            let left = scene.arms[first] - 0.5 * scene.base.length(first);
-            let right = scene.arms[last] + 0.5 * scene.base.length(last);
             foundation.base_shear = shear;
             foundation.normal_force = normal;
-            foundation.base_moment = moment + normal * 0.5 * (left + right);
+            foundation.base_moment = moment + normal * scene.foundation_arms[k][0];
+            if scene.elements.is_plan() {
+                let [x, y] = scene.foundation_arms[k];
+                let [mut across, mut moment, mut torque] = [0.0; 3];
+                for e in foundation.elements.clone() {
+                    let (contact, shear) = (&state.contact[e], state.shear_across[e]);
+                    let [dx, dy] = [scene.arms[e][0] - x, scene.arms[e][1] - y];
+                    across += areas[e] * shear;
+                    moment -= areas[e] * contact.pressure * dy;
+                    torque += areas[e] * (dx * shear - dy * contact.shear);
+                }
+                foundation.shear_across = across;
+                (foundation.moment_across, foundation.torque) = (moment, torque);
+            }
             foundation.uplifted_fraction = own_open / own_width;
             foundation.mean_slip = own_slip / own_width;
             foundation.base_rotation = scene.base.rotation(k, displacement);
@@ -137,8 +157,8 @@ impl State {
         for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
             let [u, v, a] = &probe.rows;
             let carried = probe.carried.iter().zip(translations);
-            let carried: f64 =
-                carried.map(|(r, y)| r[0] * y.displacement[0] + r[1] * y.displacement[1]).sum();
+            let by = |r: &[f64; 3], y: [f64; 3]| r[0] * y[0] + r[1] * y[1] + r[2] * y[2];
+            let carried: f64 = carried.map(|(r, y)| by(r, y.displacement)).sum();
             *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
         }
     }

@@ -9,6 +9,7 @@ use super::state::State;
 use crate::bem::Ground;
 use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};
+use crate::geometry::SPACE;
 use crate::interface::ContactState;
 use crate::structure::{Structure, restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
@@ -177,8 +178,9 @@ pub(super) fn save(
             Ok((number.ok_or(unknown)?, start.has_opened))
         })
         .collect::<Result<Vec<_>>>()?;
+    let directions = scene.layout().components();
     let (mut own, mut own_books) = (state.clone(), books.cloned());
-    let numbers = numbers(&mut own, own_books.as_mut());
+    let numbers = numbers(directions, &mut own, own_books.as_mut());
     let mut checkpoint = Checkpoint {
         format: FORMAT,
         identity: identity(scene, operators, state, books.is_some()),
@@ -226,8 +228,9 @@ pub(super) fn restore(
             return Err(corrupt(quantity).into());
         }
     }
+    let directions = scene.layout().components();
     let (mut state, mut books) = (state.clone(), books.cloned());
-    let own = numbers(&mut state, books.as_mut());
+    let own = numbers(directions, &mut state, books.as_mut());
     if own.len() != checkpoint.state.len() {
         return Err(corrupt("state").into());
     }
@@ -280,13 +283,17 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance:
     for row in [c.acceleration, c.velocity, c.displacement] {
         steps.extend(row);
     }
+    let mut elements: Vec<f64> = scene.elements.iter().flat_map(|e| [e.left, e.right]).collect();
+    if scene.elements.is_plan() {
+        elements.extend(scene.elements.depths().iter().flatten());
+    }
     Identity {
         dofs: model.dofs,
         energy_balance,
         probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
         memory: state.start.memory_ends().to_vec(),
         steps,
-        elements: scene.elements.iter().flat_map(|e| [e.left, e.right]).collect(),
+        elements,
         structure: vec![
             sum(model.mass.values()),
             sum(model.damping.values()),
@@ -301,10 +308,23 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance:
     }
 }
 
-/// Every number that a step leaves to the next, always in this order.
-fn numbers<'a>(state: &'a mut State, books: Option<&'a mut EnergyAccumulator>) -> Vec<&'a mut f64> {
+/// Every number that a step leaves to the next in so many directions, always in this order.
+fn numbers<'a>(
+    directions: usize,
+    state: &'a mut State,
+    books: Option<&'a mut EnergyAccumulator>,
+) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
-    let State { motion, contact, start, free_field, .. } = state;
+    let State {
+        motion,
+        contact,
+        start,
+        free_field,
+        free_field_across,
+        slip_across,
+        shear_across,
+        ..
+    } = state;
     for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
         all.extend(values.iter_mut());
     }
@@ -313,14 +333,18 @@ fn numbers<'a>(state: &'a mut State, books: Option<&'a mut EnergyAccumulator>) -
         let Translation { displacement, increment, velocity, new_velocity, new_acceleration } =
             translation;
         for values in [displacement, increment, velocity, new_velocity, new_acceleration] {
-            all.extend(values);
+            all.extend(values.iter_mut().take(directions));
         }
     }
     for ContactState { gap, slip, pressure, shear } in contact {
         all.extend([gap, slip, pressure, shear]);
     }
     all.extend(start.slip_rates_mut());
-    all.extend(books.into_iter().flat_map(EnergyAccumulator::numbers));
+    if directions == SPACE {
+        all.push(free_field_across);
+        all.extend(slip_across.iter_mut().chain(shear_across));
+    }
+    all.extend(books.into_iter().flat_map(|books| books.numbers(directions)));
     all
 }
 

@@ -25,7 +25,7 @@ use crate::structure::Structure;
 #[derive(Clone)]
 pub(crate) struct EnergyAccumulator {
     pub(crate) energy_balance: EnergyBalance,
-    /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q each.
+    /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q or 3Q each.
     pub(crate) free_field: Vec<f64>,
     pub(crate) soil_displacement: Vec<f64>,
     pub(crate) jump: Vec<f64>,
@@ -34,11 +34,11 @@ pub(crate) struct EnergyAccumulator {
     /// Work of the nonlinear internal force so far; what it stores, where that is known.
     pub(crate) nonlinear_work: f64,
     /// Per part: Rᵀ M Δu of the last step, and its Δy.
-    pub(crate) momentum: Vec<[f64; 2]>,
-    pub(crate) translation: Vec<[f64; 2]>,
+    pub(crate) momentum: Vec<[f64; 3]>,
+    pub(crate) translation: Vec<[f64; 3]>,
     /// Per part: M R, and its mass Rᵀ M R.
-    inertia: Vec<[Terms; 2]>,
-    mass: Vec<[f64; 2]>,
+    inertia: Vec<[Terms; 3]>,
+    mass: Vec<[f64; 3]>,
     scratch: Scratch,
 }
 
@@ -71,8 +71,8 @@ impl EnergyAccumulator {
         let parts = scene.model.influence.parts();
         let (mut inertia, mut mass) = (Vec::new(), Vec::new());
         for part in parts {
-            let products = [0, 1].map(|k| {
-                let vector = spread(&part.vectors[k], n);
+            let products = part.vectors.each_ref().map(|vector| {
+                let vector = spread(vector, n);
                 let mut product = vec![0.0; n];
                 scene.model.mass.multiply_add(1.0, &vector, &mut product);
                 (dot(&vector, &product), product)
@@ -89,8 +89,8 @@ impl EnergyAccumulator {
             jump,
             compliance,
             nonlinear_work: 0.0,
-            momentum: vec![[0.0; 2]; parts.len()],
-            translation: vec![[0.0; 2]; parts.len()],
+            momentum: vec![[0.0; 3]; parts.len()],
+            translation: vec![[0.0; 3]; parts.len()],
             inertia,
             mass,
             scratch: Scratch { vector: vec![0.0; n], product: vec![0.0; n], means },
@@ -128,20 +128,21 @@ impl EnergyAccumulator {
         let energy = |(i, traction): (usize, &f64)| {
             let [component, e] = layout.origin(i);
             let compliance = self.compliance.get(e).map_or(0.0, |c| c[component]);
-            0.5 * scene.base.length(i) * compliance * traction * traction
+            0.5 * scene.base.area(i) * compliance * traction * traction
         };
         let interfaces: f64 = at_rest.traction.iter().enumerate().map(energy).sum();
         interfaces + at_rest.energy.map_or(0.0, |energy| energy.stored.abs())
     }
 
-    /// Every number that a step leaves to the next, always in this order.
-    pub(crate) fn numbers(&mut self) -> Vec<&mut f64> {
+    /// Every number that a step leaves to the next in so many directions, always in this order.
+    pub(crate) fn numbers(&mut self, directions: usize) -> Vec<&mut f64> {
         let mut all = vec![&mut self.nonlinear_work];
         all.extend(self.energy_balance.terms_mut());
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
         all.extend(contact.into_iter().flatten());
         all.extend(self.compliance.iter_mut().flatten());
-        all.extend([&mut self.momentum, &mut self.translation].into_iter().flatten().flatten());
+        let parts = [&mut self.momentum, &mut self.translation].into_iter().flatten();
+        all.extend(parts.flat_map(|values| values.iter_mut().take(directions)));
         all
     }
 
@@ -173,7 +174,7 @@ impl EnergyAccumulator {
     fn see_largest(&mut self, time_step: f64) {
         let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
             let energy = |k: usize| 0.5 * mass[k] * (increment[k] / time_step).powi(2);
-            energy(0) + energy(1)
+            energy(0) + energy(1) + energy(2)
         });
         self.energy_balance.largest = self.energy_balance.scale().max(carried.sum());
     }
@@ -218,8 +219,8 @@ impl EnergyAccumulator {
             let parts = model.influence.parts().iter().zip(&forcing.translations);
             let dragged: f64 = parts
                 .map(|(part, y)| {
-                    let [right, up] = part.resultants(product);
-                    y.increment[0] * right + y.increment[1] * up
+                    let [right, up, away] = part.resultants(product);
+                    y.increment[0] * right + y.increment[1] * up + y.increment[2] * away
                 })
                 .sum();
             energy_balance.damping += dot(product, du) - dragged;
@@ -256,7 +257,7 @@ impl EnergyAccumulator {
         let square = scene.time_step * scene.time_step;
         for (k, inertia) in self.inertia.iter().enumerate() {
             let next = forcing.translations[k].increment;
-            for direction in 0..2 {
+            for direction in 0..scene.layout().components() {
                 let terms = inertia[direction].iter();
                 let momentum: f64 = terms.map(|&(i, m)| m * increment.displacement[i]).sum();
                 let acceleration = (next[direction] - self.translation[k][direction]) / square;
@@ -286,11 +287,15 @@ impl EnergyAccumulator {
         let doubt = ground.increment_error_bound();
         for i in 0..layout.len() {
             let [k, e] = layout.origin(i);
-            let area = scene.base.length(i);
+            let area = scene.base.area(i);
             let change = increment.traction[i];
             let at_rest = scene.static_state.traction[i];
             let end = &increment.contact[e];
-            let jump = [end.gap, -end.slip][k];
+            let jump = match k {
+                0 => end.gap,
+                1 => -end.slip,
+                _ => -increment.across[0][e],
+            };
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
             energy_balance.soil += area * change * (soil[i] - self.soil_displacement[i]);

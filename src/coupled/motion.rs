@@ -11,26 +11,26 @@ use crate::error::{Error, Result, finite, positive};
 use crate::motion::Record;
 use crate::structure::DofCombination;
 
-/// Mean translation of the free field under a part, `[right, up]`.
+/// Mean translation of the free field under a part, `[right, up, away]`; none away in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Translation {
     /// y at the end of the step, m.
-    pub(crate) displacement: [f64; 2],
+    pub(crate) displacement: [f64; 3],
     /// Δy, m.
-    pub(crate) increment: [f64; 2],
+    pub(crate) increment: [f64; 3],
     /// Velocity at v*, as the time scheme sees it, so that a structure that translates with the
     /// ground meets no damping force.
-    pub(crate) velocity: [f64; 2],
+    pub(crate) velocity: [f64; 3],
     /// Velocity and acceleration at the end of the step, likewise.
-    pub(crate) new_velocity: [f64; 2],
-    pub(crate) new_acceleration: [f64; 2],
+    pub(crate) new_velocity: [f64; 3],
+    pub(crate) new_acceleration: [f64; 3],
 }
 
 impl Translation {
     /// The next one, which ends at `displacement`.
-    pub(crate) fn next(&self, displacement: [f64; 2], c: &SchemeCoefficients) -> Self {
-        let increment: [f64; 2] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
-        let stepped = |coefficients| -> [f64; 2] {
+    pub(crate) fn next(&self, displacement: [f64; 3], c: &SchemeCoefficients) -> Self {
+        let increment: [f64; 3] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
+        let stepped = |coefficients| -> [f64; 3] {
             std::array::from_fn(|k| {
                 let (v, a) = (self.new_velocity[k], self.new_acceleration[k]);
                 SchemeCoefficients::apply(coefficients, increment[k], v, a)

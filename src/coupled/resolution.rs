@@ -43,7 +43,7 @@ use std::ops::Range;
 use super::state::State;
 use super::warning::Warning;
 use crate::bem::{ContactElement, Ground};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, SPACE};
 use crate::motion::FreeField;
 
 /// Largest r where the structure vibrates with a period of its own.
@@ -323,7 +323,8 @@ impl Sampler<'_> {
     /// Whether the free field differs between the first element and the last.
     fn is_running(&self) -> bool {
         let count = self.ground.elements().len();
-        let mut field = vec![0.0; ContactLayout::new(count).len()];
+        let layout = ContactLayout::new(self.ground.directions(), count);
+        let mut field = vec![0.0; layout.len()];
         let [mut difference, mut sum] = [0.0; 2];
         for time in self.instants() {
             self.ground.free_field(self.motion, time, &mut field);
@@ -339,7 +340,8 @@ impl Sampler<'_> {
     /// Frequency of the ground's acceleration under the middle element, Hz.
     fn frequency(&self) -> Option<f64> {
         let count = self.ground.elements().len();
-        let mut field = vec![0.0; ContactLayout::new(count).len()];
+        let layout = ContactLayout::new(self.ground.directions(), count);
+        let mut field = vec![0.0; layout.len()];
         let mut distance = self.time_step;
         for _ in 0..HALVINGS {
             distance *= 0.5;
@@ -347,10 +349,11 @@ impl Sampler<'_> {
             for time in self.instants() {
                 let mut at = |k: f64| {
                     self.ground.free_field(self.motion, time + k * distance, &mut field);
-                    ContactLayout::new(count).places(count / 2).map(|place| field[place])
+                    std::array::from_fn(|k| field.get(layout.place(k, count / 2)).copied())
+                        .map(|value| value.unwrap_or(0.0))
                 };
-                let samples = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
-                for k in 0..2 {
+                let samples: [[f64; SPACE]; 4] = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
+                for k in 0..layout.components() {
                     let [before, after] =
                         [0, 1].map(|j| samples[j + 2][k] - 2.0 * samples[j + 1][k] + samples[j][k]);
                     variation.see(before, after);

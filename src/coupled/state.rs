@@ -60,8 +60,17 @@ pub struct Foundation {
     pub uplifted_fraction: f64,
     /// Slip averaged over its elements, m.
     pub mean_slip: f64,
-    /// Rotation of its chord, counter-clockwise, rad.
+    /// Rotation of its chord, counter-clockwise, rad; in plan that of the flat that fits its base best.
     pub base_rotation: f64,
+    /// In plan: force on the soil along y, N; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub shear_across: f64,
+    /// In plan: moment on the soil about the axis along x through the middle, by the right-hand rule, N·m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub moment_across: f64,
+    /// In plan: moment on the soil about the vertical axis through the middle, counter-clockwise from above, N·m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub torque: f64,
 }
 
 impl Foundation {
@@ -74,6 +83,9 @@ impl Foundation {
             uplifted_fraction: 0.0,
             mean_slip: 0.0,
             base_rotation: 0.0,
+            shear_across: 0.0,
+            moment_across: 0.0,
+            torque: 0.0,
         }
     }
 }
@@ -121,7 +133,8 @@ impl PartialEq for Origin {
 ///
 /// Displacements are changes against the static state, relative to the free field's
 /// translation unless they say otherwise. Forces are those of the
-/// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
+/// structure **on the soil**, per metre of thickness or, on a ground in plan, in all; tractions of the step act at
+/// its middle.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -132,6 +145,10 @@ pub struct State {
     pub time: f64,
     /// Opening and total traction of each element.
     pub contact: Vec<ContactState>,
+    /// In plan: slip of the structure over the soil along y of each element, m; empty in the plane.
+    pub slip_across: Vec<f64>,
+    /// In plan: shear traction along y that the structure exerts on the soil, Pa; empty in the plane.
+    pub shear_across: Vec<f64>,
     /// Mode of each element.
     pub modes: Vec<Mode>,
     /// Changes of mode in this step.
@@ -155,6 +172,8 @@ pub struct State {
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],
+    /// In plan: its mean displacement along y, m; zero in the plane.
+    pub free_field_across: f64,
     /// The energy balance; every term is NaN if none is kept.
     pub energy_balance: EnergyBalance,
     /// Linear solves that the mode search needed.

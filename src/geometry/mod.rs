@@ -29,38 +29,52 @@ impl ContactElement {
     }
 }
 
-/// Components of motion and traction at each element: normal, tangential.
-pub(crate) const COMPONENTS: usize = 2;
+/// Directions of motion and traction at each element of a ground in the plane: down, along x.
+pub(crate) const PLANE: usize = 2;
+/// Those of a ground in plan: down, along x, along y.
+pub(crate) const SPACE: usize = 3;
 
-/// Order of the numbers in a contact vector: component by component, all elements from left to right.
+/// Order of the numbers in a contact vector: component by component, all elements in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ContactLayout {
+    components: usize,
     elements: usize,
 }
 
 impl ContactLayout {
-    pub(crate) const fn new(elements: usize) -> Self {
-        Self { elements }
+    /// For elements with so many components: [`PLANE`] or [`SPACE`].
+    pub(crate) const fn new(components: usize, elements: usize) -> Self {
+        Self { components, elements }
     }
 
-    /// Numbers in a contact vector: 2Q.
+    /// Components of each element: down, along x, and in plan along y.
+    pub(crate) const fn components(self) -> usize {
+        self.components
+    }
+
+    /// Number of elements Q.
+    pub(crate) const fn elements(self) -> usize {
+        self.elements
+    }
+
+    /// Numbers in a contact vector: components × Q.
     pub(crate) const fn len(self) -> usize {
-        COMPONENTS * self.elements
+        self.components * self.elements
     }
 
-    /// Numbers in a matrix from contact vectors to contact vectors: 2Q × 2Q.
+    /// Numbers in a matrix from contact vectors to contact vectors.
     pub(crate) const fn square(self) -> usize {
         self.len() * self.len()
     }
 
-    /// Place of a component of `element`: 0 for the normal one, 1 for the tangential one.
+    /// Place of a component of `element`: 0 for the normal one.
     pub(crate) const fn place(self, component: usize, element: usize) -> usize {
         component * self.elements + element
     }
 
-    /// Places of the components of `element`.
-    pub(crate) const fn places(self, element: usize) -> [usize; COMPONENTS] {
-        [element, self.elements + element]
+    /// Places of the first N components of `element`.
+    pub(crate) fn places<const N: usize>(self, element: usize) -> [usize; N] {
+        std::array::from_fn(|component| self.place(component, element))
     }
 
     /// Component and element to which a place belongs.
@@ -68,14 +82,107 @@ impl ContactLayout {
         [place / self.elements, place % self.elements]
     }
 
-    /// Normal and tangential numbers of a contact vector; short vectors lack some.
-    pub(crate) fn split<T>(self, vector: &[T]) -> [&[T]; COMPONENTS] {
-        vector.split_at(self.elements.min(vector.len())).into()
+    /// The first N components of a contact vector, all elements each; short vectors lack some.
+    pub(crate) fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
+        std::array::from_fn(|_| {
+            let (own, rest) = vector.split_at(self.elements.min(vector.len()));
+            vector = rest;
+            own
+        })
     }
 
-    /// Normal and tangential numbers of a contact vector, to be changed.
-    pub(crate) fn split_mut<T>(self, vector: &mut [T]) -> [&mut [T]; COMPONENTS] {
-        vector.split_at_mut(self.elements.min(vector.len())).into()
+    /// The same, to be changed.
+    pub(crate) fn split_mut<T, const N: usize>(self, mut vector: &mut [T]) -> [&mut [T]; N] {
+        std::array::from_fn(|_| {
+            let all = std::mem::take(&mut vector);
+            let (own, rest) = all.split_at_mut(self.elements.min(all.len()));
+            vector = rest;
+            own
+        })
+    }
+}
+
+/// The elements of a ground: rectangles of the surface, one metre deep in the plane.
+#[derive(Debug, Clone)]
+pub(crate) struct Patch {
+    elements: Vec<ContactElement>,
+    /// Front and back end of each along y, m.
+    depths: Vec<[f64; 2]>,
+    components: usize,
+}
+
+impl Patch {
+    /// Elements of a ground with so many directions, that reach from front to back along y (m); an error unless they
+    /// have a size and do not overlap, in the plane from left to right.
+    pub(crate) fn new(
+        components: usize,
+        elements: Vec<ContactElement>,
+        depths: Vec<[f64; 2]>,
+    ) -> Result<Self> {
+        match components {
+            PLANE => check_order(&elements)?,
+            SPACE => check_cells(&elements, &depths)?,
+            _ => {
+                let (quantity, value) = ("number of directions of the ground", components as f64);
+                return Err(Error::Input { quantity, value, needed: "2 in the plane, 3 in plan" });
+            }
+        }
+        Ok(Self { elements, depths, components })
+    }
+
+    /// Order of the numbers of a contact vector.
+    pub(crate) fn layout(&self) -> ContactLayout {
+        ContactLayout::new(self.components, self.elements.len())
+    }
+
+    /// Whether the ground is one in plan, of three directions.
+    pub(crate) fn is_plan(&self) -> bool {
+        self.components == SPACE
+    }
+
+    /// Front and back end of each element along y, m; `[0, 1]` in the plane.
+    pub(crate) fn depths(&self) -> &[[f64; 2]] {
+        &self.depths
+    }
+
+    /// Sides of an element along x and y, m.
+    pub(crate) fn sides(&self, element: usize) -> [f64; 2] {
+        let [front, back] = self.depths[element];
+        [self.elements[element].length(), back - front]
+    }
+
+    /// Areas of the elements, m²; in the plane their lengths.
+    pub(crate) fn areas(&self) -> Vec<f64> {
+        let sides = (0..self.elements.len()).map(|element| self.sides(element));
+        sides.map(|[along, across]| along * across).collect()
+    }
+
+    /// The middle `[x, y]` between the farthest ends of all, m.
+    pub(crate) fn center(&self) -> [f64; 2] {
+        let along = self.elements.iter().map(|element| [element.left, element.right]);
+        [middle(along), middle(self.depths.iter().copied())]
+    }
+
+    /// Midpoint of an element `[x, y]`, m.
+    pub(crate) fn middle(&self, element: usize) -> [f64; 2] {
+        let [front, back] = self.depths[element];
+        [self.elements[element].center(), 0.5 * (front + back)]
+    }
+}
+
+/// The middle between the least and the greatest of all ends.
+fn middle(ends: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let far = [f64::INFINITY, f64::NEG_INFINITY];
+    let [least, most] =
+        ends.fold(far, |[least, most], [low, high]| [least.min(low), most.max(high)]);
+    0.5 * (least + most)
+}
+
+impl std::ops::Deref for Patch {
+    type Target = [ContactElement];
+
+    fn deref(&self) -> &[ContactElement] {
+        &self.elements
     }
 }
 
@@ -89,8 +196,8 @@ pub(crate) fn check_count(count: usize) -> std::result::Result<(), MemoryError> 
     memory::check("contact elements", count, BYTES_PER_PAIR * count * count)
 }
 
-/// Error unless the elements have positive length, in order, without overlap.
-pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
+/// Error unless each element has finite ends, the left one first, and there are not too many.
+fn check_lengths(elements: &[ContactElement]) -> Result<()> {
     if elements.is_empty() {
         return Err(Error::Size { quantity: "list of contact elements", found: 0, needed: 1 });
     }
@@ -100,15 +207,53 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
         finite("right end of a contact element", element.right)?;
         positive("length of a contact element", element.length())?;
     }
+    Ok(())
+}
+
+/// Part of an element's side by which neighbours may overlap: rounding of a common node.
+const OVERLAP: f64 = 1e-9;
+
+/// Error unless the elements have positive length, in order, without overlap.
+pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
+    check_lengths(elements)?;
     for pair in elements.windows(2) {
-        // Neighbours may differ by rounding of a common node.
         let overlap = pair[0].right - pair[1].left;
-        if overlap > 1e-9 * pair[0].length().min(pair[1].length()) {
+        if overlap > OVERLAP * pair[0].length().min(pair[1].length()) {
             return Err(Error::Input {
                 quantity: "left end of a contact element",
                 value: pair[1].left,
                 needed: "at or right of the end of the element before it",
             });
+        }
+    }
+    Ok(())
+}
+
+/// Error unless the rectangles have a size and do not overlap.
+fn check_cells(elements: &[ContactElement], depths: &[[f64; 2]]) -> Result<()> {
+    check_lengths(elements)?;
+    for [front, back] in depths {
+        finite("front end of a contact element", *front)?;
+        finite("back end of a contact element", *back)?;
+        positive("depth of a contact element", back - front)?;
+    }
+    // By their left ends: what begins beyond an element's right end does not meet it.
+    let mut order: Vec<_> = elements.iter().zip(depths).collect();
+    order.sort_by(|one, other| one.0.left.total_cmp(&other.0.left));
+    for (place, (element, [front, back])) in order.iter().enumerate() {
+        for (other, [near, far]) in &order[place + 1..] {
+            let along = element.right.min(other.right) - other.left;
+            if along <= OVERLAP * element.length().min(other.length()) {
+                break;
+            }
+            let across = back.min(*far) - front.max(*near);
+            if across > OVERLAP * (back - front).min(far - near) {
+                return Err(Error::Input {
+                    quantity: "left end of a contact element",
+                    value: other.left,
+                    needed: "beside or behind all others: elements do not overlap",
+                });
+            }
         }
     }
     Ok(())

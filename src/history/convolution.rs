@@ -292,7 +292,7 @@ impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
-        let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()[0]];
+        let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
         let traction = vec![Vec::new(); classes.layout().len()];
         Self { kernel, capacity: 0, kinds, traction, steps: 0 }
     }
@@ -300,7 +300,7 @@ impl DirectHistory {
     /// Makes lags up to `lags` available.
     fn grow(&mut self, lags: usize) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
-        let [_, own] = self.kernel.classes().kinds();
+        let own = self.kernel.classes().layout().components();
         let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
         self.kernel.prepare(new)?;
         for class in 0..self.kernel.classes().count() {

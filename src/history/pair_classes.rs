@@ -6,7 +6,7 @@ use std::ops::Mul;
 
 use crate::error::{Error, Result};
 use crate::geometry::{
-    ContactElement, ContactLayout, Lattice, SERIES, check_count, check_order, offset,
+    ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
 };
 use crate::linalg::{ComplexField, hermitian_range};
 
@@ -156,9 +156,9 @@ impl PairClasses {
         self.plan.as_ref().map(|(lattice, cells)| (lattice, &cells[..]))
     }
 
-    /// Number of kinds of coefficients of a pair, and of those that move a component by itself: they come first.
-    pub(crate) fn kinds(&self) -> [usize; 2] {
-        if self.plan.is_some() { [SERIES, 3] } else { [KINDS, 2] }
+    /// Number of kinds of coefficients of a pair: those of a symmetric matrix, its diagonal first.
+    pub(crate) fn kinds(&self) -> usize {
+        if self.plan.is_some() { SERIES } else { KINDS }
     }
 
     /// The elements, from left to right; cells in plan in their own order.
@@ -194,7 +194,8 @@ impl PairClasses {
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        ContactLayout::new(self.elements.len())
+        let components = if self.plan.is_some() { SPACE } else { PLANE };
+        ContactLayout::new(components, self.elements.len())
     }
 
     /// Calls `put` with every pair's receiver and source, its class, and its terms.

@@ -12,6 +12,13 @@ pub trait FreeField: Send {
     /// field should be at rest up to t = 0; what moves already starts with a jolt.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
+    /// Displacement `[along x, along y, up]` (m) at surface point `place` (`[x, y]`, m), for a ground in plan.
+    /// Default: [`FreeField::displacement`] at x, the same along all of y.
+    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
+        let [horizontal, vertical] = self.displacement(place[0], time);
+        [horizontal, 0.0, vertical]
+    }
+
     /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
     /// `bem::full_plane::VerticalWaves` make stresses of velocities, and a ground of your own may need
     /// them.
@@ -221,6 +228,10 @@ impl TravellingWave {
 impl FreeField for TravellingWave {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
         self.field.displacement(self.origin, time - self.delay(x))
+    }
+
+    fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
+        self.field.displacement_at([self.origin, y], time - self.delay(x))
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {

@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use crate::error::{Error, Result, damping_ratio, not_negative, positive};
 use crate::linalg::{Partition, SparseMatrix, dot, generalised_modes};
 use crate::structure::detached::SYMMETRIC;
-use crate::structure::{ContactNode, HeldBase, NonlinearForce, Structure, Triplets, stiffest};
+use crate::structure::{
+    ContactNode, FaceNode, HeldBase, NonlinearForce, Structure, Triplets, base_nodes, stiffest,
+};
 
 /// Rayleigh damping C = α M + β K.
 ///
@@ -183,7 +185,7 @@ impl ModalDamping {
     /// As for [`ModalDamping::on`], but for massless degrees of freedom.
     pub fn on_fixed_base(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let [mass, stiffness] = matrices(&structure)?;
-        let nodes = structure.contact_nodes();
+        let nodes = base_nodes(&structure);
         check_rows(&nodes, mass.order())?;
         let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
         let held = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
@@ -220,7 +222,7 @@ impl ModalDamping {
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let [mass, stiffness] = matrices(&structure)?;
         let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(SYMMETRIC_AND_HEAVY)?;
-        let momenta = rigid_momenta(&structure.contact_nodes(), &stiffness, &mass)?;
+        let momenta = rigid_momenta(&base_nodes(&structure), &stiffness, &mass)?;
         let mut found = WithModalDamping::new(structure);
         let (mut mode, mut momentum) = (vec![0.0; values.len()], vec![0.0; values.len()]);
         for (j, value) in values.iter().enumerate() {
@@ -297,6 +299,7 @@ impl Structure for WithModalDamping {
         fn dofs(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
+        fn contact_faces(&self) -> Vec<Vec<FaceNode>>;
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
@@ -329,12 +332,9 @@ const NOTHING: f64 = 1e-8;
 const DEPENDENT: f64 = 1e-6;
 
 /// Error for contact nodes that are made of degrees of freedom beyond the last of `n`.
-fn check_rows(contact: &[ContactNode], n: usize) -> Result<()> {
-    for node in contact {
-        node.horizontal.check("degree of freedom of a contact node", n)?;
-        node.vertical.check("degree of freedom of a contact node", n)?;
-    }
-    Ok(())
+fn check_rows(contact: &[FaceNode], n: usize) -> Result<()> {
+    let mut rows = contact.iter().flat_map(FaceNode::rows);
+    rows.try_for_each(|row| row.check("degree of freedom of a contact node", n))
 }
 
 /// Momenta M r of the rigid motions r, with r·M r = 1 and all others zero: to the right, upwards and
@@ -343,21 +343,25 @@ fn check_rows(contact: &[ContactNode], n: usize) -> Result<()> {
 /// A motion that strains nothing follows from that of the contact nodes, whatever the degrees of freedom
 /// mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes' displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
-    contact: &[ContactNode],
+    contact: &[FaceNode],
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
 ) -> Result<Vec<Vec<f64>>> {
     let n = mass.order();
     check_rows(contact, n)?;
-    let center = contact.iter().map(|node| node.x).sum::<f64>() / contact.len().max(1) as f64;
+    let mean = |place: fn(&FaceNode) -> f64| {
+        contact.iter().map(place).sum::<f64>() / contact.len().max(1) as f64
+    };
+    let center = [mean(|node| node.x), mean(|node| node.y)];
     let held = HeldBase::new(contact, stiffness, stiffest(stiffness));
     let mut factor = held.factor()?;
-    let [right, up] = held.pulls();
+    let mut rigid = held.pulls();
+    rigid.extend(held.turns(contact.iter(), center));
     let mut coupled = Partition::new(n);
     coupled.couple(stiffness);
     let parts = coupled.sets();
     let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    for mut all in [right, up, held.turn(contact, center)] {
+    for mut all in rigid {
         factor.solve(&mut all);
         let whole = mass.form(&all, &all).sqrt();
         for part in &parts {

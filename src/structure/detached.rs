@@ -1,7 +1,8 @@
 //! A structure on its fixed base: the springs that hold it, and parts that nothing holds.
 
-use super::{ContactNode, DofCombination, Structure, Triplets};
+use super::{DofCombination, FaceNode, Structure, Triplets};
 use crate::error::{Error, Result};
+use crate::geometry::{PLANE, SPACE};
 use crate::linalg::{
     Partition, SparseFactor, SparseMatrix, indefinite_row, largest, sparse_condition,
 };
@@ -116,7 +117,7 @@ fn holds_itself(stiffness: &Triplets) -> Result<bool> {
 
 /// K + γ NᵀN, and the forces that move such a base.
 pub(crate) struct HeldBase<'a> {
-    nodes: &'a [ContactNode],
+    nodes: &'a [FaceNode],
     pub(crate) spring: f64,
     pub(crate) matrix: Triplets,
 }
@@ -124,11 +125,10 @@ pub(crate) struct HeldBase<'a> {
 impl<'a> HeldBase<'a> {
     pub(crate) const NAME: &'static str = "stiffness matrix with its base held";
 
-    pub(crate) fn new(nodes: &'a [ContactNode], stiffness: &SparseMatrix, spring: f64) -> Self {
+    pub(crate) fn new(nodes: &'a [FaceNode], stiffness: &SparseMatrix, spring: f64) -> Self {
         let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
-        for node in nodes {
-            matrix.add_outer(&node.horizontal, spring);
-            matrix.add_outer(&node.vertical, spring);
+        for row in nodes.iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty()) {
+            matrix.add_outer(row, spring);
         }
         Self { nodes, spring, matrix }
     }
@@ -138,22 +138,34 @@ impl<'a> HeldBase<'a> {
         SparseFactor::new(Self::NAME, &self.matrix)
     }
 
-    /// γ Nᵀ1 for 1 m to the right and upwards.
-    pub(crate) fn pulls(&self) -> [Vec<f64>; 2] {
-        let nodes = || self.nodes.iter();
-        [
-            self.forces(nodes().map(|node| (&node.horizontal, 1.0))),
-            self.forces(nodes().map(|node| (&node.vertical, 1.0))),
-        ]
+    /// γ Nᵀ1 for 1 m to the right, upwards and, in plan, away.
+    pub(crate) fn pulls(&self) -> Vec<Vec<f64>> {
+        let rows = |direction| self.nodes.iter().map(move |node| (node.rows()[direction], 1.0));
+        (0..self.directions()).map(|direction| self.forces(rows(direction))).collect()
     }
 
-    /// γ Nᵀn for a rotation of `nodes` by 1 rad about `middle`.
-    pub(crate) fn turn<'b>(
+    /// γ Nᵀn for rotations of `nodes` by 1 rad about `middle`: in the plane of x and up, and in plan out of the two
+    /// others.
+    pub(crate) fn turns<'b>(
         &self,
-        nodes: impl IntoIterator<Item = &'b ContactNode>,
-        middle: f64,
-    ) -> Vec<f64> {
-        self.forces(nodes.into_iter().map(|node| (&node.vertical, node.x - middle)))
+        nodes: impl Iterator<Item = &'b FaceNode> + Clone,
+        [x, y]: [f64; 2],
+    ) -> Vec<Vec<f64>> {
+        let mut turns = vec![self.forces(nodes.clone().map(|node| (&node.vertical, node.x - x)))];
+        if self.directions() == SPACE {
+            turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
+            let [along, across] = [
+                self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y))),
+                self.forces(nodes.map(|node| (&node.across, node.x - x))),
+            ];
+            turns.push(along.iter().zip(&across).map(|(one, other)| one + other).collect());
+        }
+        turns
+    }
+
+    /// Number of directions in which the nodes move.
+    fn directions(&self) -> usize {
+        self.nodes.first().map_or(PLANE, FaceNode::directions)
     }
 
     /// Forces of springs that are pulled by these amounts.

@@ -1,5 +1,6 @@
 //! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
+mod contact_node;
 mod damping;
 mod detached;
 mod dof_combination;
@@ -10,12 +11,13 @@ pub(crate) mod probe;
 mod reduction;
 
 pub use crate::linalg::Triplets;
+pub use contact_node::{ContactNode, FaceNode};
+pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes, on_line};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{
     HeldBase, check_attached, check_damping, check_mass, numbers as unknown_numbers, stiffest,
 };
-pub use dof_combination::{ContactNode, DofCombination};
-pub(crate) use dof_combination::{check_contact_nodes, foundation_nodes};
+pub use dof_combination::DofCombination;
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
     WithSprings,
@@ -57,7 +59,8 @@ use crate::error::Result;
 /// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to
 /// the base, which a stiffness of their own holds and the mass couples with the rest, are no such part.
 ///
-/// All forces are per metre of thickness. Matrices and loads may fail, with
+/// All forces are per metre of thickness, but for a structure in plan ([`contact_faces`](Structure::contact_faces)),
+/// which moves in three directions: x to the right, y away from the reader, z up. Matrices and loads may fail, with
 /// [`Error::part`](crate::Error::part) for a reason of your own: it ends the build, or the step with
 /// nothing of it committed.
 ///
@@ -75,6 +78,15 @@ pub trait Structure: Any + Send {
     /// Contact nodes that are the last of a foundation, the structure's last one excepted: between
     /// such a node and the next there is no base. Default: none, one foundation.
     fn foundation_ends(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Faces of a base in plan, for a ground of three directions: triangles or other convex polygons, each by its
+    /// corners in either order, flat and at one height, not overlapping. Over a triangle the base is flat, over a
+    /// quadrilateral bilinear; one of more corners is made of triangles from its first one. A rigid base needs one
+    /// face, its outline. Default: none, a line of [`contact_nodes`](Structure::contact_nodes) in the plane; a
+    /// structure with faces has none of those.
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
         Vec::new()
     }
 

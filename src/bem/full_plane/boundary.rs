@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::bem::{ContactElement, Strip};
 use crate::error::{Error, MemoryError, Result, finite, memory, positive};
-use crate::geometry::{ContactLayout, check_order};
+use crate::geometry::{ContactLayout, PLANE, check_order};
 
 /// A polygonal boundary of the soil, with the elements on which the structure stands.
 ///
@@ -275,7 +275,7 @@ impl PairClasses {
         free_term: f64,
         local: impl Fn([f64; 2], f64) -> PairBlocks,
     ) {
-        let (count, layout) = (segments.len(), ContactLayout::new(segments.len()));
+        let (count, layout) = (segments.len(), ContactLayout::new(PLANE, segments.len()));
         let seen: Vec<PairBlocks> =
             self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
         let blocks: Vec<PairBlocks> = self

@@ -10,7 +10,7 @@ use super::block::{Level, Link, Work};
 use super::boundary::PairClasses;
 use super::{Boundary, BoundaryKernel, IncidentField};
 use crate::error::{Error, Result, same_length};
-use crate::geometry::{COMPONENTS, ContactLayout};
+use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 use realfft::RealFftPlanner;
 
@@ -66,7 +66,7 @@ impl BoundaryHistory {
     }
 
     fn size(&self) -> usize {
-        ContactLayout::new(self.kernel.segments().len()).len()
+        ContactLayout::new(PLANE, self.kernel.segments().len()).len()
     }
 
     /// Coefficients of all series for the lags below `lags`, that of lag 0 (no history) left out.
@@ -204,7 +204,7 @@ impl BoundaryHistory {
 
 /// All pairs of components, G with tractions and −H with displacements.
 fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
-    let (layout, mut links) = (ContactLayout::new(count), Vec::new());
+    let (layout, mut links) = (ContactLayout::new(PLANE, count), Vec::new());
     for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
         for i in 0..2 {
             for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -250,7 +250,7 @@ pub(super) struct Prepared {
 /// Where component `k` of a contact vector (2Q, down first) is in vectors of the boundary
 /// (2E, x first).
 pub(super) fn component(contact: &[usize], boundary: ContactLayout, k: usize) -> usize {
-    let [component, element] = ContactLayout::new(contact.len()).origin(k);
+    let [component, element] = ContactLayout::new(PLANE, contact.len()).origin(k);
     boundary.place(1 - component, contact[element])
 }
 
@@ -263,7 +263,7 @@ impl Prepared {
     ) -> Result<Self> {
         let (count, contact) = (boundary.segments().len(), boundary.contact());
         same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
-        let layout = ContactLayout::new(count);
+        let layout = ContactLayout::new(PLANE, count);
         let size = layout.len();
         let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
         kernel.coefficients(0, &mut g, &mut h)?;
@@ -271,7 +271,7 @@ impl Prepared {
         if !factor.factor(&h, size) {
             return Err(Error::Singular { matrix: "boundary operator", order: size });
         }
-        let mut mobility = vec![0.0; ContactLayout::new(contact.len()).len() * size];
+        let mut mobility = vec![0.0; ContactLayout::new(PLANE, contact.len()).len() * size];
         let mut loaded = vec![incident; size];
         for (k, column) in mobility.chunks_exact_mut(size).enumerate() {
             let source = component(contact, layout, k);
@@ -317,7 +317,7 @@ impl Prepared {
 
     pub(super) fn commit(&mut self, contact: &[usize], traction: &[f64]) {
         let size = self.displacement.len();
-        let layout = ContactLayout::new(size / COMPONENTS);
+        let layout = ContactLayout::new(PLANE, size / PLANE);
         self.displacement.copy_from_slice(&self.free);
         self.traction.copy_from_slice(&self.scattering);
         for (k, column) in self.mobility.chunks_exact(size).enumerate() {
@@ -334,7 +334,7 @@ impl Prepared {
 
 /// Minus the tractions of the incident field at the midpoints.
 fn scattering(boundary: &Boundary, field: &dyn IncidentField, time: f64, out: &mut [f64]) {
-    let [along, down] = ContactLayout::new(boundary.segments().len()).split_mut(out);
+    let [along, down] = ContactLayout::new(PLANE, boundary.segments().len()).split_mut(out);
     for ((segment, x), z) in boundary.segments().iter().zip(along).zip(down) {
         let [xx, zz, xz] = field.stress(segment.center(), time);
         let n = segment.normal();

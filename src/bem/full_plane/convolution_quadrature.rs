@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 use realfft::RealFftPlanner;
 
 use crate::error::{Error, Result, positive, same_length};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::soil::Soil;
 
 use super::laplace::{Complex64, LaplacePlane};
@@ -259,7 +259,7 @@ fn scatter<const WIDTH: usize>(
     g: &mut [f64],
     h: &mut [f64],
 ) {
-    let layout = ContactLayout::new(count);
+    let layout = ContactLayout::new(PLANE, count);
     for row in 0..count {
         for column in 0..count {
             let block = block(view_of[row * count + column]);

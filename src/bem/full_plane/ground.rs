@@ -7,7 +7,7 @@ use super::laplace::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
 use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
 use crate::error::{Error, Observer, Result, same_length};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::history::RESERVED_STEPS;
 use crate::motion::FreeField;
 use crate::soil::Soil;
@@ -279,8 +279,8 @@ impl Ground for FullPlaneGround {
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let contact = self.boundary.contact();
-        let layout = ContactLayout::new(self.boundary.segments().len());
-        let width = ContactLayout::new(contact.len()).len();
+        let layout = ContactLayout::new(PLANE, self.boundary.segments().len());
+        let width = ContactLayout::new(PLANE, contact.len()).len();
         same_length("instantaneous operator", matrix.len(), width * width)?;
         for (k, column) in prepared.mobility.chunks_exact(layout.len()).enumerate() {
             for i in 0..width {
@@ -296,8 +296,8 @@ impl Ground for FullPlaneGround {
             return Err(TWO_MOTIONS);
         }
         let contact = self.boundary.contact();
-        let layout = ContactLayout::new(self.boundary.segments().len());
-        let size = ContactLayout::new(contact.len()).len();
+        let layout = ContactLayout::new(PLANE, self.boundary.segments().len());
+        let size = ContactLayout::new(PLANE, contact.len()).len();
         same_length("displacement of the history", displacement.len(), size)?;
         prepared.advance(&self.boundary, self.incident.as_deref())?;
         for (k, value) in displacement.iter_mut().enumerate() {
@@ -319,7 +319,7 @@ impl Ground for FullPlaneGround {
     /// static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
-        let size = ContactLayout::new(elements.len()).square();
+        let size = ContactLayout::new(PLANE, elements.len()).square();
         same_length("static compliance", matrix.len(), size)?;
         let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
         if self.boundary.is_flat() {
@@ -333,7 +333,7 @@ impl Ground for FullPlaneGround {
     /// Both at once are refused: the values are not finite, and the next history is an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
-        let [down, along] = ContactLayout::new(contact.len()).split_mut(displacement);
+        let [down, along] = ContactLayout::new(PLANE, contact.len()).split_mut(displacement);
         for ((&e, down), along) in contact.iter().zip(down).zip(along) {
             let center = segments[e].center();
             let [horizontal, vertical] = motion.displacement(center[0], time);

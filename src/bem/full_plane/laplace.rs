@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 use super::Segment;
 use super::boundary::PairClasses;
 use crate::error::{Error, Result};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::DenseFactor;
 use crate::soil::Soil;
 use complex_bessel::{Scaling, besselk_seq};
@@ -241,7 +241,7 @@ pub(super) fn static_compliance(
     datum: f64,
     matrix: &mut [f64],
 ) -> Result<()> {
-    let layout = ContactLayout::new(segments.len());
+    let layout = ContactLayout::new(PLANE, segments.len());
     let size = layout.len();
     let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
     let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
@@ -257,7 +257,7 @@ pub(super) fn static_compliance(
     if !factor.factor(&h, size) {
         return Err(Error::Singular { matrix: "static boundary operator", order: size });
     }
-    let width = ContactLayout::new(contact.len()).len();
+    let width = ContactLayout::new(PLANE, contact.len()).len();
     let mut column = vec![0.0; size];
     for k in 0..width {
         let source = super::convolution::component(contact, layout, k);

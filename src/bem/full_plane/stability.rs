@@ -13,7 +13,7 @@ use super::stability_symbol::Symbol;
 use super::stability_zeros::{passivity, smallest_zero};
 use super::{Boundary, BoundaryCondition, BoundaryKernel};
 use crate::error::{Error, Result, positive, same_length};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Growth that can be looked for.
@@ -280,7 +280,7 @@ impl BoundaryMarch {
     /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values
     /// do not determine the rest, and what the kernel says.
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = ContactLayout::new(kernel.segments().len()).len();
+        let size = ContactLayout::new(PLANE, kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
         let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
         kernel.coefficients(0, &mut g, &mut h)?;

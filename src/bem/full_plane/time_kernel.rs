@@ -5,7 +5,7 @@ use super::step_integrals::{Integrals, Medium, step_integrals};
 use super::{BoundaryKernel, Segment};
 use crate::error::{Error, Result, positive, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::gauss;
 use crate::linalg::gauss::Rule;
 use crate::soil::Soil;
@@ -182,7 +182,7 @@ impl BoundaryKernel for TimeKernel {
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
-        let size = ContactLayout::new(self.segments.len()).square();
+        let size = ContactLayout::new(PLANE, self.segments.len()).square();
         same_length("displacement coefficients", g.len(), size)?;
         same_length("traction coefficients", h.len(), size)?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());

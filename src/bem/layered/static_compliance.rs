@@ -12,7 +12,7 @@
 use super::compliance::{Compliance, Surface};
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::error::{Result, same_length};
-use crate::geometry::{ContactElement, ContactLayout};
+use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::linalg::gauss;
@@ -38,7 +38,7 @@ pub fn static_compliance(
     elements: &[ContactElement],
     matrix: &mut [f64],
 ) -> Result<()> {
-    let size = ContactLayout::new(elements.len()).square();
+    let size = ContactLayout::new(PLANE, elements.len()).square();
     same_length("static compliance", matrix.len(), size)?;
     let classes = PairClasses::new(elements.to_vec())?;
     let values = pairs(profile, &classes)?;

@@ -7,7 +7,7 @@ const TOUCHING: f64 = 1e-9;
 
 /// A convex polygon, counter-clockwise seen from above.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Face {
+pub(crate) struct Face {
     corners: Vec<[f64; 2]>,
     /// Distance that counts as touching, m.
     near: f64,
@@ -23,7 +23,7 @@ impl Face {
     ///
     /// # Errors
     /// [`PlanError::Face`].
-    pub(super) fn new(face: usize, corners: &[[f64; 2]]) -> Result<Self> {
+    pub(crate) fn new(face: usize, corners: &[[f64; 2]]) -> Result<Self> {
         let fault = |reason| Err(PlanError::Face { face, reason }.into());
         if corners.len() < 3 {
             return fault("has less than three corners");

@@ -17,7 +17,7 @@
 
 mod angular_means;
 mod cells;
-mod faces;
+pub(crate) mod faces;
 mod form_table;
 mod impedance;
 mod integrals;

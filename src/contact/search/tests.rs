@@ -5,12 +5,13 @@ mod bonds;
 use std::sync::Arc;
 
 use super::*;
-use crate::bem::{ElasticGround, Ground, Strip};
+use crate::bem::{ElasticGround, Ground, Strip, patch};
 use crate::contact::Delassus;
 use crate::coupled::build::assembled::Assembled;
 use crate::coupled::scene::operators::{Factor, Model, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
@@ -127,14 +128,14 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let mesh = Mesh::layered_block(-2.0..2.0, count, &layers).unwrap();
         Box::new(FemModel::on_base(mesh).unwrap())
     };
-    let (assembled, _) = Assembled::new(structure.as_ref(), ground.elements()).unwrap();
+    let (assembled, _) = Assembled::new(structure.as_ref(), &patch(&ground).unwrap()).unwrap();
     let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(Thinned::new(operator, 2 * count));
     let operators =
         Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent);
-    (operators.delassus.to_vec(), assembled.base.lengths().to_vec())
+    (operators.delassus.to_vec(), assembled.base.areas().to_vec())
 }
 
 /// A W with A W symmetric and positive definite, of any condition and any coupling.
@@ -284,7 +285,7 @@ impl Tally {
     fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
         let count = problem.start.len();
         let input = problem.input();
-        let mut solver = ContactSolver::new(count);
+        let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
         let mut search = ModeSearch::new(count, ContactSearch::Robust);
         self.problems += 1;
         let all = brute_force(problem, &mut solver);

@@ -8,15 +8,15 @@
 
 use std::sync::Arc;
 
-use crate::bem::ContactElement;
 use crate::coupled::diagnosis::mechanism::AtRest;
 use crate::coupled::diagnosis::{mechanism, supports};
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
+use crate::geometry::Patch;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix};
 use crate::structure::{
-    ContactNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
+    FaceNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
     stiffest,
 };
 
@@ -38,10 +38,7 @@ pub(crate) struct Assembled {
 impl Assembled {
     /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong signs, parts that nothing holds, supports
     /// beside the ground, and mechanisms that cannot be factored.
-    pub(crate) fn new(
-        structure: &dyn Structure,
-        elements: &[ContactElement],
-    ) -> Result<(Self, SparseFactor)> {
+    pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
         let base = Base::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
         if dofs == 0 {
@@ -112,7 +109,7 @@ impl Assembled {
             mechanism::check_signs(&self.base, self.matrices())?;
         }
         let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
-        let mut translations = held.pulls().map(|pull| {
+        let solved = held.pulls().into_iter().map(|pull| {
             let mut found = pull.clone();
             factor.solve(&mut found);
             for _ in 0..REFINEMENTS {
@@ -123,6 +120,7 @@ impl Assembled {
             }
             found
         });
+        let mut translations: Vec<_> = solved.collect();
         if translations.iter().flatten().any(|r| !r.is_finite()) {
             return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
         }
@@ -132,7 +130,7 @@ impl Assembled {
             parts.couple(matrix);
         }
         for (nodes, _) in self.base.foundations() {
-            let mut dofs = nodes.iter().flat_map(ContactNode::dofs);
+            let mut dofs = nodes.iter().flat_map(FaceNode::dofs);
             if let Some(first) = dofs.next() {
                 dofs.for_each(|unknown| parts.join(first, unknown));
             }

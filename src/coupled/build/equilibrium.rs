@@ -3,6 +3,7 @@
 use super::assembled::Assembled;
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
 use crate::coupled::scene::base::Base;
+use crate::coupled::scene::influence::UP;
 use crate::coupled::scene::operators::condense;
 use crate::error::{Error, Result, StepError};
 use crate::geometry::ContactLayout;
@@ -55,9 +56,10 @@ pub(crate) struct StaticState {
 
 impl StaticState {
     /// No weight: everything touches, nothing presses.
-    pub(crate) fn weightless(elements: usize, dofs: usize) -> Self {
+    pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
+        let elements = layout.elements();
         Self {
-            traction: vec![0.0; ContactLayout::new(elements).len()],
+            traction: vec![0.0; layout.len()],
             gap: vec![0.0; elements],
             displacement: vec![0.0; dofs],
             modes: vec![Mode::Stick; elements],
@@ -96,7 +98,7 @@ impl StaticState {
 pub(crate) struct Standing<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
-    /// Static compliance of the ground, 2Q × 2Q.
+    /// Static compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) soil: &'a [f64],
 }
 
@@ -117,7 +119,7 @@ impl Standing<'_> {
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, soil } = *self;
         let base = &assembled.base;
-        let (n, count) = (assembled.dofs(), base.lengths().len());
+        let (n, count) = (assembled.dofs(), base.areas().len());
         let size = base.layout().len();
         let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
@@ -125,7 +127,7 @@ impl Standing<'_> {
         }
         let stiffest = epsilon;
 
-        let mut solver = ContactSolver::new(count);
+        let mut solver = ContactSolver::new(base.layout());
         let mut search = ModeSearch::new(count, ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
         let mut tangent = Tangent::new(n);
@@ -230,7 +232,7 @@ fn failure(condition: f64, iterations: usize, change: f64) -> Error {
     }
 }
 
-/// Relative force imbalance: K resists no translation, so that tractions alone must carry the two
+/// Relative force imbalance: K resists no translation, so that tractions alone must carry the
 /// resultants of the load.
 fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
     let mut rest = load.to_vec();
@@ -321,16 +323,15 @@ impl Compliance {
 
 /// Mass that a vertical translation moves.
 fn total_mass(assembled: &Assembled) -> f64 {
-    let [_, up] = assembled.influence.of_all(assembled.dofs());
+    let up = assembled.influence.of(UP, assembled.dofs());
     assembled.mass.form(&up, &up)
 }
 
 /// Vertical force per settlement of the soil under a uniform pressure.
 fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
-    let (count, size) = (base.lengths().len(), base.layout().len());
-    let width: f64 = base.lengths().iter().sum();
-    let settled: f64 = (0..count)
-        .map(|p| base.lengths()[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())
-        .sum();
-    width * width / settled
+    let (areas, size) = (base.areas(), base.layout().len());
+    let (count, area) = (areas.len(), areas.iter().sum::<f64>());
+    let settled: f64 =
+        (0..count).map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>()).sum();
+    area * area / settled
 }

@@ -20,7 +20,7 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
-use crate::structure::{HeldBase, stiffest};
+use crate::structure::{FaceNode, HeldBase, stiffest};
 
 /// From one shift to the next.
 const RATIO: f64 = 4.0;
@@ -68,7 +68,7 @@ impl<'a> Reduction<'a> {
         steps: usize,
     ) -> Result<Self> {
         let (given, base) = (&parts.given, &assembled.base);
-        let (n, size) = (assembled.dofs(), 2 * base.lengths().len());
+        let (n, size) = (assembled.dofs(), base.layout().len());
         let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
         for load in &given.loads {
             keep(&mut rows.all, spread(load.row(), n));
@@ -236,8 +236,11 @@ impl<'a> Reduction<'a> {
         let mut rotations = Vec::new();
         for part in self.assembled.influence.parts() {
             let nodes = part.nodes(&self.assembled.base);
-            let middle = nodes.iter().map(|node| node.x).sum::<f64>() / nodes.len().max(1) as f64;
-            rotations.extend(held.turn(nodes, middle));
+            let mean = |place: fn(&FaceNode) -> f64| {
+                nodes.iter().map(|node| place(node)).sum::<f64>() / nodes.len().max(1) as f64
+            };
+            let middle = [mean(|node| node.x), mean(|node| node.y)];
+            rotations.extend(held.turns(nodes.iter().copied(), middle).concat());
         }
         self.held.solve_many(&mut rotations);
         let mut inertia = vec![0.0; translations.len()];

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::bem::{ContactElement, Ground};
+use crate::bem::{Ground, patch};
 use crate::contact::ContactSearch;
 use crate::coupled::motion::Load;
 use crate::coupled::run::Serviceability;
@@ -10,8 +10,10 @@ use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{
     Error, Observer, Result, all_finite, finite, memory, not_negative, positive, same_length,
 };
-use crate::geometry::{ContactLayout, check_order};
-use crate::interface::{ContactScene, InterfaceLaw};
+use crate::geometry::Patch;
+use crate::interface::{
+    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact,
+};
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
@@ -139,14 +141,14 @@ pub(crate) struct Parts {
     /// Ready for steps.
     pub(crate) ground: Box<dyn Ground>,
     pub(crate) given: Given,
-    pub(crate) elements: Vec<ContactElement>,
+    pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
-    /// Instantaneous operator of the ground, 2Q × 2Q.
+    /// Instantaneous operator of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) soil: Arc<Thinned>,
-    /// Free field at t = 0, 2Q.
+    /// Free field at t = 0, 2Q or 3Q.
     pub(crate) start_motion: Vec<f64>,
-    /// Point about which the base moment is taken.
-    pub(crate) moment_center: f64,
+    /// Point `[x, y]` about which the base moment is taken.
+    pub(crate) moment_center: [f64; 2],
 }
 
 impl Parts {
@@ -167,24 +169,26 @@ impl Parts {
         is_nonlinear(structure.as_mut())?;
         let mut ground =
             ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
-        let elements = ground.elements().to_vec();
-        check_order(&elements)?;
-        let count = elements.len();
+        let elements = patch(ground.as_ref())?;
+        let (layout, count) = (elements.layout(), elements.len());
         let gravity = given.static_gravity();
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
+        if elements.is_plan() {
+            check_bonded(&given.laws, time_step)?;
+        }
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let dofs = structure.dofs();
-        check_dofs(dofs, count)?;
+        check_dofs(dofs, layout.len())?;
         probe::check(&given.probes, dofs)?;
         check_motion(&given, dofs)?;
         let coefficients = given.scheme.coefficients(time_step);
         coefficients.check()?;
-        let middle = 0.5 * (elements[0].left + elements[count - 1].right);
-        let moment_center = finite("moment center", given.moment_center.unwrap_or(middle))?;
+        let [x, y] = elements.center();
+        let moment_center = [finite("moment center", given.moment_center.unwrap_or(x))?, y];
         ground.prepare(time_step)?;
         ground.expect_steps(given.steps, observer)?;
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
-        let mut start_motion = vec![0.0; ContactLayout::new(count).len()];
+        let mut start_motion = vec![0.0; layout.len()];
         ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);
         for displacement in &start_motion {
             finite("free field at t = 0", *displacement)?;
@@ -219,11 +223,11 @@ fn check_motion(given: &Given, dofs: usize) -> Result<()> {
 }
 
 /// Refuses more degrees of freedom than fit into memory, by themselves or with a response to the traction of
-/// each of `elements` contact elements.
-fn check_dofs(dofs: usize, elements: usize) -> Result<()> {
+/// each of the contact elements, `tractions` numbers.
+fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     matrix::check_order("degrees of freedom of the structure", dofs)?;
-    // Two components of traction, and the responses twice while they are computed.
-    let responses = 32.0 * dofs as f64 * elements as f64;
+    // The responses twice while they are computed.
+    let responses = 16.0 * dofs as f64 * tractions as f64;
     Ok(memory::check(
         "degrees of freedom of the structure on its contact elements",
         dofs as f64,
@@ -231,22 +235,22 @@ fn check_dofs(dofs: usize, elements: usize) -> Result<()> {
     )?)
 }
 
-/// The ground's instantaneous operator: with rows weighted by the elements' lengths, its symmetric part
+/// The ground's instantaneous operator: with rows weighted by the elements' areas, its symmetric part
 /// must not be negative, or the ground would push back work that it never got.
-fn instantaneous_operator(ground: &dyn Ground, elements: &[ContactElement]) -> Result<Vec<f64>> {
+fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f64>> {
     const NAME: &str = "instantaneous operator of the ground";
-    let layout = ContactLayout::new(elements.len());
+    let (layout, areas) = (elements.layout(), elements.areas());
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
     ground.step_compliance(&mut operator)?;
     all_finite(NAME, &operator)?;
-    let length = |i: usize| elements[layout.origin(i)[1]].length();
+    let area = |i: usize| areas[layout.origin(i)[1]];
     let scale: Vec<f64> = (0..size)
-        .map(|i| (length(i) * operator[i * (size + 1)].abs()).sqrt())
+        .map(|i| (area(i) * operator[i * (size + 1)].abs()).sqrt())
         .map(|root| if root > 0.0 { root.recip() } else { 1.0 })
         .collect();
     let weighted = |i: usize, j: usize| {
-        let both = length(i) * operator[i * size + j] + length(j) * operator[j * size + i];
+        let both = area(i) * operator[i * size + j] + area(j) * operator[j * size + i];
         0.5 * scale[i] * scale[j] * both
     };
     let mut symmetric: Vec<f64> = (0..size * size).map(|k| weighted(k / size, k % size)).collect();
@@ -284,6 +288,23 @@ fn check_laws(
         return refuse("contact search", "the flow chart needs one iteration or more");
     }
     laws.iter().try_for_each(|law| law.check(scene))
+}
+
+/// Refuses laws that do not bond an element of a ground in plan to the structure whatever happens.
+fn check_bonded(laws: &[Box<dyn InterfaceLaw>], time_step: f64) -> Result<()> {
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, time_step);
+    let bonded = |law: &Box<dyn InterfaceLaw>| {
+        law.modes() == [Mode::Stick]
+            && law.conditions(Mode::Stick, &start)
+                == [Condition::gap_is(0.0), Condition::slip_is(0.0)]
+            && law.compliance(Mode::Stick, &start) == [0.0; 2]
+            && law.state_variables() == 0
+    };
+    if laws.iter().all(bonded) {
+        return Ok(());
+    }
+    let needed = "must be `Bonded` on a ground in plan: elements open and slide in the plane alone";
+    Err(Error::Scene { quantity: "interface law", needed })
 }
 
 /// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one

@@ -5,6 +5,7 @@ use super::equilibrium::{Standing, StaticState};
 use super::parts::{Given, GravityStage, Parts};
 use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
+use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
 use crate::error::{Error, Result, all_finite, finite};
 use crate::interface::{
@@ -27,8 +28,8 @@ const TIME_STEP: f64 = 1.0;
 /// trivial without gravity.
 pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
     let Parts { structure, ground, given, elements, .. } = parts;
-    let (count, n) = (elements.len(), assembled.dofs());
-    let mut state = StaticState::weightless(count, n);
+    let n = assembled.dofs();
+    let mut state = StaticState::weightless(elements.layout(), n);
     if given.is_static() {
         let mut own = vec![0.0; n];
         structure.load(0.0, &mut own)?;
@@ -39,7 +40,7 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
             external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
         }
         let mut weight = vec![0.0; n];
-        let [_, up] = assembled.influence.of_all(n);
+        let up = assembled.influence.of(UP, n);
         assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
         all_finite("weight", &weight)?;
         all_finite("load at t = 0", &load)?;
@@ -68,7 +69,8 @@ fn in_stages(
     gravity_stage: GravityStage,
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let count = stage.assembled.base.lengths().len();
+    let layout = stage.assembled.base.layout();
+    let count = layout.elements();
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
@@ -76,7 +78,7 @@ fn in_stages(
     let placing = if is_smooth { &smooth } else { laws };
     let at_rest = PreviousContact::new(ContactState::default(), Mode::Stick, TIME_STEP);
     let start = PreviousContacts::new(placing, &vec![at_rest; count])?;
-    let mut state = StaticState::weightless(count, weight.len());
+    let mut state = StaticState::weightless(layout, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(placing, e).modes()[0];
     }
@@ -230,6 +232,8 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             starts.push(PreviousContact::new(*contact, *mode, scene.time_step));
         }
         state.start = PreviousContacts::new(&scene.laws, &starts)?;
+        let [_, _, across] = layout.split(&moved);
+        state.slip_across.copy_from_slice(across);
     }
     let [_, rate] = layout.split(&rate);
     state.start.slip_rates_mut().zip(rate).for_each(|(own, rate)| *own = *rate);

@@ -10,6 +10,7 @@ use crate::coupled::scene::base::Base;
 use crate::coupled::scene::operators::{Factor, Model, Operators};
 use crate::coupled::scene::transformation::ModalBasis;
 use crate::error::{Error, Result};
+use crate::geometry::SPACE;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot, generalised_modes, largest};
 use crate::structure::{Structure, Tangent};
 
@@ -142,8 +143,8 @@ fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<M
 const ZERO: f64 = 1e-11;
 /// Smallest eigenvalue besides zero, relative to the largest: between the two nothing is certain.
 const SMALLEST: f64 = 1e-8;
-/// Rigid motions in a plane.
-const RIGID_MOTIONS: usize = 3;
+/// Rigid motions in a plane, and in three dimensions.
+const RIGID_MOTIONS: [usize; 2] = [3, 6];
 
 /// Modes that diagonalise mass, damping and stiffness; `None` if there are none, or not well enough.
 pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
@@ -163,7 +164,8 @@ pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     for matrix in matrices {
         parts.couple(matrix);
     }
-    let most = RIGID_MOTIONS * parts.sets().len();
+    let is_plan = assembled.base.layout().components() == SPACE;
+    let most = RIGID_MOTIONS[usize::from(is_plan)] * parts.sets().len();
     if rigid > most || smallest.fold(top, f64::min) < SMALLEST * top {
         return None;
     }

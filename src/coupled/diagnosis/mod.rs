@@ -14,6 +14,7 @@ use crate::coupled::scene::operators::Operators;
 use crate::coupled::scene::{Scene, operators};
 use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
+use crate::geometry::PLANE;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
 };
@@ -51,17 +52,20 @@ pub(crate) fn cause(
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in.
+/// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in; in the plane.
 fn resultants(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
+    if base.layout().components() != PLANE {
+        return None;
+    }
     let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
-        let [horizontal, upward] = part.resultants(load);
+        let [horizontal, upward, _] = part.resultants(load);
         let normal = -upward;
         let nodes = part.nodes(base);
         let (left, right) = (nodes.first()?.x, nodes.last()?.x);
@@ -81,7 +85,7 @@ fn resultants(
             let lifted = StabilityError::Uplift { ends, upward };
             return if opens { broken(pulls, lifted) } else { None };
         }
-        let lengths = || part.elements().iter().map(|&e| base.lengths()[e]);
+        let lengths = || part.elements().iter().map(|&e| base.areas()[e]);
         let pressure = normal / lengths().sum::<f64>();
         let friction = laws().map(|law| friction(law, pressure)).fold(0.0, f64::max);
         let resistance = friction * normal;
@@ -94,7 +98,7 @@ fn resultants(
             return Some(slides);
         }
         let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
-        let mut rotation = held.turn(nodes, middle);
+        let mut rotation = held.turns(nodes.iter().copied(), [middle, 0.0]).swap_remove(0);
         factor.solve(&mut rotation);
         let moment = dot(&rotation, load);
         // The soil's pressure stands at the distance e: M + N e = 0.
@@ -290,7 +294,7 @@ fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (
         held / inertia(&vector)
     };
     let ratio =
-        model.influence.of_all(model.coordinates).map(against).into_iter().fold(0.0, f64::max);
+        model.influence.of_all(model.coordinates).into_iter().map(against).fold(0.0, f64::max);
     if ratio >= EXPLAINED * condition.min(SINGULAR) {
         return ("stiffness of the structure over its inertia in a time step", ratio);
     }
@@ -319,8 +323,8 @@ fn cause_of_delassus(
     if ground >= EXPLAINED * condition.min(SINGULAR) {
         return ("condition of the ground's instantaneous operator", ground);
     }
-    let lengths = scene.base.lengths();
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
-    let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-    ("longest over shortest contact element", longest / shortest)
+    let areas = scene.base.areas();
+    let largest = areas.iter().copied().fold(0.0, f64::max);
+    let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
+    ("longest over shortest contact element", largest / smallest)
 }

@@ -50,16 +50,16 @@ const EXACT: f64 = 1e-14;
 /// Translations (m) that no nonlinear force may resist.
 const TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 
-/// Names of the two translations.
-const DIRECTIONS: [&str; 2] = ["to the right", "upwards"];
+/// Names of the translations.
+const DIRECTIONS: [&str; 3] = ["to the right", "upwards", "along y"];
 
-/// Refuses a structure that does not translate freely, and rounds its translations (to the right
-/// and upwards) to whole numbers where these are what they are meant to be, exactly so at the contact
+/// Refuses a structure that does not translate freely, and rounds its translations (to the right,
+/// upwards, in plan away) to whole numbers where these are what they are meant to be, exactly so at the contact
 /// nodes. `stiffness` without what ties these.
 pub(crate) fn check(
     stiffness: &SparseMatrix,
     base: &Base,
-    translations: &mut [Vec<f64>; 2],
+    translations: &mut [Vec<f64>],
 ) -> Result<()> {
     let lag = base.translation_error(translations);
     for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
@@ -101,8 +101,9 @@ pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Re
         for (direction, vector) in part.vectors.iter().enumerate() {
             base.means(&spread(vector, dofs), &mut means);
             for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
-                let [down, along] = base.layout().places(e);
-                let moved = [means[along], -means[down]][direction];
+                let [down, along, across] = base.layout().places(e);
+                let (component, sign) = [(along, 1.0), (down, -1.0), (across, 1.0)][direction];
+                let moved = sign * means[component];
                 if (moved - 1.0).abs() > exact {
                     return Err(Error::Input {
                         quantity: "mean of the base under a rigid translation of 1 m",

@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
+use super::faces::Faces;
 use super::transformation::{Rows, Terms, Transformation, Weights};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE, Patch};
 use crate::linalg::dot;
 use crate::structure::{
-    ContactNode, DofCombination, Structure, check_contact_nodes, foundation_nodes,
+    DofCombination, FaceNode, Structure, base_nodes, check_base_nodes, foundation_nodes,
 };
 
 /// B, which takes coordinates to element means of the base displacement (normal components down),
@@ -16,15 +17,16 @@ use crate::structure::{
 /// that are [stepped](Base::stepped).
 ///
 /// For elements between neighbouring nodes the means are the T matrix of halves of Patel &
-/// Spyrakos, eq. 14, and its transpose is their eq. 15.
+/// Spyrakos, eq. 14, and its transpose is their eq. 15. In plan they are those of `faces.rs`.
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
-    /// Normal rows, then tangential rows.
+    /// Component by component.
     rows: Rows,
     foundations: Vec<Outline>,
-    lengths: Vec<f64>,
+    layout: ContactLayout,
+    areas: Vec<f64>,
     middles: Vec<f64>,
-    nodes: Vec<ContactNode>,
+    nodes: Vec<FaceNode>,
 }
 
 /// One foundation: its nodes, its elements, and the rotation of its chord.
@@ -36,21 +38,62 @@ struct Outline {
 }
 
 impl Base {
-    /// The base of `structure`.
-    pub(crate) fn of(structure: &dyn Structure, elements: &[ContactElement]) -> Result<Self> {
-        let ends = structure.foundation_ends();
-        Self::new(structure.contact_nodes(), &ends, elements, structure.dofs())
+    /// The base of `structure` on the elements of a ground.
+    pub(crate) fn of(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
+        let nodes = base_nodes(structure);
+        check_base_nodes(&nodes, structure.dofs())?;
+        let faces: Vec<usize> = structure.contact_faces().iter().map(Vec::len).collect();
+        let refuse = |needed| Err(Error::Scene { quantity: "structure", needed });
+        if !(faces.is_empty() || structure.contact_nodes().is_empty()) {
+            return refuse(
+                "must have a base of contact nodes in the plane or of faces in plan, not both",
+            );
+        }
+        match (faces.is_empty(), patch.is_plan()) {
+            (true, false) => Self::on_line(nodes, &structure.foundation_ends(), patch),
+            (false, true) => Self::on_faces(nodes, &faces, patch),
+            (true, true) => refuse(
+                "must touch a ground in plan with faces: contact nodes alone are those of the plane",
+            ),
+            (false, false) => refuse(
+                "must touch a ground of the plane with contact nodes: its base has faces, in plan",
+            ),
+        }
+    }
+
+    /// The base whose faces have so many corners each.
+    fn on_faces(nodes: Vec<FaceNode>, faces: &[usize], patch: &Patch) -> Result<Self> {
+        let surface = Faces::new(&nodes, faces)?;
+        let layout = patch.layout();
+        let mut rows = vec![Terms::new(); layout.len()];
+        for e in 0..patch.len() {
+            let [down, along, across] = layout.places(e);
+            for (node, weight) in surface.mean_weights(e, patch)? {
+                accumulate(&mut rows[down], &nodes[node].vertical, -weight);
+                accumulate(&mut rows[along], &nodes[node].horizontal, weight);
+                accumulate(&mut rows[across], &nodes[node].across, weight);
+            }
+        }
+        let rotation = Weights::Sparse(mean_rotation(&nodes));
+        let whole = Outline { nodes: 0..nodes.len(), elements: 0..patch.len(), rotation };
+        Ok(Self::from_rows(rows, vec![whole], nodes, patch))
+    }
+
+    fn from_rows(
+        rows: Vec<Terms>,
+        foundations: Vec<Outline>,
+        nodes: Vec<FaceNode>,
+        patch: &Patch,
+    ) -> Self {
+        let middles = patch.iter().map(ContactElement::center).collect();
+        let (layout, areas) = (patch.layout(), patch.areas());
+        Self { rows: Rows::Sparse(rows), foundations, layout, areas, middles, nodes }
     }
 
     /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
     /// and at the last node.
-    fn new(
-        nodes: Vec<ContactNode>,
-        ends: &[usize],
-        elements: &[ContactElement],
-        dofs: usize,
-    ) -> Result<Self> {
-        check_nodes(&nodes, dofs)?;
+    fn on_line(nodes: Vec<FaceNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
+        check_order(&nodes)?;
         let mut foundations = Vec::with_capacity(ends.len() + 1);
         let mut element = 0;
         for own in foundation_nodes(nodes.len(), ends)? {
@@ -71,7 +114,7 @@ impl Base {
             foundations.push(footing);
             element = end;
         }
-        let layout = ContactLayout::new(elements.len());
+        let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
         for footing in &foundations {
             let own = &nodes[footing.nodes.clone()];
@@ -84,35 +127,37 @@ impl Base {
                 }
             }
         }
-        let lengths = elements.iter().map(ContactElement::length).collect();
-        let middles = elements.iter().map(ContactElement::center).collect();
-        Ok(Self { rows: Rows::Sparse(rows), foundations, lengths, middles, nodes })
+        Ok(Self::from_rows(rows, foundations, nodes, elements))
     }
 
     /// The same base of the coordinates that are stepped.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
         for footing in &mut foundations {
-            let terms = chord_rotation(&self.nodes[footing.nodes.clone()]);
-            footing.rotation = transformation.row(&terms);
+            if let Weights::Sparse(terms) = &footing.rotation {
+                footing.rotation = transformation.row(terms);
+            }
         }
         Self { rows: transformation.rows(&self.rows), foundations, ..self.clone() }
     }
 
     /// The degrees of freedom that move a contact node, some more than once.
     pub(crate) fn dofs(&self) -> Vec<usize> {
-        self.nodes.iter().flat_map(ContactNode::dofs).collect()
+        self.nodes.iter().flat_map(FaceNode::dofs).collect()
     }
 
     /// The contact nodes and the elements of each foundation.
-    pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[ContactNode], Range<usize>)> + '_ {
+    pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[FaceNode], Range<usize>)> + '_ {
         let nodes = |footing: &Outline| &self.nodes[footing.nodes.clone()];
         self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
     }
 
-    /// The foundations that reach beyond the ground's elements by more than their longest, and how far (m).
+    /// The foundations in the plane that reach beyond the ground's elements by more than their longest, and how far (m).
     pub(crate) fn uncovered(&self, ground: &[ContactElement]) -> Vec<(usize, f64)> {
-        let reach = |(nodes, own): (&[ContactNode], Range<usize>)| {
+        if self.layout.components() != PLANE {
+            return Vec::new();
+        }
+        let reach = |(nodes, own): (&[FaceNode], Range<usize>)| {
             let own = &ground[own];
             let [first, last] = [own.first()?, own.last()?];
             let longest = own.iter().map(ContactElement::length).fold(0.0, f64::max);
@@ -123,24 +168,24 @@ impl Base {
         reaches.filter_map(|(foundation, reach)| Some((foundation, reach?))).collect()
     }
 
-    /// Lengths A of the elements.
-    pub(crate) fn lengths(&self) -> &[f64] {
-        &self.lengths
+    /// Areas A of the elements, m²; in the plane their lengths.
+    pub(crate) fn areas(&self) -> &[f64] {
+        &self.areas
     }
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        ContactLayout::new(self.lengths.len())
+        self.layout
     }
 
-    /// Coordinate of the middle of an element.
+    /// Coordinate x of the middle of an element.
     pub(crate) fn middle(&self, element: usize) -> f64 {
         self.middles[element]
     }
 
-    /// Length that goes with contact component `i`.
-    pub(crate) fn length(&self, i: usize) -> f64 {
-        self.lengths[self.layout().origin(i)[1]]
+    /// Area that goes with contact component `i`.
+    pub(crate) fn area(&self, i: usize) -> f64 {
+        self.areas[self.layout.origin(i)[1]]
     }
 
     /// out ← B u.
@@ -148,16 +193,17 @@ impl Base {
         self.rows.multiply(u, out);
     }
 
-    /// Mean `[right, up]` of contact displacements (2Q) over the whole base.
-    pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 2] {
-        let [down, along] = self.layout().split(displacement);
-        let width: f64 = self.lengths.iter().sum();
-        [dot(along, &self.lengths) / width, -dot(down, &self.lengths) / width]
+    /// Mean `[right, up, away]` of contact displacements over the whole base; nothing moves away in the plane.
+    pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
+        let [down, along, across] = self.layout.split(displacement);
+        let area: f64 = self.areas.iter().sum();
+        let mean = |values: &[f64]| dot(values, &self.areas) / area;
+        [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
     }
 
     /// f ← f + factor · BᵀA τ.
     pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
-        self.rows.add_transposed(factor, |i| self.length(i), traction, force);
+        self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
     /// Rotation of a foundation (counter-clockwise), from the chord between its ends.
@@ -165,9 +211,9 @@ impl Base {
         self.foundations[foundation].rotation.of(u)
     }
 
-    /// Largest error of N r for translations of 1 to the right and 1 up, N the displacements of the
+    /// Largest error of N r for translations of 1 to the right, 1 up and 1 away, N the displacements of the
     /// contact nodes. A component without terms belongs to nothing that could move.
-    pub(crate) fn translation_error(&self, translations: &[Vec<f64>; 2]) -> f64 {
+    pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
         let mut worst = 0.0_f64;
         for (direction, translation) in translations.iter().enumerate() {
             for (terms, needed) in self.node_components(direction) {
@@ -177,7 +223,7 @@ impl Base {
         worst
     }
 
-    /// Moves `translation` (to the right: 0; upwards: 1) by the little that the contact nodes miss
+    /// Moves `translation` (to the right: 0; upwards: 1; away: 2) by the little that the contact nodes miss
     /// of 1 m.
     pub(crate) fn translate_nodes(&self, direction: usize, translation: &mut [f64]) {
         for _ in 0..4 {
@@ -195,20 +241,19 @@ impl Base {
 
     /// Rows of the contact nodes, and their values under a translation of 1 m.
     fn node_components(&self, direction: usize) -> impl Iterator<Item = (&DofCombination, f64)> {
-        let components = self.nodes.iter().flat_map(|node| [&node.horizontal, &node.vertical]);
-        let moved = move |(k, row)| (row, if k % 2 == direction { 1.0 } else { 0.0 });
-        components.enumerate().map(moved).filter(|(row, _)| !row.is_empty())
+        let rows = self.nodes.iter().flat_map(|node| node.rows().into_iter().enumerate());
+        let moved = move |(k, row)| (row, if k == direction { 1.0 } else { 0.0 });
+        rows.map(moved).filter(|(row, _): &(&DofCombination, _)| !row.is_empty())
     }
 
     /// The contact nodes.
-    pub(crate) fn nodes(&self) -> &[ContactNode] {
+    pub(crate) fn nodes(&self) -> &[FaceNode] {
         &self.nodes
     }
 }
 
-/// Refuses nodes that are none of these degrees of freedom', and nodes out of order.
-fn check_nodes(nodes: &[ContactNode], dofs: usize) -> Result<()> {
-    check_contact_nodes(nodes, dofs)?;
+/// Refuses nodes out of order.
+fn check_order(nodes: &[FaceNode]) -> Result<()> {
     match nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
         None => Ok(()),
         Some(pair) => Err(Error::Input {
@@ -220,7 +265,7 @@ fn check_nodes(nodes: &[ContactNode], dofs: usize) -> Result<()> {
 }
 
 /// Refuses an element that is not wholly under the foundation with these nodes.
-fn check_overlap(nodes: &[ContactNode], element: &ContactElement) -> Result<()> {
+fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
     for value in [element.left + slack - first, last - element.right + slack] {
@@ -236,11 +281,28 @@ fn check_overlap(nodes: &[ContactNode], element: &ContactElement) -> Result<()> 
 }
 
 /// Rise of the last node over the first, per distance.
-fn chord_rotation(nodes: &[ContactNode]) -> Terms {
+fn chord_rotation(nodes: &[FaceNode]) -> Terms {
     let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
     let mut terms = Terms::new();
     accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
     accumulate(&mut terms, &first.vertical, -1.0 / (last.x - first.x));
+    terms
+}
+
+/// Rise to the right per distance, of the plane that fits the nodes best.
+fn mean_rotation(nodes: &[FaceNode]) -> Terms {
+    let mean =
+        |of: &dyn Fn(&FaceNode) -> f64| nodes.iter().map(of).sum::<f64>() / nodes.len() as f64;
+    let (x, y) = (mean(&|node| node.x), mean(&|node| node.y));
+    let product = |one: fn([f64; 2]) -> f64| mean(&|node| one([node.x - x, node.y - y]));
+    let (xx, xy, yy) =
+        (product(|d| d[0] * d[0]), product(|d| d[0] * d[1]), product(|d| d[1] * d[1]));
+    let scale = nodes.len() as f64 * (xx * yy - xy * xy);
+    let mut terms = Terms::new();
+    for node in nodes {
+        let weight = yy * (node.x - x) - xy * (node.y - y);
+        accumulate(&mut terms, &node.vertical, weight / scale);
+    }
     terms
 }
 
@@ -254,7 +316,7 @@ fn accumulate(row: &mut Terms, terms: &DofCombination, factor: f64) {
 }
 
 /// (node, weight) of the mean over `element` of the piecewise linear interpolation.
-fn mean_weights(nodes: &[ContactNode], element: &ContactElement) -> Vec<(usize, f64)> {
+fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
     let mut weights = Vec::new();
     for (k, pair) in nodes.windows(2).enumerate() {
         let (x0, x1) = (pair[0].x, pair[1].x);
@@ -274,6 +336,14 @@ fn mean_weights(nodes: &[ContactNode], element: &ContactElement) -> Vec<(usize, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structure::{ContactNode, on_line};
+
+    fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
+        let depths = vec![[0.0, 1.0]; elements.len()];
+        let nodes = on_line(nodes);
+        check_base_nodes(&nodes, dofs)?;
+        Base::on_line(nodes, &[], &Patch::new(PLANE, elements.to_vec(), depths)?)
+    }
 
     #[test]
     fn matching_meshes_give_halves() {
@@ -281,7 +351,7 @@ mod tests {
         let elements: Vec<_> = (0..3)
             .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
             .collect();
-        let base = Base::new(nodes, &[], &elements, 8).unwrap();
+        let base = base(nodes, &elements, 8).unwrap();
         let Rows::Sparse(rows) = base.rows else { panic!("rows of degrees of freedom") };
         assert_eq!(rows[1], vec![(3, -0.5), (5, -0.5)]);
         assert_eq!(rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
@@ -295,7 +365,7 @@ mod tests {
         let ends = [-1.0, -0.8, 0.1, 1.3, 2.0];
         let elements: Vec<_> =
             ends.windows(2).map(|w| ContactElement { left: w[0], right: w[1] }).collect();
-        let base = Base::new(nodes, &[], &elements, 8).unwrap();
+        let base = base(nodes, &elements, 8).unwrap();
         let u: Vec<f64> = xs.iter().flat_map(|x| [2.0 + 3.0 * x, 1.0 - 0.5 * x]).collect();
         let mut means = vec![0.0; 8];
         base.means(&u, &mut means);
@@ -310,7 +380,7 @@ mod tests {
         let mut force = vec![0.0; 8];
         base.add_forces(1.0, &traction, &mut force);
         let left: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
-        let right: f64 = (0..8).map(|i| base.length(i) * traction[i] * means[i]).sum();
+        let right: f64 = (0..8).map(|i| base.area(i) * traction[i] * means[i]).sum();
         assert!((left - right).abs() < 1e-13);
     }
 
@@ -318,11 +388,11 @@ mod tests {
     fn bad_bases_are_errors() {
         let element = [ContactElement { left: 0.0, right: 1.0 }];
         let node = |x| ContactNode::free(x, 0, 1);
-        assert!(Base::new(vec![node(0.0)], &[], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(0.0)], &[], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(f64::NAN)], &[], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(0.9)], &[], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(1.0)], &[], &element, 1).is_err());
-        assert!(Base::new(vec![node(0.0), node(1.0)], &[], &element, 2).is_ok());
+        assert!(base(vec![node(0.0)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(0.0)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(f64::NAN)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(0.9)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(1.0)], &element, 1).is_err());
+        assert!(base(vec![node(0.0), node(1.0)], &element, 2).is_ok());
     }
 }

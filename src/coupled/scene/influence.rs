@@ -2,33 +2,38 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | R | influence vectors, one to the right and one upwards for each connected part |
+//! | R | influence vectors, one to the right, one upwards and in plan one away for each connected part |
 //! | y | translation of each part's ground: the mean free field under it |
 
 use super::base::Base;
 use super::transformation::Terms;
-use crate::geometry::{COMPONENTS, ContactLayout};
+use crate::geometry::{ContactLayout, SPACE};
 use crate::linalg::matrix::spread;
-use crate::structure::ContactNode;
+use crate::structure::FaceNode;
 
 /// The influence vectors of all connected parts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Influence {
     parts: Vec<Part>,
+    /// Directions in which they translate: right, up and, in plan, away.
+    directions: usize,
 }
+
+/// Number of the upward direction.
+pub(crate) const UP: usize = 1;
 
 /// A connected part of the structure and the elements under it.
 #[derive(Debug, Clone)]
 pub(crate) struct Part {
-    /// R to the right and upwards; without terms for what cannot move that way.
-    pub(crate) vectors: [Terms; 2],
+    /// R to the right, upwards and away; without terms for what cannot move that way.
+    pub(crate) vectors: [Terms; 3],
     elements: Vec<usize>,
 }
 
 impl Influence {
     /// Splits the rigid translations of the whole structure into those of its parts; `roots` has the
     /// same number for the degrees of freedom of one part.
-    pub(crate) fn split(base: &Base, translations: &[Vec<f64>; 2], roots: &[usize]) -> Self {
+    pub(crate) fn split(base: &Base, translations: &[Vec<f64>], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
             let Some(unknown) = nodes.iter().find_map(|node| node.dofs().next()) else {
@@ -39,14 +44,15 @@ impl Influence {
                 part.elements.extend(elements);
                 continue;
             }
-            let vectors = [0, 1].map(|direction| {
-                let vector = translations[direction].iter().enumerate();
+            let vectors = [0, 1, 2].map(|direction| {
+                let vector = translations.get(direction).into_iter().flatten().enumerate();
                 let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
                 own.map(|(i, r)| (i, *r)).collect()
             });
             parts.push((root, Part { vectors, elements: elements.collect() }));
         }
-        Self { parts: parts.into_iter().map(|(_, part)| part).collect() }
+        let parts = parts.into_iter().map(|(_, part)| part).collect();
+        Self { parts, directions: translations.len() }
     }
 
     /// The connected parts, from left to right by their leftmost foundation.
@@ -60,14 +66,14 @@ impl Influence {
         for vector in parts.iter_mut().flat_map(|part| &mut part.vectors) {
             *vector = convert(vector);
         }
-        Self { parts }
+        Self { parts, directions: self.directions }
     }
 
-    /// Adds factor · R y to `displacement`, y the translation `[right, up]` of each part.
+    /// Adds factor · R y to `displacement`, y the translation `[right, up, away]` of each part.
     pub(crate) fn translate(
         &self,
         factor: f64,
-        translations: impl IntoIterator<Item = [f64; 2]>,
+        translations: impl IntoIterator<Item = [f64; 3]>,
         displacement: &mut [f64],
     ) {
         for (part, translation) in self.parts.iter().zip(translations) {
@@ -88,13 +94,17 @@ impl Influence {
         moving.flat_map(|vector| spread(vector, dofs)).collect()
     }
 
-    /// Both vectors of the whole structure, all parts together, over `dofs` entries.
-    pub(crate) fn of_all(&self, dofs: usize) -> [Vec<f64>; 2] {
-        [[1.0, 0.0], [0.0, 1.0]].map(|direction| {
-            let mut vector = vec![0.0; dofs];
-            self.translate(1.0, std::iter::repeat(direction), &mut vector);
-            vector
-        })
+    /// The vectors of the whole structure, all parts together, over `dofs` entries.
+    pub(crate) fn of_all(&self, dofs: usize) -> Vec<Vec<f64>> {
+        (0..self.directions).map(|direction| self.of(direction, dofs)).collect()
+    }
+
+    /// That of one direction: right 0, [`UP`], away 2.
+    pub(crate) fn of(&self, direction: usize, dofs: usize) -> Vec<f64> {
+        let mut vector = vec![0.0; dofs];
+        let unit = std::array::from_fn(|k| if k == direction { 1.0 } else { 0.0 });
+        self.translate(1.0, std::iter::repeat(unit), &mut vector);
+        vector
     }
 }
 
@@ -105,43 +115,50 @@ impl Part {
     }
 
     /// The contact nodes of its foundations.
-    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a ContactNode> {
+    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a FaceNode> {
         base.foundations()
             .filter(|(_, elements)| self.elements.contains(&elements.start))
             .flat_map(|(nodes, _)| nodes)
             .collect()
     }
 
-    /// Rᵀ f: the resultants to the right and upwards.
-    pub(crate) fn resultants(&self, force: &[f64]) -> [f64; 2] {
-        [0, 1].map(|k| self.vectors[k].iter().map(|&(i, r)| r * force[i]).sum())
+    /// Rᵀ f: the resultants to the right, upwards and away.
+    pub(crate) fn resultants(&self, force: &[f64]) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.vectors[k].iter().map(|&(i, r)| r * force[i]).sum())
     }
 
-    /// Mean translation `[right, up]` of contact displacements (2Q, normal components down) over
+    /// Mean translation `[right, up, away]` of contact displacements (normal components down) over
     /// this part's elements; zero where the part cannot follow. Exact if all are equal.
-    pub(crate) fn mean(&self, base: &Base, displacement: &[f64]) -> [f64; 2] {
-        let lengths = base.lengths();
-        let offset = [lengths.len(), 0];
-        let signs = [1.0, -1.0];
-        let Some(&first) = self.elements.first() else { return [0.0; 2] };
-        let width: f64 = self.elements.iter().map(|&e| lengths[e]).sum();
-        [0, 1].map(|k| {
+    pub(crate) fn mean(&self, base: &Base, displacement: &[f64]) -> [f64; 3] {
+        let areas = base.areas();
+        let offset = [1, 0, 2].map(|component| base.layout().place(component, 0));
+        let signs = [1.0, -1.0, 1.0];
+        let Some(&first) = self.elements.first() else { return [0.0; 3] };
+        let width: f64 = self.elements.iter().map(|&e| areas[e]).sum();
+        [0, 1, 2].map(|k| {
             if self.vectors[k].is_empty() {
                 return 0.0;
             }
             let at = |e: usize| displacement[offset[k] + e];
-            let apart: f64 = self.elements.iter().map(|&e| lengths[e] * (at(e) - at(first))).sum();
+            let apart: f64 = self.elements.iter().map(|&e| areas[e] * (at(e) - at(first))).sum();
             signs[k] * (at(first) + apart / width)
         })
     }
 
-    /// Subtracts a translation `[right, up]` from contact displacements (2Q).
-    pub(crate) fn subtract(&self, translation: [f64; 2], displacement: &mut [f64]) {
-        let layout = ContactLayout::new(displacement.len() / COMPONENTS);
+    /// Subtracts a translation `[right, up, away]` from contact displacements.
+    pub(crate) fn subtract(
+        &self,
+        layout: ContactLayout,
+        [right, up, away]: [f64; 3],
+        displacement: &mut [f64],
+    ) {
         for &e in &self.elements {
-            let [down, along] = layout.places(e);
-            displacement[down] += translation[1];
-            displacement[along] -= translation[0];
+            let [down, along, across] = layout.places(e);
+            displacement[down] += up;
+            displacement[along] -= right;
+            if layout.components() == SPACE {
+                displacement[across] -= away;
+            }
         }
     }
 }

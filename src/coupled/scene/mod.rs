@@ -1,25 +1,26 @@
 //! A scene: all that does not change while a simulation runs.
 
 pub(crate) mod base;
+mod faces;
 pub(crate) mod influence;
 pub(crate) mod operators;
 pub(crate) mod transformation;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::build::equilibrium::StaticState;
 use super::build::parts::Parts;
 use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
-use crate::bem::ContactElement;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, Patch};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
 use base::Base;
-use influence::Part;
+use influence::{Part, UP};
 use operators::Model;
 use transformation::{Transformation, Weights};
 
@@ -33,7 +34,7 @@ pub(crate) struct Scene {
     pub(crate) conserves_energy: bool,
     pub(crate) model: Model,
     pub(crate) base: Base,
-    pub(crate) elements: Vec<ContactElement>,
+    pub(crate) elements: Patch,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) safety_friction: Vec<f64>,
@@ -53,15 +54,17 @@ pub(crate) struct Scene {
     pub(crate) probes: Vec<Probe>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// Element midpoints relative to the point of the base moment.
-    pub(crate) arms: Vec<f64>,
+    /// Element midpoints `[x, y]` relative to the point of the base moment.
+    pub(crate) arms: Vec<[f64; 2]>,
+    /// The middle of each foundation likewise.
+    pub(crate) foundation_arms: Vec<[f64; 2]>,
 }
 
 /// A probe in the coordinates that are stepped.
 pub(crate) struct ProbeRows {
     pub(crate) rows: [Weights; 3],
-    /// Displacement by a translation of 1 m of each part `[right, up]`, where it is absolute.
-    pub(crate) carried: Vec<[f64; 2]>,
+    /// Displacement by a translation of 1 m of each part `[right, up, away]`, where it is absolute.
+    pub(crate) carried: Vec<[f64; 3]>,
 }
 
 impl ProbeRows {
@@ -69,9 +72,26 @@ impl ProbeRows {
         let rows = probe.rows().map(|row| model.transformation.row(row));
         let parts = model.influence.parts().iter().filter(|_| probe.absolute);
         let carried = parts
-            .map(|part| [0, 1].map(|k| rows[0].of(&spread(&part.vectors[k], model.coordinates))));
+            .map(|part| part.vectors.each_ref().map(|r| rows[0].of(&spread(r, model.coordinates))));
         Self { carried: carried.collect(), rows }
     }
+}
+
+/// The middle of each foundation's elements, by their midpoints `arms`: between the ends of the first and the last in
+/// the plane, and of the farthest in plan.
+fn foundation_arms(base: &Base, elements: &Patch, arms: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let middle = |(_, own): (_, Range<usize>)| {
+        [0, 1].map(|axis| {
+            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            for e in own.clone() {
+                let half = 0.5 * elements.sides(e)[axis];
+                least = least.min(arms[e][axis] - half);
+                most = most.max(arms[e][axis] + half);
+            }
+            0.5 * (least + most)
+        })
+    };
+    base.foundations().map(middle).collect()
 }
 
 impl Scene {
@@ -91,10 +111,13 @@ impl Scene {
         let mut weight = Vec::new();
         if given.falls() {
             weight.resize(model.coordinates, 0.0);
-            let [_, up] = model.influence.of_all(model.coordinates);
+            let up = model.influence.of(UP, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
-        let elements = std::mem::take(&mut parts.elements);
+        let elements = parts.elements.clone();
+        let [x, y] = parts.moment_center;
+        let middles = (0..elements.len()).map(|element| elements.middle(element));
+        let arms: Vec<_> = middles.map(|middle| [middle[0] - x, middle[1] - y]).collect();
         Self {
             time_step,
             coefficients,
@@ -110,7 +133,8 @@ impl Scene {
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows: given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
             probes: std::mem::take(&mut given.probes),
-            arms: elements.iter().map(|e| e.center() - parts.moment_center).collect(),
+            foundation_arms: foundation_arms(&base, &elements, &arms),
+            arms,
             elements,
             model,
             base,
@@ -154,7 +178,7 @@ impl Scene {
         &self,
         displacement: &mut [f64],
         means: &mut [f64],
-        translations: impl Iterator<Item = [f64; 2]> + Clone,
+        translations: impl Iterator<Item = [f64; 3]> + Clone,
     ) {
         self.base.means(displacement, means);
         let influence = &self.model.influence;
@@ -163,7 +187,7 @@ impl Scene {
         let first = parts().zip(translations.clone()).find(|((_, joined), _)| **joined);
         let first = first.map(|((part, _), y)| (mean(part), y));
         let shifts = parts().zip(translations).map(|((part, joined), y)| match first {
-            Some((own, reference)) if *joined => [0, 1].map(|k| (y[k] - reference[k]) - own[k]),
+            Some((own, reference)) if *joined => [0, 1, 2].map(|k| (y[k] - reference[k]) - own[k]),
             _ => mean(part).map(|own| -own),
         });
         influence.translate(1.0, shifts, displacement);

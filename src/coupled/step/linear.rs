@@ -37,10 +37,10 @@ pub(super) struct LinearStep {
 
 impl LinearStep {
     pub(super) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
-        let (n, count) = (scene.model.coordinates, scene.count());
+        let n = scene.model.coordinates;
         Self {
             operators,
-            contact: ContactSolver::new(count),
+            contact: ContactSolver::new(scene.layout()),
             search,
             known: vec![0.0; n],
             free_jump: vec![0.0; scene.layout().len()],
@@ -152,6 +152,9 @@ impl LinearStep {
         (increment.trials, increment.method) = (trials, method);
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);
+        for (own, new) in increment.across.iter_mut().zip(&contact.across) {
+            own.copy_from_slice(new);
+        }
         Ok(())
     }
 }

@@ -29,11 +29,11 @@ pub(crate) struct Forcing {
     pub(crate) load: Vec<f64>,
     /// Whether there is any.
     pub(crate) loaded: bool,
-    /// Free field at the end of the step, less that at t = 0, 2Q.
+    /// Free field at the end of the step, less that at t = 0, 2Q or 3Q.
     pub(crate) free_field: Vec<f64>,
-    /// The same less the translation y of the part above, 2Q.
+    /// The same less the translation y of the part above, likewise.
     pub(crate) distortion: Vec<f64>,
-    /// Convolution history of the soil at the end of the step, 2Q.
+    /// Convolution history of the soil at the end of the step, likewise.
     pub(crate) history: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
@@ -88,7 +88,7 @@ impl Forcing {
         for ((part, now), last) in influence.parts().iter().zip(&mut self.translations).zip(last) {
             let displacement = part.mean(&scene.base, &self.free_field);
             *now = last.next(displacement, &scene.coefficients);
-            part.subtract(displacement, &mut self.distortion);
+            part.subtract(scene.layout(), displacement, &mut self.distortion);
         }
         self.carried.fill(0.0);
         let increments = self.translations.iter().map(|translation| translation.increment);
@@ -133,10 +133,12 @@ pub(crate) struct Increment {
     /// Total velocity and acceleration at the end of the step.
     pub(crate) velocity: Vec<f64>,
     pub(crate) acceleration: Vec<f64>,
-    /// Change of traction against the static state, 2Q.
+    /// Change of traction against the static state, 2Q or 3Q.
     pub(crate) traction: Vec<f64>,
     /// Openings and total tractions at the end, per element.
     pub(crate) contact: Vec<ContactState>,
+    /// In plan: slip and shear traction along y at the end, per element.
+    pub(crate) across: [Vec<f64>; 2],
     /// Mode of each element.
     pub(crate) modes: Vec<Mode>,
     /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
@@ -166,6 +168,7 @@ impl Increment {
             acceleration: vec![0.0; n],
             traction: vec![0.0; scene.layout().len()],
             contact: vec![ContactState::default(); count],
+            across: [state.slip_across.clone(), state.shear_across.clone()],
             modes: vec![Mode::Stick; count],
             compliance: vec![[0.0; 2]; compliant],
             memory: state.start.memory().to_vec(),

@@ -242,7 +242,7 @@ impl Newton {
         let translations = forcing
             .translations
             .iter()
-            .map(|y| [0, 1].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
+            .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
         scene.seen_by_force(&mut self.seen, &mut linear.means, translations);
         increment.force.fill(0.0);
         if let Some(own) = structure.nonlinear() {

@@ -4,7 +4,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use crate::error::{Error, Result, finite, not_negative, same_length};
-use crate::geometry::{COMPONENTS, ContactElement, ContactLayout};
+use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
 /// Coefficients behind a window of W lags: at lag W + 1 + a, a = 0, 1, …, those of receiver p and
@@ -130,7 +130,7 @@ pub(super) struct Tail {
     decay: Vec<f64>,
     /// Of normal and tangential components, per function: Σ decay^age · moment, for the poles that
     /// have this function.
-    states: [Vec<Vec<f64>>; COMPONENTS],
+    states: [Vec<Vec<f64>>; PLANE],
     moments: Vec<f64>,
     amplitudes: Vec<f64>,
 }
@@ -151,8 +151,7 @@ impl Tail {
         Ok(Self {
             lengths: elements.iter().map(ContactElement::length).collect(),
             decay: data.rates().iter().map(|rate| (-rate).exp()).collect(),
-            states: [(); COMPONENTS]
-                .map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
+            states: [(); PLANE].map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
             moments: vec![0.0; functions],
             amplitudes: vec![0.0; functions],
             data,
@@ -195,11 +194,11 @@ impl Tail {
 
     /// One step on: all that is held decays, `leaving` (2Q) leaves the window and comes in.
     pub(super) fn advance(&mut self, leaving: Option<&[f64]>) {
-        let layout = ContactLayout::new(self.lengths.len());
+        let layout = ContactLayout::new(PLANE, self.lengths.len());
         for (part, states) in self.states.iter_mut().enumerate() {
             self.moments.fill(0.0);
             if let Some(traction) = leaving {
-                let traction = layout.split(traction)[part];
+                let traction = layout.split::<_, PLANE>(traction)[part];
                 for (moment, means) in self.moments.iter_mut().zip(self.data.functions()) {
                     for ((traction, length), mean) in traction.iter().zip(&self.lengths).zip(means)
                     {
@@ -213,7 +212,8 @@ impl Tail {
 
     /// Adds what the tail gives at the end of the next step.
     pub(super) fn add(&mut self, displacement: &mut [f64]) {
-        let parts = ContactLayout::new(self.lengths.len()).split_mut(displacement);
+        let parts: [_; PLANE] =
+            ContactLayout::new(PLANE, self.lengths.len()).split_mut(displacement);
         for (part, (states, displacement)) in self.states.iter().zip(parts).enumerate() {
             let amplitudes = self.amplitudes.as_mut_slice();
             vectorized(Answer { states, products: self.data.products(), part, amplitudes });
@@ -227,10 +227,10 @@ impl Tail {
 
     /// Σ weights · `factor` over the poles, for each function with each (functions × functions), of
     /// normal and tangential components.
-    fn sum(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; COMPONENTS] {
+    fn sum(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; PLANE] {
         let functions = self.functions();
         let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
-        let mut sums = [(); COMPONENTS].map(|()| vec![0.0; functions * functions]);
+        let mut sums = [(); PLANE].map(|()| vec![0.0; functions * functions]);
         for product in self.data.products() {
             let [i, j] = product.functions;
             for (part, sum) in sums.iter_mut().enumerate() {
@@ -246,12 +246,12 @@ impl Tail {
     }
 
     /// The sums at the `age`-th lag of the tail, from 0.
-    pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; COMPONENTS] {
+    pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; PLANE] {
         self.sum(|pole| (-self.data.rates()[pole] * age).exp())
     }
 
     /// The sums of Re Σ (1−ζ) ζ^W z^n ζ^n, ζ = e^(iω) and z the decay, over all ages n.
-    pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; COMPONENTS] {
+    pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; PLANE] {
         let half = 0.5 * omega;
         let (sine, square) = (omega.sin(), 2.0 * half.sin() * half.sin());
         let (turn_re, turn_im) = ((window * omega).cos(), (window * omega).sin());

@@ -3,7 +3,9 @@
 use super::{Hysteresis, InternalEnergy};
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
-use crate::structure::{ContactNode, DofCombination, NonlinearForce, Structure, Triplets};
+use crate::structure::{
+    ContactNode, DofCombination, FaceNode, NonlinearForce, Structure, Triplets,
+};
 
 /// A spring and the deformation l·u that it sees.
 #[derive(Clone)]
@@ -184,6 +186,7 @@ impl Structure for WithSprings {
         fn dofs(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
+        fn contact_faces(&self) -> Vec<Vec<FaceNode>>;
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;

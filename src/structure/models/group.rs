@@ -69,9 +69,14 @@ impl StructureGroup {
     ///
     /// # Errors
     /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the
-    /// one before ends; [`Error::Size`] for a structure without contact nodes.
+    /// one before ends; [`Error::Size`] for a structure without contact nodes, [`Error::Scene`] for one
+    /// with faces.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
+        if !structure.contact_faces().is_empty() {
+            let needed = "must have a base of contact nodes in the plane, not of faces in plan";
+            return Err(Error::Scene { quantity: "structure of a group", needed });
+        }
         let nodes = structure.contact_nodes();
         let (Some(left), Some(right)) = (nodes.first(), nodes.last()) else {
             let quantity = "list of contact nodes";

@@ -4,7 +4,7 @@ use crate::error::{Error, Result, finite, not_negative, positive, same_length};
 use crate::linalg::SparseMatrix;
 use crate::structure::detached::{check_damping, check_mass};
 use crate::structure::{
-    ContactNode, DofCombination, RayleighDamping, Structure, Triplets, check_contact_nodes,
+    ContactNode, DofCombination, RayleighDamping, Structure, Triplets, check_base_nodes, on_line,
 };
 
 /// Rigid body with a flat base: degrees of freedom `[u_x, u_y, θ]` at the middle of the base.
@@ -200,7 +200,7 @@ impl MatrixModel {
         let inertia = SparseMatrix::new("mass matrix", &mass)?;
         check_mass(&inertia)?;
         check("stiffness matrix", &stiffness, order)?;
-        check_contact_nodes(&contact, order)?;
+        check_base_nodes(&on_line(contact.clone()), order)?;
         Ok(Self { mass, damping: Triplets::new(order), stiffness, contact, active: false })
     }
 

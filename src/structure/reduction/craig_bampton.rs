@@ -14,7 +14,7 @@ use crate::error::{Error, Result, damping_ratio, memory};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{SYMMETRIC, check_attached, numbers};
 use crate::structure::nonlinear::is_nonlinear;
-use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
+use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 
 /// Craig & Bampton's reduction (1968): the contact nodes and any degrees of freedom that are to be kept, and a
 /// number of modes of the rest with these held.
@@ -53,6 +53,7 @@ pub struct CraigBampton {
 pub struct ReducedModel {
     basis: Arc<Basis>,
     contact: Vec<ContactNode>,
+    faces: Vec<Vec<FaceNode>>,
     foundation_ends: Vec<usize>,
     /// Row-major, of the order of the reduced model.
     mass: Vec<f64>,
@@ -118,8 +119,7 @@ impl CraigBampton {
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
 
-        let contact = structure.contact_nodes();
-        let parts = Parts::new(n, &contact, &self.kept)?;
+        let parts = Parts::new(n, &base_nodes(&structure), &self.kept)?;
         check_attached(&structure, &stiffness, &mass, &parts.kept)?;
         let interior = parts.interior.len();
         if self.modes > interior {
@@ -130,12 +130,23 @@ impl CraigBampton {
         let basis = Basis::new(parts.kept.clone(), rows, n);
         let order = basis.order();
         let kept = parts.kept.len();
-        let contact = contact.iter().map(|node| parts.renumbered(node)).collect();
+        let contact = structure.contact_nodes().into_iter();
+        let contact = contact.map(|ContactNode { x, horizontal, vertical }| {
+            let [horizontal, vertical] = [horizontal, vertical].map(|row| parts.renumbered(&row));
+            ContactNode { x, horizontal, vertical }
+        });
+        let mut faces = structure.contact_faces();
+        for node in faces.iter_mut().flatten() {
+            for row in [&mut node.horizontal, &mut node.across, &mut node.vertical] {
+                *row = parts.renumbered(row);
+            }
+        }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
             damping: basis.congruence(&damping),
             stiffness: basis.congruence(&stiffness),
-            contact,
+            contact: contact.collect(),
+            faces,
             frequencies: squares.iter().map(|square| square.sqrt()).collect(),
             foundation_ends: structure.foundation_ends(),
             active: structure.has_active_damping(),
@@ -164,9 +175,8 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(n: usize, contact: &[ContactNode], more: &[usize]) -> Result<Self> {
-        let of_contact =
-            contact.iter().flat_map(|node| node.horizontal.iter().chain(&node.vertical));
+    fn new(n: usize, contact: &[FaceNode], more: &[usize]) -> Result<Self> {
+        let of_contact = contact.iter().flat_map(FaceNode::rows).flatten();
         let mut is_kept = vec![false; n];
         for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
             let bound = n;
@@ -194,9 +204,8 @@ impl Parts {
         Ok(Self { kept, interior, place, is_kept })
     }
 
-    fn renumbered(&self, node: &ContactNode) -> ContactNode {
-        let row = |row: &DofCombination| row.map_dofs(|index| self.place[index]);
-        ContactNode { x: node.x, horizontal: row(&node.horizontal), vertical: row(&node.vertical) }
+    fn renumbered(&self, row: &DofCombination) -> DofCombination {
+        row.map_dofs(|index| self.place[index])
     }
 
     /// A_ii.
@@ -309,6 +318,10 @@ impl Structure for ReducedModel {
 
     fn foundation_ends(&self) -> Vec<usize> {
         self.foundation_ends.clone()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.faces.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -160,6 +160,16 @@ impl Ground for Double {
         &[ContactElement { left: 0.0, right: 1.0 }]
     }
 
+    fn directions(&self) -> usize {
+        self.0.asked("directions");
+        3
+    }
+
+    fn depth(&self, element: usize) -> [f64; 2] {
+        self.0.asked("depth");
+        [CORRECT, element as f64]
+    }
+
     fn prepare(&mut self, _: f64) -> Result<()> {
         self.0.asked("prepare");
         Err(refusal())
@@ -233,6 +243,11 @@ impl FreeField for Double {
     fn displacement(&self, x: f64, _: f64) -> [f64; 2] {
         self.0.asked("displacement");
         [x, CORRECT]
+    }
+
+    fn displacement_at(&self, [x, y]: [f64; 2], _: f64) -> [f64; 3] {
+        self.0.asked("displacement_at");
+        [x, y, CORRECT]
     }
 
     fn velocity(&self, x: f64, _: f64) -> [f64; 2] {

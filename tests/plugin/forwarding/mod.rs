@@ -78,7 +78,8 @@ fn boxed_laws() {
 fn boxed_grounds() {
     fn ask(mut part: impl Ground) {
         let mut matrix = [0.0; 4];
-        assert_eq!(part.elements().len(), 1);
+        assert_eq!((part.elements().len(), part.directions()), (1, 3));
+        assert_eq!(part.depth(4), [CORRECT, 4.0]);
         assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
         assert_eq!(part.expect_steps(3, None), Err(doubles::refusal()));
         part.step_compliance(&mut matrix).unwrap();
@@ -106,6 +107,7 @@ fn boxed_grounds() {
 fn boxed_motions() {
     fn ask(part: impl FreeField) {
         assert_eq!(part.displacement(3.0, 1.0), [3.0, CORRECT]);
+        assert_eq!(part.displacement_at([3.0, 2.0], 1.0), [3.0, 2.0, CORRECT]);
         assert_eq!(part.velocity(3.0, 1.0), [CORRECT, 3.0]);
     }
     let log = Log::default();

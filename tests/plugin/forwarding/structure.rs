@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use basemat::structure::{
-    ContactNode, CraigBampton, InternalEnergy, ModalDamping, NonlinearForce, Structure,
+    ContactNode, CraigBampton, FaceNode, InternalEnergy, ModalDamping, NonlinearForce, Structure,
     StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result};
@@ -41,6 +41,11 @@ impl Structure for Double {
     fn foundation_ends(&self) -> Vec<usize> {
         self.log.asked("foundation_ends");
         vec![1]
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.log.asked("contact_faces");
+        Vec::new()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
@@ -128,6 +133,7 @@ impl NonlinearForce for Double {
 /// Asks all there is to ask; `damping` as it should come out on the diagonal at the degree of freedom `place`.
 fn ask(mut part: impl Structure, place: usize, damping: f64) {
     let ends = part.foundation_ends();
+    assert!(part.contact_faces().is_empty());
     assert_eq!((part.dofs(), part.contact_nodes().len(), ends), (4, 4, vec![1]));
     let diagonal = |fill: &dyn Fn(&mut Triplets) -> Result<()>| {
         let mut matrix = Triplets::new(4);

@@ -1,0 +1,155 @@
+//! Faces of a base in plan, and the mean of its displacement over a contact element.
+
+use crate::bem::plan::faces::Face;
+use crate::error::{Error, Result};
+use crate::geometry::Patch;
+use crate::structure::FaceNode;
+
+/// Distance of the points of Gauss' rule from the middle of an interval, of its length: 1/(2√3).
+const GAUSS: f64 = 0.288_675_134_594_812_9;
+/// Newton's steps to the coordinates of a point within a quadrilateral, and their last, relative to its size.
+const ITERATIONS: usize = 50;
+const CONVERGED: f64 = 1e-14;
+/// Area of a triangle that is none, relative to the square of its longest side.
+const NO_AREA: f64 = 1e-12;
+
+type Point = [f64; 2];
+
+/// All faces, in triangles and quadrilaterals.
+pub(super) struct Faces<'a> {
+    nodes: &'a [FaceNode],
+    /// Corners of each, in order.
+    pieces: Vec<Vec<usize>>,
+}
+
+impl<'a> Faces<'a> {
+    /// Faces with so many corners each, whose `nodes` follow one another.
+    pub(super) fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
+        let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
+        for (number, &count) in faces.iter().enumerate() {
+            let own: Vec<usize> = (first..first + count).collect();
+            Face::new(number, &all.corners(&own))?;
+            if count <= 4 {
+                all.pieces.push(own);
+            } else {
+                let fan = own[1..].windows(2).map(|side| vec![own[0], side[0], side[1]]);
+                let fan: Vec<_> = fan.filter(|triangle| all.has_area(triangle)).collect();
+                all.pieces.extend(fan);
+            }
+            first += count;
+        }
+        Ok(all)
+    }
+
+    fn corners(&self, piece: &[usize]) -> Vec<Point> {
+        piece.iter().map(|&node| [self.nodes[node].x, self.nodes[node].y]).collect()
+    }
+
+    fn has_area(&self, triangle: &[usize]) -> bool {
+        let corners = self.corners(triangle);
+        let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
+        spanned([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
+    }
+
+    /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points. A point outside all faces continues the
+    /// displacement of the nearest one; one that is farther off than half a side is an error.
+    pub(super) fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
+        let ([x, y], sides) = (patch.middle(element), patch.sides(element));
+        let reach = 0.5 * sides[0].max(sides[1]);
+        let mut weights = Vec::with_capacity(16);
+        for [right, away] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+            let point = [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]];
+            let (piece, corners, value) = self.nearest(point);
+            let refuse = |value, needed| {
+                let quantity = "distance of a contact element from the faces of the base, m";
+                Err(Error::Input { quantity, value, needed })
+            };
+            if value.is_nan() || value > reach {
+                return refuse(
+                    value,
+                    "half an element or less: all lie under the structure's base",
+                );
+            }
+            let Some(shares) = shares(&corners, point) else {
+                return refuse(value, "zero beside a face of this shape");
+            };
+            weights.extend(piece.iter().zip(shares).map(|(&node, share)| (node, 0.25 * share)));
+        }
+        Ok(weights)
+    }
+
+    /// The piece nearest to a point, its corners, and its distance.
+    fn nearest(&self, point: Point) -> (&[usize], Vec<Point>, f64) {
+        let mut found: (&[usize], Vec<Point>, f64) = (&[], Vec::new(), f64::INFINITY);
+        for piece in &self.pieces {
+            let corners = self.corners(piece);
+            let distance = outside(&corners, point);
+            if distance < found.2 {
+                found = (piece, corners, distance);
+            }
+            if distance == 0.0 {
+                break;
+            }
+        }
+        found
+    }
+}
+
+/// Twice the area to the left of the line from a to b that p spans with it.
+fn spanned([a, b]: [Point; 2], p: Point) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Distance of a point from a convex polygon; zero within.
+fn outside(corners: &[Point], p: Point) -> f64 {
+    let edges = || (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
+    let sides = || edges().map(|edge| spanned(edge, p));
+    if sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0) {
+        return 0.0;
+    }
+    let from = |[a, b]: [Point; 2]| {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let square = along[0] * along[0] + along[1] * along[1];
+        let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
+        let share = share.clamp(0.0, 1.0);
+        distance(p, [a[0] + share * along[0], a[1] + share * along[1]])
+    };
+    edges().map(from).fold(f64::INFINITY, f64::min)
+}
+
+/// Shares of the corners in the displacement of a point: linear over a triangle, bilinear over a quadrilateral, and
+/// continued beyond; `None` where that is not possible.
+fn shares(corners: &[Point], p: Point) -> Option<Vec<f64>> {
+    if let [a, b, c] = *corners {
+        let all = spanned([a, b], c);
+        let [one, two] = [spanned([b, c], p) / all, spanned([c, a], p) / all];
+        return Some(vec![one, two, 1.0 - one - two]);
+    }
+    let [a, b, c, d] = *corners else { return None };
+    let blend = |weights: [f64; 4], k: usize| {
+        weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k]
+    };
+    // Coordinates s, t from 0 to 1 within.
+    let [mut s, mut t] = [0.5_f64; 2];
+    for _ in 0..ITERATIONS {
+        let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
+        let rest = [0, 1].map(|k| p[k] - blend(weights, k));
+        let by_s = [0, 1].map(|k| blend([t - 1.0, 1.0 - t, t, -t], k));
+        let by_t = [0, 1].map(|k| blend([s - 1.0, -s, s, 1.0 - s], k));
+        let determinant = by_s[0] * by_t[1] - by_s[1] * by_t[0];
+        let ds = (rest[0] * by_t[1] - rest[1] * by_t[0]) / determinant;
+        let dt = (by_s[0] * rest[1] - by_s[1] * rest[0]) / determinant;
+        (s, t) = (s + ds, t + dt);
+        if !(s.is_finite() && t.is_finite()) {
+            return None;
+        }
+        if ds.abs().max(dt.abs()) <= CONVERGED * s.abs().max(t.abs()).max(1.0) {
+            return Some(vec![(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]);
+        }
+    }
+    None
+}

@@ -1,0 +1,155 @@
+//! Points of a structure's base: nodes of a line in the plane, corners of faces in plan.
+
+use std::ops::Range;
+
+use super::{DofCombination, Structure};
+use crate::error::{Error, Result, finite};
+use crate::geometry::{PLANE, SPACE};
+
+/// A point of the base: where it is, and how the degrees of freedom move it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct ContactNode {
+    /// Coordinate along the surface, m.
+    pub x: f64,
+    /// Horizontal displacement (to the right) as a weighted sum of degrees of freedom.
+    pub horizontal: DofCombination,
+    /// Vertical displacement (up) as a weighted sum of degrees of freedom.
+    pub vertical: DofCombination,
+}
+
+impl ContactNode {
+    /// A node with a horizontal and a vertical unknown of its own.
+    pub fn free(x: f64, horizontal: usize, vertical: usize) -> Self {
+        Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
+    }
+
+    /// A point of a rigid flat base with degrees of freedom `[horizontal, vertical, rotation]` at `center`.
+    pub fn rigid(x: f64, center: f64, dofs: [usize; 3]) -> Self {
+        let [horizontal, vertical, rotation] = dofs;
+        Self {
+            x,
+            horizontal: horizontal.into(),
+            vertical: [(vertical, 1.0), (rotation, x - center)].into(),
+        }
+    }
+
+    /// The two ends of a rigid flat base from `left` to `right`, degrees of freedom at its middle.
+    pub fn rigid_base(left: f64, right: f64, dofs: [usize; 3]) -> Vec<Self> {
+        let center = 0.5 * (left + right);
+        vec![Self::rigid(left, center, dofs), Self::rigid(right, center, dofs)]
+    }
+}
+
+/// A corner of a face of a base in plan: where it is, and how the degrees of freedom move it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct FaceNode {
+    /// Coordinate along the surface to the right, m.
+    pub x: f64,
+    /// Coordinate along the surface away from the reader, m.
+    pub y: f64,
+    /// Displacement along x as a weighted sum of degrees of freedom.
+    pub horizontal: DofCombination,
+    /// Displacement along y as a weighted sum of degrees of freedom.
+    pub across: DofCombination,
+    /// Vertical displacement (up) as a weighted sum of degrees of freedom.
+    pub vertical: DofCombination,
+}
+
+impl FaceNode {
+    /// A point `[x, y]` (m) of a rigid flat base with degrees of freedom at `center`: displacements along x, along y
+    /// and up, and rotations about the same axes by the right-hand rule.
+    pub fn rigid([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
+        let [along, across, up, about_x, about_y, about_z] = dofs;
+        let [dx, dy] = [x - center[0], y - center[1]];
+        Self {
+            x,
+            y,
+            horizontal: [(along, 1.0), (about_z, -dy)].into(),
+            across: [(across, 1.0), (about_z, dx)].into(),
+            vertical: [(up, 1.0), (about_x, dy), (about_y, -dx)].into(),
+        }
+    }
+
+    /// Displacements to the right, upwards and away; a node of the plane has none of the last.
+    pub(crate) fn rows(&self) -> [&DofCombination; 3] {
+        [&self.horizontal, &self.vertical, &self.across]
+    }
+
+    /// Number of directions in which it moves: two in the plane.
+    pub(crate) fn directions(&self) -> usize {
+        if self.across.is_empty() { PLANE } else { SPACE }
+    }
+
+    /// The degrees of freedom that move it.
+    pub(crate) fn dofs(&self) -> impl Iterator<Item = usize> {
+        let terms = self.rows().into_iter().flatten();
+        terms.filter(|(_, weight)| *weight != 0.0).map(|(unknown, _)| *unknown)
+    }
+
+    /// Refuses a place and weights that are not finite, and degrees of freedom at `bound` or beyond.
+    fn check(&self, bound: usize) -> Result<()> {
+        finite("coordinate of a contact node", self.x)?;
+        finite("coordinate of a contact node", self.y)?;
+        for &(index, weight) in self.rows().into_iter().flatten() {
+            finite("weight of a contact node", weight)?;
+            if index >= bound {
+                let quantity = "unknown of a contact node";
+                return Err(Error::Index { quantity, index, bound });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl From<ContactNode> for FaceNode {
+    /// A node of the plane, which nothing moves along y.
+    fn from(node: ContactNode) -> Self {
+        let ContactNode { x, horizontal, vertical } = node;
+        Self { x, y: 0.0, horizontal, across: DofCombination::default(), vertical }
+    }
+}
+
+/// The points by which a structure touches the ground: the nodes of its line, or the corners of all faces.
+pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<FaceNode> {
+    let faces = structure.contact_faces();
+    if faces.is_empty() { on_line(structure.contact_nodes()) } else { faces.concat() }
+}
+
+/// Nodes of the plane.
+pub(crate) fn on_line(nodes: Vec<ContactNode>) -> Vec<FaceNode> {
+    nodes.into_iter().map(FaceNode::from).collect()
+}
+
+/// Refuses too few nodes, places and weights that are not finite, and degrees of freedom that there are not.
+pub(crate) fn check_base_nodes(nodes: &[FaceNode], dofs: usize) -> Result<()> {
+    if nodes.len() < 2 {
+        let quantity = "list of contact nodes";
+        return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
+    }
+    nodes.iter().try_for_each(|node| node.check(dofs))
+}
+
+/// Contact nodes of each foundation, for `count` nodes in all and those that are the last of a
+/// foundation, the very last excepted; two or more each.
+pub(crate) fn foundation_nodes(count: usize, ends: &[usize]) -> Result<Vec<Range<usize>>> {
+    let mut first = 0;
+    let mut all = Vec::with_capacity(ends.len() + 1);
+    for last in ends.iter().copied().chain([count.saturating_sub(1)]) {
+        if last >= count.max(1) {
+            let quantity = "last contact node of a foundation";
+            return Err(Error::Index { quantity, index: last, bound: count });
+        }
+        if last <= first {
+            let quantity = "list of contact nodes of a foundation";
+            let found = (last + 1).saturating_sub(first).min(count);
+            return Err(Error::Size { quantity, found, needed: 2 });
+        }
+        all.push(first..last + 1);
+        first = last + 1;
+    }
+    Ok(all)
+}
