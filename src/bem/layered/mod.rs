@@ -38,6 +38,8 @@ pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub(super) use kept::{KeptBlocks, copy_lags, last_block, threads};
 pub use kernel::LayeredKernel;
 pub(super) use kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
+#[cfg(test)]
+pub(super) use passivity::margin;
 pub(super) use passivity::{POINTS as GATE_POINTS, check as passive};
 pub use runge_kutta::Stages;
 pub(super) use runge_kutta::on_circle;

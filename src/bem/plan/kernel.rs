@@ -1,11 +1,11 @@
 //! Step coefficients of a ground under cells of a lattice.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use super::integrals::Integrals;
 use crate::bem::layered::{
-    Block, Compliances, GATE_POINTS, KeptBlocks, Quadrature, Samples, Stages, copy_lags,
-    last_block, on_circle, passive, threads,
+    Block, GATE_POINTS, KeptBlocks, Quadrature, Samples, Stages, copy_lags, last_block, on_circle,
+    passive, threads,
 };
 use crate::error::{Error, Observer, Result, Watch, memory, positive};
 use crate::geometry::{Lattice, SERIES};
@@ -205,3 +205,6 @@ const NOT_IN_PLAN: Error = Error::Scene {
     quantity: "kernel of a ground in plan",
     needed: "`coefficients_in_plan` of cells of a lattice",
 };
+
+#[cfg(test)]
+mod tests;
