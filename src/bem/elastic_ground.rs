@@ -7,11 +7,12 @@ use super::layered::{
     Cost, LIMIT, LayeredKernel, Stages, StripContact, StripImpedance, TOLERANCE, check_limit,
     check_tolerance, rigid_strip_impedances, rigid_strip_impedances_observed, static_compliance,
 };
+use super::plan::{self, LatticeKernel, Plan};
 use super::{
     Grading, Ground, PatchKernel, SharedKernels, StaticKernel, Strip, WeightsGround, WeightsSource,
 };
-use crate::error::{Observer, Result, positive};
-use crate::geometry::{ContactElement, check_order};
+use crate::error::{Error, Observer, Result, positive};
+use crate::geometry::{ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};
@@ -86,6 +87,8 @@ short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
 #[derive(Debug, Clone)]
 struct ElasticSource {
     profile: SoilProfile,
+    /// Cells under mats, in place of strips.
+    plan: Option<Plan>,
     stages: Option<Stages>,
     tolerance: f64,
     file: Option<PathBuf>,
@@ -96,7 +99,8 @@ impl ElasticSource {
     /// The stages for steps of `time_step` seconds; `None` for the closed form.
     fn stages(&self, time_step: f64) -> Option<Stages> {
         let by_rule = || Stages::for_profile(&self.profile, time_step);
-        let closed = self.stages.is_none() && self.profile.is_elastic_half_plane();
+        let strips = self.plan.is_none();
+        let closed = strips && self.stages.is_none() && self.profile.is_elastic_half_plane();
         (!closed).then(|| self.stages.unwrap_or_else(by_rule))
     }
 
@@ -120,6 +124,12 @@ impl WeightsSource for ElasticSource {
         elements: &[ContactElement],
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
+        if let Some(plan) = &self.plan {
+            let stages = self.stages(time_step).unwrap_or_default();
+            let (sizes, file) = ([time_step, self.tolerance], self.file.clone());
+            let kernel = LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)?;
+            return Ok(Arc::new(kernel));
+        }
         match (self.stages(time_step), self.profile.base()) {
             (None, Base::HalfPlane { soil, .. }) => {
                 Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
@@ -135,6 +145,9 @@ impl WeightsSource for ElasticSource {
     }
 
     fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        if let Some(plan) = &self.plan {
+            return plan::static_compliance(&self.profile, plan, self.tolerance, matrix);
+        }
         match self.profile.base() {
             Base::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
                 StaticKernel::under(*soil, elements)?.compliance(elements, matrix)
@@ -154,6 +167,7 @@ impl WeightsSource for ElasticSource {
         let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
         numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
         numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
+        numbers.extend(self.plan.iter().flat_map(Plan::identity));
         numbers.extend(self.profile.identity()?);
         Some(numbers)
     }
@@ -175,8 +189,42 @@ impl ElasticGround {
         let profile = profile.into();
         profile.check()?;
         let (tolerance, limit) = (TOLERANCE, LIMIT);
-        let source = ElasticSource { profile, stages: None, tolerance, file: None, limit };
+        let (plan, stages, file) = (None, None, None);
+        let source = ElasticSource { profile, plan, stages, tolerance, file, limit };
         let ground = WeightsGround::new(source.clone(), elements)?;
+        Ok(Self { source, used: None, ground })
+    }
+
+    /// Ground of a [`Soil`] or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`]: each is a contact
+    /// element with three directions. A profile's half-plane is a half-space then. Cells are coupled through the soil,
+    /// those of several mats too.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::bem::plan::Plan;
+    /// use basemat::bem::{ElasticGround, Ground};
+    /// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    /// let mut ground = ElasticGround::in_plan(soil, Plan::rectangle(-5.0..5.0, -5.0..5.0, 4)?)?;
+    /// ground.prepare(1.0e-3)?;
+    /// let mut matrix = vec![0.0; 48 * 48];
+    /// ground.step_compliance(&mut matrix)?;
+    /// // Before waves reach the next cell, a pressure moves the surface by p·t/(ρ c₁), but for the edges.
+    /// let plane_wave = 1.0e-3 / (1900.0 * soil.pressure_wave_speed());
+    /// assert!((matrix[0] / plane_wave - 1.0).abs() < 0.5);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
+    /// more cells than matrices between them allow.
+    pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
+        check_count(plan.count())?;
+        let profile = profile.into();
+        profile.check()?;
+        let (elements, depths) = plan.sides();
+        let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
+        let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
+        let ground = WeightsGround::in_plan(source.clone(), elements, depths);
         Ok(Self { source, used: None, ground })
     }
 
@@ -255,7 +303,7 @@ impl ElasticGround {
     }
 
     /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
-    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form, and for cells in plan, of which it is not known.
     ///
     /// ```
     /// use basemat::Soil;
@@ -275,7 +323,8 @@ impl ElasticGround {
     /// As for [`LayeredKernel::cost`]; [`Error::Input`](crate::Error::Input) for a bad time step.
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
-        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
+        let stages = self.source.stages(time_step).filter(|_| self.source.plan.is_none());
+        let Some(stages) = stages else { return Ok(Cost::default()) };
         let kernel = self.source.layered(self.elements(), time_step, stages)?;
         // Convolutions take lags by powers of two.
         kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
@@ -311,7 +360,7 @@ impl ElasticGround {
         frequencies: &[f64],
         contact: StripContact,
     ) -> Result<Vec<StripImpedance>> {
-        rigid_strip_impedances(self.profile(), self.elements(), frequencies, contact)
+        rigid_strip_impedances(self.profile(), self.strips()?, frequencies, contact)
     }
 
     /// The same, with an observer.
@@ -324,8 +373,19 @@ impl ElasticGround {
         contact: StripContact,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        let (profile, elements) = (self.profile(), self.elements());
+        let (profile, elements) = (self.profile(), self.strips()?);
         rigid_strip_impedances_observed(profile, elements, frequencies, contact, observer)
+    }
+
+    /// The elements, if they are strips.
+    fn strips(&self) -> Result<&[ContactElement]> {
+        match self.source.plan {
+            None => Ok(self.elements()),
+            Some(_) => Err(Error::Scene {
+                quantity: "ground in plan",
+                needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
+            }),
+        }
     }
 
     /// The profile.
@@ -338,6 +398,8 @@ impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
+        fn directions(&self) -> usize;
+        fn depth(&self, element: usize) -> [f64; 2];
         fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Ground, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Error, Observer, Result};
-use crate::geometry::{ContactElement, check_order};
+use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
     HistoryOptions, RESERVED_STEPS, SavedChoice,
@@ -106,6 +106,8 @@ use crate::history::{
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
+    /// Front and back ends of elements in plan, m.
+    depths: Option<Vec<[f64; 2]>>,
     options: HistoryOptions,
     own_history: Option<Box<MakeHistory>>,
     shared: SharedKernels,
@@ -188,7 +190,25 @@ impl WeightsGround {
         check_order(&elements)?;
         let (options, shared) = (HistoryOptions::default(), SharedKernels::default());
         let source = Box::new(source);
-        Ok(Self { source, elements, options, own_history: None, shared, prepared: None })
+        let (depths, own_history, prepared) = (None, None, None);
+        Ok(Self { source, elements, depths, options, own_history, shared, prepared })
+    }
+
+    /// The same for elements in plan, whose source knows where they are.
+    pub(super) fn in_plan(
+        source: impl WeightsSource,
+        elements: Vec<ContactElement>,
+        depths: Vec<[f64; 2]>,
+    ) -> Self {
+        Self {
+            source: Box::new(source),
+            elements,
+            depths: Some(depths),
+            options: HistoryOptions::default(),
+            own_history: None,
+            shared: SharedKernels::default(),
+            prepared: None,
+        }
     }
 
     /// With other options of its history, or another method alone.
@@ -238,6 +258,14 @@ impl WeightsGround {
 impl Ground for WeightsGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
+    }
+
+    fn directions(&self) -> usize {
+        if self.depths.is_some() { SPACE } else { PLANE }
+    }
+
+    fn depth(&self, element: usize) -> [f64; 2] {
+        self.depths.as_ref().and_then(|depths| depths.get(element)).map_or([0.0, 1.0], |ends| *ends)
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {

@@ -68,6 +68,11 @@ pub trait ConvolutionHistory: Send {
 pub(super) trait ExactHistory: ConvolutionHistory {
     /// Overwrites `traction` with the input of `step`, one of those accepted.
     fn traction(&mut self, step: usize, traction: &mut [f64]);
+
+    /// Whether memory has ended, and grows no more.
+    fn has_ended(&self) -> bool {
+        false
+    }
 }
 
 /// Error unless `values` are `steps` inputs of `size` each.

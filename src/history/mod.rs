@@ -8,6 +8,7 @@ mod choice;
 mod chosen;
 mod convolution;
 mod exponentials;
+mod last_lag;
 mod pair_classes;
 mod relaxed_fft;
 

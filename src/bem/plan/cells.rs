@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::faces::Face;
 use crate::error::{Error, PlanError, Result, finite, memory, positive};
-use crate::geometry::Lattice;
+use crate::geometry::{ContactElement, Lattice};
+use crate::history::PairClasses;
 
 /// How far outer cells reach beyond the outline, of their side: piecewise constant tractions under a rigid base behave
 /// like a mat whose edge lies so far inside them.
@@ -206,6 +207,30 @@ impl Plan {
     /// their way to the nearest line between cells.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
+    }
+
+    /// Pairs of the cells.
+    pub(super) fn classes(&self) -> Result<PairClasses> {
+        PairClasses::in_plan(self.lattice.clone(), self.cells.clone(), self.corner[0])
+    }
+
+    /// Sides of the cells along x, and front and back ends, m.
+    pub(in crate::bem) fn sides(&self) -> (Vec<ContactElement>, Vec<[f64; 2]>) {
+        let ends = |axis: usize, cell: &[usize; 2]| {
+            [0, 1]
+                .map(|end| self.corner[axis] + self.lattice.pitch[axis] * (cell[axis] + end) as f64)
+        };
+        let along = self.cells.iter().map(|cell| ends(0, cell));
+        let elements = along.map(|[left, right]| ContactElement { left, right }).collect();
+        (elements, self.cells.iter().map(|cell| ends(1, cell)).collect())
+    }
+
+    /// Numbers that say which cells of which lattice they are.
+    pub(in crate::bem) fn identity(&self) -> impl Iterator<Item = f64> {
+        let Lattice { pitch, counts } = &self.lattice;
+        let cells = self.cells.iter().flatten();
+        let counts = counts.iter().chain(cells).map(|count| *count as f64);
+        pitch.iter().copied().chain(self.corner).chain(counts)
     }
 
     /// Area of each cell that is inside the outline, m².

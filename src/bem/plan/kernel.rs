@@ -1,13 +1,15 @@
 //! Step coefficients of a ground under cells of a lattice.
 
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use super::integrals::Integrals;
+use super::cells::Plan;
+use super::integrals::{Integrals, Workspace};
 use crate::bem::layered::{
-    Block, GATE_POINTS, KeptBlocks, Quadrature, Samples, Stages, copy_lags, last_block, on_circle,
-    passive, threads,
+    Block, Compliances, GATE_POINTS, KeptBlocks, Quadrature, Samples, Stages, copy_lags,
+    last_block, on_circle, passive, threads,
 };
-use crate::error::{Error, Observer, Result, Watch, memory, positive};
+use crate::error::{Error, Observer, Result, Watch, memory, positive, same_length};
 use crate::geometry::{Lattice, SERIES};
 use crate::history::{ConvolutionWeights, PairClasses, SharedSpectra};
 use crate::linalg::Complex;
@@ -20,10 +22,27 @@ const SOME_CELLS: usize = 256;
 const REACH_POINTS: usize = 256;
 const REACH_MARGIN: f64 = 1.02;
 
+/// Overwrites `matrix` (3Q × 3Q, row-major, m/Pa) with the mean static displacements of the cells of a plan.
+pub(in crate::bem) fn static_compliance(
+    profile: &SoilProfile,
+    plan: &Plan,
+    tolerance: f64,
+    matrix: &mut [f64],
+) -> Result<()> {
+    let classes = plan.classes()?;
+    same_length("static compliance", matrix.len(), classes.layout().square())?;
+    let (s, mut watch) = (Complex::default(), Watch::nobody());
+    let integrals = Integrals::new(&plan.lattice, profile, [s], tolerance, &mut watch)?;
+    let mut values = vec![[Complex::default(); SERIES]; classes.count()];
+    integrals.compliance(profile, s, &mut Workspace::default(), &mut values)?;
+    classes.scatter(matrix, |_, pair| values[pair.class].map(|value| pair.scale * value.re));
+    Ok(())
+}
+
 /// Step coefficients by Runge–Kutta convolution quadrature, in blocks of lags that are computed when they are needed
 /// first: those of the [layered ground](crate::bem::layered::LayeredKernel), of six kinds.
 #[derive(Debug)]
-pub(super) struct LatticeKernel {
+pub(in crate::bem) struct LatticeKernel {
     profile: SoilProfile,
     lattice: Lattice,
     classes: PairClasses,
@@ -36,22 +55,23 @@ pub(super) struct LatticeKernel {
 }
 
 impl LatticeKernel {
-    /// Kernel of `profile` under cells in `classes`, to a relative `tolerance`.
+    /// Kernel of `profile` under the cells of `plan` for steps of `time_step` seconds, to a relative `tolerance`, with
+    /// coefficients from a file if it is given and has them.
     ///
     /// # Errors
     /// [`Error::Input`] for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
-    pub(super) fn new(
+    pub(in crate::bem) fn new(
         profile: SoilProfile,
-        classes: PairClasses,
-        time_step: f64,
+        plan: &Plan,
+        [time_step, tolerance]: [f64; 2],
         stages: Stages,
-        tolerance: f64,
+        file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;
         profile.check()?;
         profile.check_causal()?;
-        let Some((lattice, _)) = classes.plan() else { return Err(NOT_IN_PLAN) };
-        let (lattice, count) = (lattice.clone(), classes.count());
+        let classes = plan.classes()?;
+        let (lattice, count) = (plan.lattice.clone(), classes.count());
         Ok(Self {
             profile,
             lattice,
@@ -60,7 +80,7 @@ impl LatticeKernel {
             time_step,
             tolerance,
             quadrature: OnceLock::new(),
-            kept: KeptBlocks::new([count, SERIES], None),
+            kept: KeptBlocks::new([count, SERIES], file),
             spectra: SharedSpectra::default(),
         })
     }

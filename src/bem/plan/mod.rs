@@ -28,3 +28,4 @@ mod static_cells;
 
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};
+pub(super) use kernel::{LatticeKernel, static_compliance};

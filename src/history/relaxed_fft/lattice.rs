@@ -3,18 +3,24 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | S | length of the transform, at least two patches less one: nothing wraps around |
-//! | k | wavenumber, 0 … S/2 |
-//! | ĝ | 𝓕 of the coefficients over the offset: real for normal and tangential ones, which are even, i times a real number for the coupling, which is odd |
+//! | S | lengths of the transform, along each axis at least two patches less one: nothing wraps around |
+//! | k | wavenumbers: 0 … S/2 along x; all along y |
+//! | ĝ | 𝓕 of the coefficients over the offset: i times a real number for what is odd in one axis, real otherwise |
+//!
+//! Shear is kept as i times its transform, so that all ĝ are real, and the matrix of a wavenumber symmetric. In plan
+//! the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx, ky).
 
 use std::sync::Arc;
 
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner};
 
 use crate::error::Result;
+use crate::geometry::{Lattice as Plan, SERIES, SPACE};
 use crate::history::convolution::ConvolutionWeights;
-use crate::history::pair_classes::PairClasses;
+use crate::history::pair_classes::{KINDS, PairClasses};
+use crate::linalg::add_combined_rows;
 
 /// Lags that are evaluated together.
 const CHUNK: usize = 512;
@@ -24,24 +30,66 @@ const EMPTY: usize = 2;
 
 /// Where the elements are, and the transforms along the surface.
 pub(super) struct Lattice {
-    /// Cell of each element.
+    /// Place of each element among the cells, row by row of S along x.
     cells: Vec<usize>,
-    /// Class of each offset, where a pair has it.
-    classes: Vec<Option<usize>>,
-    /// 1/length of the elements.
+    offsets: Offsets,
+    /// 1/size of the elements.
     scale: f64,
-    /// S.
-    length: usize,
+    /// S along x and y; 1 along y in the plane.
+    lengths: [usize; 2],
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Along y.
+    across: [Arc<dyn Fft<f64>>; 2],
+    /// Rows of cells.
     real: Vec<f64>,
+    /// Of one row.
     spectrum: Vec<Complex<f64>>,
+    /// Of all, columns of S along y.
+    spectra: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
+}
+
+/// Classes of offsets.
+enum Offsets {
+    /// Along a strip, where a pair has it.
+    Strip(Vec<Option<usize>>),
+    Plan(Plan),
+}
+
+/// Wavenumbers, and those that have spectra of their own: the others are mirror images.
+#[derive(Clone, Copy)]
+pub(super) struct Waves {
+    /// All.
+    pub(super) all: usize,
+    /// Those with spectra, which come first.
+    pub(super) own: usize,
+    /// The first that has an image.
+    first: usize,
+}
+
+impl Waves {
+    /// Place of the spectrum of a wavenumber.
+    pub(super) fn spectrum(self, wave: usize) -> usize {
+        if wave < self.own { wave } else { wave - self.own + self.first }
+    }
+
+    /// Runs of wavenumbers, and the place of the spectrum that each begins with.
+    pub(super) fn runs(self) -> [(std::ops::Range<usize>, usize); 2] {
+        [(0..self.own, 0), (self.own..self.all, self.first)]
+    }
 }
 
 impl Lattice {
     /// The lattice of the elements; `None` if they are not on one, or one mostly empty.
     pub(super) fn of(pairs: &PairClasses) -> Option<Self> {
+        if let Some((lattice, cells)) = pairs.plan() {
+            let lengths = lattice.counts.map(|count| smooth(2 * count - 1));
+            let cells = cells.iter().map(|[i, j]| j * lengths[0] + i).collect();
+            let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
+            let rows = lattice.counts[1];
+            return Some(Self::new(cells, Offsets::Plan(lattice.clone()), scale, lengths, rows));
+        }
         let elements = pairs.elements();
         let (first, last) = (elements.first()?, elements.last()?);
         let pitch = first.length();
@@ -71,90 +119,194 @@ impl Lattice {
                 }
             }
         }
-        let length = smooth(2 * classes.len() - 1);
+        let lengths = [smooth(2 * classes.len() - 1), 1];
+        Some(Self::new(cells, Offsets::Strip(classes), scale, lengths, 1))
+    }
+
+    fn new(
+        cells: Vec<usize>,
+        offsets: Offsets,
+        scale: f64,
+        lengths: [usize; 2],
+        rows: usize,
+    ) -> Self {
         let mut planner = RealFftPlanner::new();
+        let [length, across] = lengths;
         let (forward, inverse) =
             (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
-        let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
-        Some(Self {
+        let mut planner = FftPlanner::new();
+        let across = [planner.plan_fft_forward(across), planner.plan_fft_inverse(across)];
+        let along = forward.get_scratch_len().max(inverse.get_scratch_len());
+        let scratch =
+            across.iter().map(|plan| plan.get_inplace_scratch_len()).fold(along, usize::max);
+        let columns = length / 2 + 1;
+        Self {
             cells,
-            classes,
+            offsets,
             scale,
-            length,
-            real: vec![0.0; length],
-            spectrum: vec![Complex::default(); length / 2 + 1],
+            lengths,
+            real: vec![0.0; rows * length],
+            spectrum: vec![Complex::default(); columns],
+            spectra: vec![Complex::default(); columns * lengths[1]],
             scratch: vec![Complex::default(); scratch],
             forward,
             inverse,
-        })
+            across,
+        }
     }
 
-    /// Number of wavenumbers.
-    pub(super) fn waves(&self) -> usize {
-        self.length / 2 + 1
+    /// The wavenumbers.
+    pub(super) fn waves(&self) -> Waves {
+        let columns = self.spectrum.len();
+        Waves {
+            all: columns * self.lengths[1],
+            own: columns * (self.lengths[1] / 2 + 1),
+            first: columns,
+        }
+    }
+
+    /// Number of components of each element.
+    pub(super) fn components(&self) -> usize {
+        if self.is_plan() { SPACE } else { 2 }
+    }
+
+    /// Number of kinds of coefficients.
+    pub(super) fn kinds(&self) -> usize {
+        if self.is_plan() { SERIES } else { KINDS }
+    }
+
+    fn is_plan(&self) -> bool {
+        matches!(self.offsets, Offsets::Plan(_))
     }
 
     /// Real numbers held.
     pub(super) fn numbers(&self) -> usize {
-        self.real.len() + 2 * (self.spectrum.len() + self.scratch.len())
+        self.real.len() + 2 * (self.spectrum.len() + self.spectra.len() + self.scratch.len())
     }
 
     /// Last lag at which any coupling is not zero; the largest number if it never ends.
     pub(super) fn last_coupling_lag(&self, kernel: &dyn ConvolutionWeights) -> Result<usize> {
+        let Offsets::Strip(classes) = &self.offsets else { return Ok(usize::MAX) };
         let mut last = 0;
-        for class in self.classes.iter().flatten() {
+        for class in classes.iter().flatten() {
             last = last.max(kernel.last_coupling_lag(*class)?.unwrap_or(usize::MAX));
         }
         Ok(last)
     }
 
-    fn transform(&mut self) {
-        let Self { forward, real, spectrum, scratch, .. } = self;
+    /// 𝓕 of row `row`.
+    fn transform(&mut self, row: usize) {
+        let Self { forward, real, spectrum, scratch, lengths: [length, _], .. } = self;
         let scratch = &mut scratch[..forward.get_scratch_len()];
         // All lengths are the plan's own, so there is nothing that could fail.
+        let real = &mut real[row * *length..(row + 1) * *length];
         let done = forward.process_with_scratch(real, spectrum, scratch);
         debug_assert!(done.is_ok());
     }
 
+    /// Real and imaginary parts of i times a number if it is of shear, and of minus that if it is along y of an image.
+    fn turned(&self, component: usize, image: bool, value: Complex<f64>) -> [f64; 2] {
+        match component {
+            0 => [value.re, value.im],
+            2 if image => [value.im, -value.re],
+            _ => [-value.im, value.re],
+        }
+    }
+
     /// 𝓕 of one value per element (missing ones count as zero) into real and imaginary parts.
-    pub(super) fn forward(&mut self, values: &[f64], [re, im]: [&mut [f64]; 2]) {
+    pub(super) fn forward(&mut self, component: usize, values: &[f64], [re, im]: [&mut [f64]; 2]) {
         self.real.fill(0.0);
         for (&cell, &value) in self.cells.iter().zip(values) {
             self.real[cell] = value;
         }
-        self.transform();
+        let [length, across] = self.lengths;
+        let columns = self.spectrum.len();
+        if across > 1 {
+            self.spectra.fill(Complex::default());
+            for row in 0..self.real.len() / length {
+                self.transform(row);
+                for (column, value) in self.spectrum.iter().enumerate() {
+                    self.spectra[column * across + row] = *value;
+                }
+            }
+            self.across[0].process_with_scratch(&mut self.spectra, &mut self.scratch);
+            let own = across / 2 + 1;
+            let rows = re.chunks_exact_mut(columns).zip(im.chunks_exact_mut(columns));
+            for (row, (re, im)) in rows.enumerate() {
+                // Images (kx, −ky), from the first on.
+                let (image, place) =
+                    if row < own { (false, row) } else { (true, across - (row - own + 1)) };
+                for (column, (re, im)) in re.iter_mut().zip(im).enumerate() {
+                    let value = self.spectra[column * across + place];
+                    [*re, *im] = self.turned(component, image, value);
+                }
+            }
+            return;
+        }
+        self.transform(0);
         for (value, (re, im)) in self.spectrum.iter().zip(re.iter_mut().zip(im)) {
-            (*re, *im) = (value.re, value.im);
+            [*re, *im] = self.turned(component, false, *value);
         }
     }
 
     /// Overwrites one value per element from real and imaginary parts; means over the elements.
-    pub(super) fn inverse(&mut self, parts: [&[f64]; 2], values: &mut [f64]) {
-        self.back(parts, self.scale, values);
+    pub(super) fn inverse(&mut self, component: usize, parts: [&[f64]; 2], values: &mut [f64]) {
+        self.back(component, parts, self.scale, values);
     }
 
     /// Overwrites the values of which [`Lattice::forward`] made real and imaginary parts, times a
     /// factor.
-    pub(super) fn back(&mut self, [re, im]: [&[f64]; 2], factor: f64, values: &mut [f64]) {
-        for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
-            *value = Complex::new(*re, *im);
+    pub(super) fn back(
+        &mut self,
+        component: usize,
+        [re, im]: [&[f64]; 2],
+        factor: f64,
+        values: &mut [f64],
+    ) {
+        let [length, across] = self.lengths;
+        let columns = self.spectrum.len();
+        let own = across / 2 + 1;
+        // −i times shear.
+        let turned = |image: bool, re: f64, im: f64| match component {
+            0 => Complex::new(re, im),
+            2 if image => Complex::new(-im, re),
+            _ => Complex::new(im, -re),
+        };
+        if across > 1 {
+            for (row, (re, im)) in
+                re.chunks_exact(columns).zip(im.chunks_exact(columns)).enumerate()
+            {
+                let (image, place) =
+                    if row < own { (false, row) } else { (true, across - (row - own + 1)) };
+                for (column, (re, im)) in re.iter().zip(im).enumerate() {
+                    self.spectra[column * across + place] = turned(image, *re, *im);
+                }
+            }
+            self.across[1].process_with_scratch(&mut self.spectra, &mut self.scratch);
+        } else {
+            for (value, (re, im)) in self.spectra.iter_mut().zip(re.iter().zip(im)) {
+                *value = turned(false, *re, *im);
+            }
         }
-        // Real up to rounding, and the inverse transform insists on it; S is even.
-        let last = self.length / 2;
-        (self.spectrum[0].im, self.spectrum[last].im) = (0.0, 0.0);
-        let Self { inverse, real, spectrum, scratch, .. } = self;
+        let Self { inverse, real, spectrum, spectra, scratch, .. } = self;
         let scratch = &mut scratch[..inverse.get_scratch_len()];
-        let done = inverse.process_with_scratch(spectrum, real, scratch);
-        debug_assert!(done.is_ok());
-        let scale = factor / self.length as f64;
+        for (row, real) in real.chunks_exact_mut(length).enumerate() {
+            for (value, column) in spectrum.iter_mut().zip(spectra.chunks_exact(across)) {
+                *value = column[row];
+            }
+            // Real up to rounding, and the inverse transform insists on it; S is even.
+            (spectrum[0].im, spectrum[length / 2].im) = (0.0, 0.0);
+            let done = inverse.process_with_scratch(spectrum, real, scratch);
+            debug_assert!(done.is_ok());
+        }
+        let scale = factor / (length * across) as f64;
         for (&cell, value) in self.cells.iter().zip(values) {
             *value = scale * self.real[cell];
         }
     }
 
-    /// Hands out ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0: `accept` is given d, and
-    /// one slice over the wavenumbers per kind; the coupling, over i, is left out from d =
-    /// `coupled` on.
+    /// Hands out ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0: `accept` is given the kind, d, and one slice
+    /// over the wavenumbers; the coupling of strips is left out from d = `coupled` on.
     pub(super) fn coefficients(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -162,14 +314,19 @@ impl Lattice {
         coupled: usize,
         mut accept: impl FnMut(usize, usize, &[f64]),
     ) -> Result<()> {
-        let offsets = self.classes.len();
-        let mut table: [_; 3] = std::array::from_fn(|_| vec![0.0; CHUNK.min(count) * offsets]);
-        let mut values = vec![0.0; self.waves()];
+        if let Offsets::Plan(lattice) = &self.offsets {
+            return in_plan(lattice, self.lengths, kernel, count, accept);
+        }
+        let Offsets::Strip(classes) = &self.offsets else { return Ok(()) };
+        let classes = classes.clone();
+        let (offsets, length) = (classes.len(), self.lengths[0]);
+        let mut table: [_; KINDS] = std::array::from_fn(|_| vec![0.0; CHUNK.min(count) * offsets]);
+        let mut values = vec![0.0; self.waves().all];
         for begin in (0..count).step_by(CHUNK) {
             let width = CHUNK.min(count - begin);
             // The first is the instantaneous coefficient, no part of the history.
             let skip = usize::from(begin == 0);
-            for (offset, class) in self.classes.iter().enumerate() {
+            for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };
                 let of = offset * width + skip..(offset + 1) * width;
                 let [normal, tangential, coupling] =
@@ -187,10 +344,10 @@ impl Lattice {
                         let value = table[offset * width + d - begin];
                         self.real[offset] = if odd && offset == 0 { 0.0 } else { value };
                         if offset > 0 {
-                            self.real[self.length - offset] = if odd { -value } else { value };
+                            self.real[length - offset] = if odd { -value } else { value };
                         }
                     }
-                    self.transform();
+                    self.transform(0);
                     for (value, spectrum) in values.iter_mut().zip(&self.spectrum) {
                         *value = if odd { spectrum.im } else { spectrum.re };
                     }
@@ -200,6 +357,80 @@ impl Lattice {
         }
         Ok(())
     }
+}
+
+/// Wavenumbers of a lattice in plan, all and those with spectra.
+pub(crate) fn waves_in_plan(lattice: &Plan) -> [usize; 2] {
+    let [along, across] = lattice.counts.map(|count| smooth(2 * count - 1));
+    [across, across / 2 + 1].map(|rows| (along / 2 + 1) * rows)
+}
+
+/// [`Lattice::coefficients`] in plan, as products with cosines and sines along x and along y.
+fn in_plan(
+    lattice: &Plan,
+    lengths: [usize; 2],
+    kernel: &dyn ConvolutionWeights,
+    count: usize,
+    mut accept: impl FnMut(usize, usize, &[f64]),
+) -> Result<()> {
+    let [columns, rows] = lattice.counts;
+    let own = lengths.map(|length| length / 2 + 1);
+    // Offset by offset, all wavenumbers: Σ over both signs of what is even, and that of what is odd over i.
+    let waves = [0, 1].map(|axis| {
+        let turn = std::f64::consts::TAU / lengths[axis] as f64;
+        let angle = move |offset: usize, k: usize| turn * (offset * k % lengths[axis]) as f64;
+        let of = |wave: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+            (0..lattice.counts[axis])
+                .flat_map(|offset| (0..own[axis]).map(move |k| (offset, k)))
+                .map(|(offset, k)| wave(offset, k))
+                .collect()
+        };
+        let even = |offset, k| if offset == 0 { 1.0 } else { 2.0 * angle(offset, k).cos() };
+        let odd = |offset, k| if offset == 0 { 0.0 } else { -2.0 * angle(offset, k).sin() };
+        [of(&even), of(&odd)]
+    });
+    let most = CHUNK.min(count);
+    let mut tables = [(); SERIES].map(|()| vec![0.0; columns * rows * most]);
+    let mut lags = [(); SERIES].map(|()| vec![0.0; most]);
+    let mut values = vec![0.0; own[0] * own[1]];
+    let [mut along, mut both] = [own[0] * rows, own[0] * own[1]].map(|n| vec![0.0; n * most]);
+    for begin in (0..count).step_by(CHUNK) {
+        let width = CHUNK.min(count - begin);
+        let skip = usize::from(begin == 0);
+        for offset in (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j])) {
+            let (class, terms) = lattice.terms(offset.map(usize::cast_signed));
+            let slices = lags.each_mut().map(|lags| &mut lags[skip..width]);
+            kernel.coefficients_in_plan(class, begin + skip + 1, slices)?;
+            let [[zz, zx, zy], [_, xx, xy], [_, _, yy]] = terms;
+            for (table, (kind, _)) in tables.iter_mut().zip([zz, xx, yy, xy, zx, zy]) {
+                let place = (offset[0] * rows + offset[1]) * width;
+                table[place..place + width].copy_from_slice(&lags[kind][..width]);
+            }
+        }
+        for (kind, table) in tables.iter().enumerate() {
+            let odd = [matches!(kind, 3 | 4), matches!(kind, 3 | 5)];
+            let [x, y] = [0, 1].map(|axis| &waves[axis][usize::from(odd[axis])]);
+            let (along, both) =
+                (&mut along[..own[0] * rows * width], &mut both[..own[0] * own[1] * width]);
+            along.fill(0.0);
+            both.fill(0.0);
+            add_combined_rows(x, &table[..columns * rows * width], rows * width, 1.0, along);
+            // What is odd in both is i² times.
+            let sign = if odd == [true; 2] { -1.0 } else { 1.0 };
+            let parts = along.chunks_exact(rows * width);
+            for (part, sums) in parts.zip(both.chunks_exact_mut(own[1] * width)) {
+                add_combined_rows(y, part, width, sign, sums);
+            }
+            for d in skip..width {
+                for (wave, value) in values.iter_mut().enumerate() {
+                    let [row, column] = [wave / own[0], wave % own[0]];
+                    *value = both[(column * own[1] + row) * width + d];
+                }
+                accept(kind, begin + d, &values);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The smallest even number from `least` on with no prime factor above 5.

@@ -1,9 +1,7 @@
 //! Weights of cells against a table, statics, and themselves.
 
 use super::*;
-use crate::bem::layered::Compliances;
 use crate::bem::layered::test_profiles::{gmb, p1};
-use crate::bem::plan::integrals::Workspace;
 use crate::soil::Soil;
 
 const STEP: f64 = 0.2;
@@ -13,9 +11,9 @@ fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
 }
 
 fn kernel(profile: SoilProfile, lattice: Lattice, stages: Stages) -> LatticeKernel {
-    let cells = cells(lattice.counts);
-    let classes = PairClasses::in_plan(lattice, cells, 0.0).unwrap();
-    LatticeKernel::new(profile, classes, STEP, stages, 1e-10).unwrap()
+    let [columns, rows] = lattice.counts;
+    let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
+    LatticeKernel::new(profile, &plan, [STEP, 1e-10], stages, None).unwrap()
 }
 
 fn half_space() -> SoilProfile {
@@ -139,7 +137,4 @@ fn bad_requests_are_told() {
     let outcome = kernel.coefficients_in_plan(99, 1, none.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
     assert!(matches!(kernel.prepare(1 << 30), Err(Error::Memory(_))));
-    let strips = PairClasses::new(crate::bem::Strip::uniform(0.0..1.0, 2).unwrap().elements());
-    let made = LatticeKernel::new(half_space(), strips.unwrap(), STEP, Stages::Two, 1e-10);
-    assert!(matches!(made, Err(Error::Scene { .. })));
 }
