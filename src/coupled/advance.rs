@@ -40,7 +40,7 @@ impl State {
             origin: Origin::new(),
             context: Arc::new(Context {
                 probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
-                elements: scene.elements.to_vec(),
+                elements: scene.elements.clone(),
                 friction: scene.safety_friction.clone(),
             }),
             motion: Motion::new(model),

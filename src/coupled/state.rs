@@ -7,7 +7,7 @@ use super::energy_balance::EnergyBalance;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
-use crate::geometry::ContactElement;
+use crate::geometry::Patch;
 use crate::interface::{ContactState, Mode, PreviousContacts};
 
 /// A change of contact mode.
@@ -95,7 +95,7 @@ impl Foundation {
 pub(crate) struct Context {
     /// Names of the probes.
     pub(crate) probes: Vec<String>,
-    pub(crate) elements: Vec<ContactElement>,
+    pub(crate) elements: Patch,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
 }

@@ -173,6 +173,43 @@ impl FreeField for Record {
     }
 }
 
+/// Motion in three directions, the same at all points, for a ground in plan; in the plane that along y is not felt.
+///
+/// ```
+/// use basemat::motion::{FreeField, Record, Triaxial};
+/// let shake = Record::new(0.5, vec![1.0, 1.0, 1.0])?;
+/// let (y, up) = (Some(shake.scaled(-0.5)?), Some(shake.scaled(0.25)?));
+/// let field = Triaxial { x: Some(shake), y, up };
+/// assert_eq!(field.displacement_at([7.0, -2.0], 1.0), [0.5, -0.25, 0.125]);
+/// assert_eq!(field.displacement(7.0, 1.0), [0.5, 0.125]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Triaxial {
+    /// Motion of the surface along x, positive to the right (a record to the east, if x points there).
+    pub x: Option<Record>,
+    /// Motion along y, positive away from the reader (to the north).
+    pub y: Option<Record>,
+    /// Vertical motion, positive up.
+    pub up: Option<Record>,
+}
+
+impl FreeField for Triaxial {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        let [along, _, up] = self.displacement_at([x, 0.0], time);
+        [along, up]
+    }
+
+    fn displacement_at(&self, _place: [f64; 2], time: f64) -> [f64; 3] {
+        [&self.x, &self.y, &self.up]
+            .map(|record| record.as_ref().map_or(0.0, |own| own.at(time).displacement))
+    }
+
+    fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
+        [&self.x, &self.up].map(|record| record.as_ref().map_or(0.0, |own| own.at(time).velocity))
+    }
+}
+
 /// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c).
 ///
 /// ```

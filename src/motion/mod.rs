@@ -2,7 +2,7 @@
 //!
 //! A [`Record`] is read or built, its [`Baseline`] treated, and integrated exactly; a [`FreeField`]
 //! says how the surface of the ground would move without the structure. [`VerticalIncidence`]
-//! makes one of records, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes
+//! makes one of records, [`Triaxial`] one in three directions, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes
 //! closures, [`AtRest`] never moves.
 
 mod baseline;
@@ -24,7 +24,7 @@ pub use baseline::Baseline;
 pub use cosmos::{CosmosFormat, KNetFormat};
 pub use format::RecordFormat;
 pub use free_field::{
-    AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, VerticalIncidence,
+    AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
 };
 pub use integral::Motion;
 pub(crate) use integral::quadratic_roots_within;

@@ -137,7 +137,7 @@ impl Run {
             fallbacks: Fallbacks::default(),
             warnings: Vec::new(),
             wall: Duration::ZERO,
-            elements: elements.clone(),
+            elements: elements.to_vec(),
             sequence: Sequence::new(state),
             resolution,
             least_algorithmic: state.energy_balance.algorithmic,

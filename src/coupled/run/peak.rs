@@ -9,43 +9,71 @@ use crate::bem::ContactElement;
 use crate::error::{Error, Result};
 use crate::interface::ContactState;
 
+/// Elements of a foundation, with what they carry.
+#[derive(Clone, Copy)]
+pub(super) struct Footing<'a> {
+    pub(super) elements: &'a [ContactElement],
+    /// Front and back end of each element, m.
+    pub(super) depths: &'a [[f64; 2]],
+    pub(super) contact: &'a [ContactState],
+    /// In plan: shear tractions along y; empty in the plane.
+    pub(super) shear_across: &'a [f64],
+}
+
+impl Footing<'_> {
+    /// Area and state of each element.
+    fn areas(&self) -> impl Iterator<Item = (f64, &ContactState)> {
+        let sides = self.elements.iter().zip(self.depths);
+        sides.map(|(along, [front, back])| along.length() * (back - front)).zip(self.contact)
+    }
+
+    /// Ends of an element along x (0) or y (1), m.
+    fn ends(&self, e: usize, axis: usize) -> [f64; 2] {
+        if axis == 0 { [self.elements[e].left, self.elements[e].right] } else { self.depths[e] }
+    }
+}
+
 /// Σ A φ p over |Σ A τ|, for one friction coefficient or one for each element; NaN without any. An infinite
 /// coefficient holds wherever it is pressed on.
-pub(super) fn against_sliding(
-    friction: &[f64],
-    elements: &[ContactElement],
-    contact: &[ContactState],
-) -> f64 {
+pub(super) fn against_sliding(friction: &[f64], footing: Footing<'_>) -> f64 {
     if friction.is_empty() {
         return f64::NAN;
     }
-    let (mut resistance, mut normal, mut shear) = (0.0, 0.0, 0.0);
-    for (e, (element, state)) in elements.iter().zip(contact).enumerate() {
+    let (mut resistance, mut normal, mut shear, mut across) = (0.0, 0.0, 0.0, 0.0);
+    for (e, (area, state)) in footing.areas().enumerate() {
         let coefficient = friction[if friction.len() == 1 { 0 } else { e }];
-        let pressed = element.length() * state.pressure;
+        let pressed = area * state.pressure;
         // Infinity times zero is no resistance.
         if pressed != 0.0 && !(coefficient == f64::INFINITY && pressed < 0.0) {
             resistance += coefficient * pressed;
         }
         normal += pressed;
-        shear += element.length() * state.shear;
+        shear += area * state.shear;
+        across += area * footing.shear_across.get(e).copied().unwrap_or(0.0);
     }
-    ratio(normal, resistance, shear.abs())
+    ratio(normal, resistance, shear.hypot(across))
 }
 
-/// N b over the moment of the pressure about the middle of the base, b the half width.
-pub(super) fn against_overturning(elements: &[ContactElement], contact: &[ContactState]) -> f64 {
-    let (Some(first), Some(last)) = (elements.first(), elements.last()) else {
+/// N b over the moment of the pressure about the middle of the base, b the half width; in plan the less of both axes.
+pub(super) fn against_overturning(footing: Footing<'_>) -> f64 {
+    if footing.elements.is_empty() {
         return f64::INFINITY;
-    };
-    let (middle, half) = (0.5 * (first.left + last.right), 0.5 * (last.right - first.left));
-    let (mut normal, mut moment) = (0.0, 0.0);
-    for (element, state) in elements.iter().zip(contact) {
-        let force = element.length() * state.pressure;
-        normal += force;
-        moment += force * (element.center() - middle);
     }
-    ratio(normal, normal * half, moment.abs())
+    let axes = if footing.shear_across.is_empty() { 0..1 } else { 0..2 };
+    let about = |axis: usize| {
+        let ends = (0..footing.elements.len()).map(|e| footing.ends(e, axis));
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = ends.fold(none, |far, own| [far[0].min(own[0]), far[1].max(own[1])]);
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let (mut normal, mut moment) = (0.0, 0.0);
+        for (e, (area, state)) in footing.areas().enumerate() {
+            let (force, [low, high]) = (area * state.pressure, footing.ends(e, axis));
+            normal += force;
+            moment += force * (0.5 * (low + high) - middle);
+        }
+        ratio(normal, normal * half, moment.abs())
+    };
+    axes.map(about).reduce(f64::min).unwrap_or(f64::INFINITY)
 }
 
 /// Resistance over demand: NaN without any pressure, infinite without demand, zero when the base is
@@ -157,8 +185,11 @@ pub(crate) fn probe_index<T>(
 mod tests {
     use super::*;
 
-    fn base() -> [ContactElement; 2] {
-        [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }]
+    const BASE: [ContactElement; 2] =
+        [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }];
+
+    fn on(contact: &[ContactState; 2]) -> Footing<'_> {
+        Footing { elements: &BASE, depths: &[[0.0, 1.0]; 2], contact, shear_across: &[] }
     }
 
     fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {
@@ -173,26 +204,41 @@ mod tests {
     #[test]
     fn by_hand() {
         let state = contact([30.0, 10.0], [-10.0, 6.0]);
-        assert!((against_sliding(&[0.4], &base(), &state) - 0.4 * 70.0 / 14.0).abs() < 1e-14);
-        let each = against_sliding(&[0.5, 0.1], &base(), &state);
+        assert!((against_sliding(&[0.4], on(&state)) - 0.4 * 70.0 / 14.0).abs() < 1e-14);
+        let each = against_sliding(&[0.5, 0.1], on(&state));
         assert!((each - 31.0 / 14.0).abs() < 1e-14);
-        assert!((against_overturning(&base(), &state) - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+        assert!((against_overturning(on(&state)) - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+    }
+
+    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, middle y 1.5, moments about it
+    /// 180·0 + 10·(−1) and along x 180·(−0.5) + 10·1.
+    #[test]
+    fn by_hand_in_plan() {
+        let state = contact([30.0, 10.0], [-10.0, 6.0]);
+        let depths = [[0.0, 3.0], [0.0, 1.0]];
+        let footing = Footing { depths: &depths, shear_across: &[5.0, 10.0], ..on(&state) };
+        let expected = 0.4 * 190.0 / 54.0_f64.hypot(40.0);
+        assert!((against_sliding(&[0.4], footing) - expected).abs() < 1e-14);
+        assert!((against_overturning(footing) - 190.0 * 1.5 / 80.0).abs() < 1e-14);
+        let along = contact([0.0, 10.0], [0.0; 2]);
+        let footing = Footing { contact: &along, ..footing };
+        assert!((against_overturning(footing) - 1.5).abs() < 1e-14);
     }
 
     #[test]
     fn limits() {
         let (flight, pressed) = (contact([0.0; 2], [0.0; 2]), contact([1.0; 2], [0.0; 2]));
         for friction in [0.0, 0.4, f64::INFINITY] {
-            assert!(against_sliding(&[friction], &base(), &flight).is_nan());
+            assert!(against_sliding(&[friction], on(&flight)).is_nan());
         }
-        assert!(against_overturning(&base(), &flight).is_nan());
-        assert_eq!(against_sliding(&[0.4], &base(), &pressed), f64::INFINITY);
-        assert_eq!(against_sliding(&[0.0], &base(), &pressed), 0.0);
+        assert!(against_overturning(on(&flight)).is_nan());
+        assert_eq!(against_sliding(&[0.4], on(&pressed)), f64::INFINITY);
+        assert_eq!(against_sliding(&[0.0], on(&pressed)), 0.0);
         let sheared = contact([1.0, 0.0], [0.3, 0.0]);
-        assert_eq!(against_sliding(&[f64::INFINITY], &base(), &sheared), f64::INFINITY);
+        assert_eq!(against_sliding(&[f64::INFINITY], on(&sheared)), f64::INFINITY);
         // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
-        assert_eq!(against_overturning(&base(), &pressed), f64::INFINITY);
+        assert_eq!(against_overturning(on(&pressed)), f64::INFINITY);
         // Pulled up on the whole: nothing resists.
-        assert_eq!(against_overturning(&base(), &contact([-1.0; 2], [0.0; 2])), 0.0);
+        assert_eq!(against_overturning(on(&contact([-1.0; 2], [0.0; 2]))), 0.0);
     }
 }

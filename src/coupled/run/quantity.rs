@@ -5,9 +5,8 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::peak::{against_overturning, against_sliding};
+use super::peak::{Footing, against_overturning, against_sliding};
 use super::{Extremes, Sliding, Uplift};
-use crate::bem::ContactElement;
 use crate::coupled::{Foundation, Peak, State};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
@@ -184,7 +183,7 @@ quantities! {
     /// below. Of several foundations the least.
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
-        |base| base.least(|_, elements, contact| against_overturning(elements, contact));
+        |base| base.least(|_, footing| against_overturning(footing));
 }
 
 /// Most slip events of a base that memory is reserved for.
@@ -297,17 +296,22 @@ impl<'a> Base<'a> {
         self.state.modes.get(self.elements()).unwrap_or_default()
     }
 
-    /// The least factor of safety of its foundations, by friction coefficients, elements and contact; NaN where
+    /// The least factor of safety of its foundations, by friction coefficients and contact; NaN where
     /// none is known.
-    fn least(&self, factor: fn(&[f64], &[ContactElement], &[ContactState]) -> f64) -> f64 {
+    fn least(&self, factor: fn(&[f64], Footing<'_>) -> f64) -> f64 {
         let of = |foundation: &Foundation| {
             let (own, context) = (foundation.elements.clone(), &self.state.context);
             let friction = match context.friction.len() {
                 0 | 1 => &context.friction[..],
                 _ => context.friction.get(own.clone()).unwrap_or_default(),
             };
-            let elements = context.elements.get(own.clone()).unwrap_or_default();
-            factor(friction, elements, self.state.contact.get(own).unwrap_or_default())
+            let footing = Footing {
+                elements: context.elements.get(own.clone()).unwrap_or_default(),
+                depths: context.elements.depths().get(own.clone()).unwrap_or_default(),
+                contact: self.state.contact.get(own.clone()).unwrap_or_default(),
+                shear_across: self.state.shear_across.get(own).unwrap_or_default(),
+            };
+            factor(friction, footing)
         };
         match self.foundation {
             Some(foundation) => of(foundation),

@@ -153,3 +153,60 @@ fn shares(corners: &[Point], p: Point) -> Option<Vec<f64>> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{ContactElement, SPACE};
+
+    fn nodes(corners: &[Point]) -> Vec<FaceNode> {
+        corners.iter().map(|&place| FaceNode::rigid(place, [0.0; 2], [0, 1, 2, 3, 4, 5])).collect()
+    }
+
+    /// Mean of a field, given at the corners, over a cell.
+    fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
+        let [left, right, front, back] = cell;
+        let cell = ContactElement { left, right };
+        let patch = Patch::new(SPACE, vec![cell], vec![[front, back]]).unwrap();
+        let (nodes, mut sum) = (nodes(corners), 0.0);
+        let faces = Faces::new(&nodes, faces).unwrap();
+        for (node, weight) in faces.mean_weights(0, &patch).unwrap() {
+            sum += weight * field(corners[node]);
+        }
+        sum
+    }
+
+    #[test]
+    fn means_of_a_linear_field_are_exact_on_all_faces_and_beyond() {
+        let field = |[x, y]: Point| 2.0 - 3.0 * x + 0.7 * y;
+        let triangle = [[0.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
+        let distorted = [[0.0, 0.0], [1.0, 3.0], [5.0, 4.0], [4.0, -1.0]];
+        let pentagon = [[0.0, 0.0], [2.0, -1.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+        // Two corners on one line with the first.
+        let straight = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+        for corners in [&triangle[..], &distorted, &pentagon, &straight] {
+            for cell in [[0.5, 1.5, 0.5, 1.0], [-0.2, 1.0, -0.3, 0.8], [2.0, 3.5, 0.4, 1.4]] {
+                let exact = field([0.5 * (cell[0] + cell[1]), 0.5 * (cell[2] + cell[3])]);
+                let found = mean(corners, &[corners.len()], cell, field);
+                assert!((found - exact).abs() < 1e-13, "{corners:?} {cell:?} {found} {exact}");
+            }
+        }
+    }
+
+    /// x y of a rectangle is bilinear; next to it, a triangle.
+    #[test]
+    fn faces_side_by_side_have_displacements_of_their_own() {
+        let corners =
+            [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [4.0, 3.0], [4.0, 0.0], [7.0, 0.0]];
+        let product = |[x, y]: Point| if x <= 4.0 { x * y } else { 0.0 };
+        let found = mean(&corners, &[4, 3], [1.0, 2.0, 0.0, 2.0], product);
+        assert!((found - 1.5).abs() < 1e-14, "{found}");
+        // Over the triangle it falls from 4 y at x = 4 to zero at x = 7: 4 y.
+        let found = mean(&corners, &[4, 3], [4.5, 5.0, 0.5, 1.0], product);
+        assert!((found - 3.0).abs() < 1e-14, "{found}");
+        // Half in each: y x to the left, 4 y to the right.
+        let found = mean(&corners, &[4, 3], [3.0, 5.0, 0.0, 1.0], product);
+        let gauss = 0.5 * (0.5 * (4.0 - 2.0 * GAUSS) + 0.5 * 4.0);
+        assert!((found - gauss).abs() < 1e-14, "{found}");
+    }
+}

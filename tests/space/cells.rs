@@ -1,0 +1,163 @@
+//! A ground in plan: springs and dashpots under each cell, of its own and by the midpoint rule.
+
+use basemat::bem::{ContactElement, Ground};
+use basemat::motion::FreeField;
+use basemat::{Error, Result};
+
+/// Stiffness (Pa/m) and dashpots (Pa·s/m) per area: down, along x, along y.
+#[derive(Clone, Copy)]
+pub(crate) struct Bed {
+    pub(crate) stiffness: [f64; 3],
+    pub(crate) dashpot: [f64; 3],
+}
+
+pub(crate) const BED: Bed =
+    Bed { stiffness: [3.0e7, 2.0e7, 1.4e7], dashpot: [6.0e5, 3.0e5, 4.0e5] };
+
+#[derive(Clone)]
+pub(crate) struct Cells {
+    pub(crate) elements: Vec<ContactElement>,
+    pub(crate) depths: Vec<[f64; 2]>,
+    pub(crate) directions: usize,
+    bed: Bed,
+    time_step: f64,
+    displacement: Vec<f64>,
+}
+
+impl Cells {
+    /// Rectangles between neighbouring `x` and neighbouring `y`.
+    pub(crate) fn between(x: &[f64], y: &[f64], bed: Bed) -> Self {
+        let (mut elements, mut depths) = (Vec::new(), Vec::new());
+        for away in y.windows(2) {
+            for along in x.windows(2) {
+                elements.push(ContactElement { left: along[0], right: along[1] });
+                depths.push([away[0], away[1]]);
+            }
+        }
+        let displacement = vec![0.0; 3 * elements.len()];
+        Self { elements, depths, directions: 3, bed, time_step: 0.0, displacement }
+    }
+
+    /// Under a rectangle about `center`, its outer cells a tenth of their side beyond its edge.
+    pub(crate) fn under(sides: [f64; 2], center: [f64; 2], counts: [usize; 2], bed: Bed) -> Self {
+        let lines = |k: usize| -> Vec<f64> {
+            let pitch = sides[k] / (counts[k] as f64 - 0.2);
+            let line = |j: usize| center[k] + pitch * (j as f64 - 0.5 * counts[k] as f64);
+            (0..=counts[k]).map(line).collect()
+        };
+        Self::between(&lines(0), &lines(1), bed)
+    }
+
+    /// Area and middle of a cell.
+    pub(crate) fn cell(&self, e: usize) -> (f64, [f64; 2]) {
+        let (element, [front, back]) = (&self.elements[e], self.depths[e]);
+        (element.length() * (back - front), [element.center(), 0.5 * (front + back)])
+    }
+
+    /// k/2 + c/Δt and c/Δt − k/2 of the number `i` of a contact vector.
+    fn rule(&self, i: usize) -> [f64; 2] {
+        let component = i / self.elements.len();
+        let (half, dashpot) =
+            (0.5 * self.bed.stiffness[component], self.bed.dashpot[component] / self.time_step);
+        [dashpot + half, dashpot - half]
+    }
+
+    fn fill(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) {
+        let size = self.displacement.len();
+        matrix.fill(0.0);
+        (0..size).for_each(|i| matrix[i * (size + 1)] = value(i));
+    }
+}
+
+impl Ground for Cells {
+    fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    fn directions(&self) -> usize {
+        self.directions
+    }
+
+    fn depth(&self, element: usize) -> [f64; 2] {
+        self.depths[element]
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.time_step = time_step;
+        self.displacement.fill(0.0);
+        Ok(())
+    }
+
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.fill(matrix, |i| 1.0 / self.rule(i)[0]);
+        Ok(())
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        for (i, value) in displacement.iter_mut().enumerate() {
+            let [now, before] = self.rule(i);
+            *value = before * self.displacement[i] / now;
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        for (i, traction) in traction.iter().enumerate() {
+            let [now, before] = self.rule(i);
+            self.displacement[i] = (traction + before * self.displacement[i]) / now;
+        }
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.fill(matrix, |i| 1.0 / self.bed.stiffness[i / self.elements.len()]);
+        Ok(())
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(self.displacement.clone())
+    }
+
+    fn restore(&mut self, _: usize, values: &[f64]) -> Result<()> {
+        if values.len() != self.displacement.len() {
+            return Err(Error::part("bed", "has other cells"));
+        }
+        self.displacement.copy_from_slice(values);
+        Ok(())
+    }
+}
+
+/// Three smooth pulses along x, along y and upwards that run three ways; turned by quarters about the vertical axis.
+#[derive(Clone, Copy)]
+pub(crate) struct Waves {
+    pub(crate) quarters: usize,
+}
+
+impl Waves {
+    /// (1 − cos ωt)² in mm, from t = 0 on.
+    fn pulse(time: f64, frequency: f64) -> f64 {
+        if time > 0.0 { 1e-3 * (1.0 - (frequency * time).cos()).powi(2) } else { 0.0 }
+    }
+}
+
+impl FreeField for Waves {
+    fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
+        unreachable!("a ground in plan asks for three directions")
+    }
+
+    fn displacement_at(&self, [mut x, mut y]: [f64; 2], time: f64) -> [f64; 3] {
+        for _ in 0..self.quarters {
+            (x, y) = (y, -x);
+        }
+        // Where the waves come from lies beyond all bases.
+        let at = |along: f64, velocity: f64| time - (along + 30.0) / velocity;
+        let [mut u, mut v] = [
+            Self::pulse(at(0.8 * x - 0.6 * y, 200.0), 9.0),
+            -0.6 * Self::pulse(at(0.6 * x + 0.8 * y, 150.0), 12.0),
+        ];
+        let up = 0.4 * Self::pulse(at(0.8 * x + 0.6 * y, 500.0), 15.0);
+        for _ in 0..self.quarters {
+            (u, v) = (-v, u);
+        }
+        [u, v, up]
+    }
+}
