@@ -16,7 +16,7 @@ use crate::geometry::{ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};
-use crate::structure::Structure;
+use crate::structure::{FaceNode, Structure};
 
 /// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
 /// its surface.
@@ -230,16 +230,25 @@ impl ElasticGround {
 
     /// Ground under each foundation of `structure`, as wide as that is, of `count` elements each,
     /// graded towards the edges, where tractions are singular: [`Strip::under`] with
-    /// [`Grading::Cosine`].
+    /// [`Grading::Cosine`]. Under a structure with [faces](Structure::contact_faces) it is a ground
+    /// [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of them all: [`Plan::on_faces`].
     ///
     /// # Errors
-    /// As for [`ElasticGround::new`] and [`Strip::under`].
+    /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`].
     pub fn under(
         profile: impl Into<SoilProfile>,
         structure: &dyn Structure,
         count: usize,
     ) -> Result<Self> {
-        Self::new(profile, Strip::under(structure, count, Grading::Cosine)?)
+        let faces = structure.contact_faces();
+        if faces.is_empty() {
+            return Self::new(profile, Strip::under(structure, count, Grading::Cosine)?);
+        }
+        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+        Self::in_plan(
+            profile,
+            Plan::on_faces(&faces.iter().map(corners).collect::<Vec<_>>(), count)?,
+        )
     }
 
     fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {

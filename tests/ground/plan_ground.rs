@@ -8,20 +8,13 @@ use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{ElasticGround, Ground};
 use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
-use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::soil::SoilProfile;
 use basemat::{Error, Soil};
+use basemat_problems::profiles::{gmb, p1};
+use basemat_problems::random::Random;
 
 fn half_space() -> SoilProfile {
     Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap().into()
-}
-
-fn layer() -> SoilProfile {
-    let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.03, 3.0], 0.3).unwrap();
-    SoilProfile::on_half_plane(Soil::new(10.8, 0.3, 1.2).unwrap())
-        .with_base_damping(damping(0.01))
-        .with_layer(Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap(), 2.0)
-        .unwrap()
-        .with_damping(damping(0.05))
 }
 
 fn l_shape() -> Plan {
@@ -29,24 +22,14 @@ fn l_shape() -> Plan {
     Plan::masked([-1.0; 2], [0.5; 2], 4, &mask).unwrap()
 }
 
-/// Numbers from −1 to 1.
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 /// Histories at each step under random tractions of `seed`.
 fn marched(ground: &mut ElasticGround, steps: usize, seed: u64) -> Vec<Vec<f64>> {
     let size = 3 * ground.elements().len();
-    let mut random = random(seed);
+    let mut random = Random(seed);
     let step = |_| {
         let mut values = vec![0.0; size];
         ground.history(&mut values).unwrap();
-        ground.commit(&(0..size).map(|_| random()).collect::<Vec<_>>());
+        ground.commit(&(0..size).map(|_| random.within(-1.0, 1.0)).collect::<Vec<_>>());
         values
     };
     (0..steps).map(step).collect()
@@ -67,7 +50,9 @@ fn histories_are_the_direct_sum() {
         l_shape(),
     ];
     for (plan, stages) in plans.into_iter().zip([Stages::Two, Stages::Three, Stages::Two]) {
-        let ground = || ElasticGround::in_plan(layer(), plan.clone()).unwrap().with_stages(stages);
+        let ground = || {
+            ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan.clone()).unwrap().with_stages(stages)
+        };
         let mut direct =
             ground().with_own_history(|kernel: Arc<_>| Box::new(DirectHistory::new(kernel)));
         let mut fast = ground();
@@ -85,7 +70,7 @@ fn histories_are_the_direct_sum() {
 /// Rigid mats by the static compliance, which is what tractions held for ever give; Betti's symmetry.
 #[test]
 fn step_compliance_and_history_add_up_to_statics() {
-    for profile in [half_space(), layer()] {
+    for profile in [half_space(), p1(gmb(5), gmb(1))] {
         let plan = l_shape();
         let mut ground = ElasticGround::in_plan(profile.clone(), plan.clone()).unwrap();
         ground.prepare(0.4).unwrap();
@@ -93,8 +78,8 @@ fn step_compliance_and_history_add_up_to_statics() {
         let [mut step, mut still] = [vec![0.0; size * size], vec![0.0; size * size]];
         ground.step_compliance(&mut step).unwrap();
         ground.static_compliance(&mut still).unwrap();
-        let mut random = random(2);
-        let traction: Vec<f64> = (0..size).map(|_| random()).collect();
+        let mut random = Random(2);
+        let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
         let times = |matrix: &[f64]| -> Vec<f64> {
             let row = |row: &[f64]| row.iter().zip(&traction).map(|(a, b)| a * b).sum();
             matrix.chunks_exact(size).map(row).collect()

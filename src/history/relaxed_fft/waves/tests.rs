@@ -2,20 +2,12 @@
 
 use std::sync::Arc;
 
+use basemat_problems::random::Random;
+
 use super::*;
 use crate::error::Error;
 use crate::geometry::{Lattice as Plan, SERIES, offset};
 use crate::history::{ConvolutionHistory, DirectHistory, PairClasses, RelaxedFftHistory};
-
-/// Numbers from −1 to 1.
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
 
 /// Random coefficients that fade out, with the zeros that symmetry asks for.
 struct Made {
@@ -30,13 +22,10 @@ impl Made {
     }
 
     fn lag(&self, class: usize, lag: usize) -> [f64; SERIES] {
-        let mut random = random((class * 100_003 + lag) as u64 * 7919 + 1);
+        let mut random = Random((class * 100_003 + lag) as u64);
         let [i, j] = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
         let zeros = [1.0, 1.0, 1.0, i * j, i, j];
-        for _ in 0..3 {
-            random();
-        }
-        zeros.map(|zero| zero * random() / lag as f64)
+        zeros.map(|zero| zero * random.within(-1.0, 1.0) / lag as f64)
     }
 }
 
@@ -91,7 +80,7 @@ fn transforms_are_the_direct_sum() {
             let mut direct = DirectHistory::new(kernel.clone());
             let mut fast = RelaxedFftHistory::new(kernel.clone()).with_leaf(4);
             let [mut wanted, mut found] = [vec![0.0; size], vec![0.0; size]];
-            let mut random = random(3);
+            let mut random = Random(3);
             let mut past: Vec<Vec<f64>> = vec![];
             let mut worst = [0.0_f64; 2];
             for step in 0..150 {
@@ -107,7 +96,7 @@ fn transforms_are_the_direct_sum() {
                         worst[1] = worst[1].max((own - wanted).abs() / largest);
                     }
                 }
-                let traction: Vec<f64> = (0..size).map(|_| random()).collect();
+                let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
                 direct.push(&traction);
                 fast.push(&traction);
                 past.push(traction);
@@ -148,7 +137,7 @@ fn histories_go_on_where_they_were() {
     let kernel = Made::new(&Plan { pitch: [0.5; 2], counts }, cells);
     let all = |stop: Option<usize>| {
         let mut history = RelaxedFftHistory::new(kernel.clone()).with_leaf(4);
-        let mut random = random(5);
+        let mut random = Random(5);
         let mut values = vec![0.0; size];
         for step in 0..90 {
             if stop == Some(step) {
@@ -157,7 +146,7 @@ fn histories_go_on_where_they_were() {
                 history.restore(step, &saved).unwrap();
             }
             history.evaluate(&mut values).unwrap();
-            history.push(&(0..size).map(|_| random()).collect::<Vec<_>>());
+            history.push(&(0..size).map(|_| random.within(-1.0, 1.0)).collect::<Vec<_>>());
         }
         values.into_iter().map(f64::to_bits).collect::<Vec<_>>()
     };
