@@ -3,19 +3,18 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::elastic_source::ElasticSource;
 use super::layered::{
-    Cost, LIMIT, LayeredKernel, Stages, StripContact, StripImpedance, TOLERANCE, check_limit,
-    check_tolerance, rigid_strip_impedances, rigid_strip_impedances_observed, static_compliance,
+    Cost, LIMIT, Stages, StripContact, StripImpedance, TOLERANCE, check_limit, check_tolerance,
+    rigid_strip_impedances, rigid_strip_impedances_observed,
 };
-use super::plan::{self, LatticeKernel, Plan};
-use super::{
-    Grading, Ground, PatchKernel, SharedKernels, StaticKernel, Strip, WeightsGround, WeightsSource,
-};
+use super::plan::Plan;
+use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
 use crate::error::{Error, Observer, Result, positive};
 use crate::geometry::{ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
-use crate::soil::{Base, Soil, SoilProfile};
+use crate::soil::{Soil, SoilProfile};
 use crate::structure::{FaceNode, Structure};
 
 /// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
@@ -23,10 +22,10 @@ use crate::structure::{FaceNode, Structure};
 ///
 /// A [`Soil`] makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
 /// element means of the displacement at step ends under tractions constant over element and step,
-/// from the closed-form half-plane kernel ([`PatchKernel`]). Radiation is exact.
+/// from the closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
 ///
 /// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
-/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`]). The number of stages follows
+/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`](super::layered::LayeredKernel)). The number of stages follows
 /// [`Stages::for_profile`] and is reported by [`Ground::history_choice`].
 ///
 /// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
@@ -82,96 +81,6 @@ pub struct ElasticGround {
 }
 
 short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
-
-/// A profile and how accurately it is stepped.
-#[derive(Debug, Clone)]
-struct ElasticSource {
-    profile: SoilProfile,
-    /// Cells under mats, in place of strips.
-    plan: Option<Plan>,
-    stages: Option<Stages>,
-    tolerance: f64,
-    file: Option<PathBuf>,
-    limit: f64,
-}
-
-impl ElasticSource {
-    /// The stages for steps of `time_step` seconds; `None` for the closed form.
-    fn stages(&self, time_step: f64) -> Option<Stages> {
-        let by_rule = || Stages::for_profile(&self.profile, time_step);
-        let strips = self.plan.is_none();
-        let closed = strips && self.stages.is_none() && self.profile.is_elastic_half_plane();
-        (!closed).then(|| self.stages.unwrap_or_else(by_rule))
-    }
-
-    /// Step coefficients by convolution quadrature.
-    fn layered(
-        &self,
-        elements: &[ContactElement],
-        time_step: f64,
-        stages: Stages,
-    ) -> Result<LayeredKernel> {
-        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
-            .with_stages(stages)
-            .with_tolerance(self.tolerance)?
-            .with_time_limit(self.limit)
-    }
-}
-
-impl WeightsSource for ElasticSource {
-    fn kernel(
-        &self,
-        elements: &[ContactElement],
-        time_step: f64,
-    ) -> Result<Arc<dyn ConvolutionWeights>> {
-        if let Some(plan) = &self.plan {
-            let stages = self.stages(time_step).unwrap_or_default();
-            let (sizes, file) = ([time_step, self.tolerance], self.file.clone());
-            let kernel = LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)?;
-            return Ok(Arc::new(kernel));
-        }
-        match (self.stages(time_step), self.profile.base()) {
-            (None, Base::HalfPlane { soil, .. }) => {
-                Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
-            }
-            (stages, _) => {
-                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
-                Ok(Arc::new(match &self.file {
-                    Some(file) => kernel.with_file(file),
-                    None => kernel,
-                }))
-            }
-        }
-    }
-
-    fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
-        if let Some(plan) = &self.plan {
-            return plan::static_compliance(&self.profile, plan, self.tolerance, matrix);
-        }
-        match self.profile.base() {
-            Base::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
-                StaticKernel::under(*soil, elements)?.compliance(elements, matrix)
-            }
-            _ => static_compliance(&self.profile, elements, matrix),
-        }
-    }
-
-    fn shear_wave_speed(&self) -> Option<f64> {
-        self.profile.surface().map(|soil| soil.shear_wave_speed())
-    }
-
-    fn identity(&self) -> Option<Vec<f64>> {
-        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
-        let mut numbers = vec![stages, self.tolerance, self.limit];
-        // Grounds with a file do not take their kernel from one without.
-        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
-        numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
-        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
-        numbers.extend(self.plan.iter().flat_map(Plan::identity));
-        numbers.extend(self.profile.identity()?);
-        Some(numbers)
-    }
-}
 
 impl ElasticGround {
     /// Ground of a [`Soil`] or a [`SoilProfile`] under a [`Strip`], or several of them from left to
@@ -262,7 +171,7 @@ impl ElasticGround {
         self.changed(|source| source.stages = Some(stages))
     }
 
-    /// With the `tolerance` of [`LayeredKernel::with_tolerance`]. The closed form is exact.
+    /// With the `tolerance` of [`LayeredKernel::with_tolerance`](super::layered::LayeredKernel::with_tolerance). The closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
@@ -272,14 +181,14 @@ impl ElasticGround {
     }
 
     /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
-    /// them: [`LayeredKernel::with_file`]. The closed form needs none.
+    /// them: [`LayeredKernel::with_file`](super::layered::LayeredKernel::with_file). The closed form needs none.
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         self.changed(|source| source.file = Some(path.into()))
     }
 
     /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
-    /// [`LayeredKernel::with_time_limit`].
+    /// [`LayeredKernel::with_time_limit`](super::layered::LayeredKernel::with_time_limit).
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
@@ -329,7 +238,7 @@ impl ElasticGround {
     /// ```
     ///
     /// # Errors
-    /// As for [`LayeredKernel::cost`]; [`Error::Input`](crate::Error::Input) for a bad time step.
+    /// As for [`LayeredKernel::cost`](super::layered::LayeredKernel::cost); [`Error::Input`](crate::Error::Input) for a bad time step.
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
         let stages = self.source.stages(time_step).filter(|_| self.source.plan.is_none());

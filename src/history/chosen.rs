@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::choice::{ChoiceReason, Estimate, HistoryChoice, HistoryMethod};
-use super::convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, ExactHistory};
+use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory};
+use super::direct::DirectHistory;
 use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
 use super::last_lag::LastLag;
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};

@@ -22,7 +22,7 @@ fn l_shape() -> Plan {
     Plan::masked([-1.0; 2], [0.5; 2], 4, &mask).unwrap()
 }
 
-/// Histories at each step under random tractions of `seed`.
+/// History at each step under random tractions of `seed`.
 fn marched(ground: &mut ElasticGround, steps: usize, seed: u64) -> Vec<Vec<f64>> {
     let size = 3 * ground.elements().len();
     let mut random = Random(seed);

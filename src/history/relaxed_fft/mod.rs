@@ -2,8 +2,10 @@
 
 mod coefficients;
 mod lattice;
+mod leaf;
 mod level;
 mod pairs;
+mod plan_spectra;
 pub(crate) mod wave_level;
 mod waves;
 
@@ -16,7 +18,7 @@ use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory, c
 use super::last_lag::LastLag;
 use crate::error::{CheckpointError, Error, Result, same_length};
 pub(crate) use crate::history::relaxed_fft::coefficients::{Blocks, LEAF};
-pub(crate) use crate::history::relaxed_fft::lattice::waves_in_plan;
+pub(crate) use crate::history::relaxed_fft::plan_spectra::waves_in_plan;
 pub use crate::history::relaxed_fft::wave_level::SharedSpectra;
 
 /// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs

@@ -4,8 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::lattice::Waves;
-use super::level::{Level, Ring, Tables};
+use super::level::{Level, Ring, Tables, WaveNumbers};
 use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
 use crate::history::pair_classes::KINDS as STRIP_KINDS;
@@ -35,7 +34,7 @@ pub(super) struct WaveLevel {
     pub(super) size: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
-    waves: Waves,
+    waves: WaveNumbers,
     /// Kind by kind: per wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real
     /// numbers in time, so that the others are conjugates. That of a strip's coupling is empty where
     /// it has died out within smaller blocks.
@@ -57,7 +56,7 @@ impl WaveLevel {
     /// Blocks of `size`, without spectra yet.
     pub(super) fn new(
         size: usize,
-        waves: Waves,
+        waves: WaveNumbers,
         kinds: impl Iterator<Item = bool>,
         planner: &mut FftPlanner<f64>,
     ) -> Self {

@@ -1,4 +1,4 @@
-//! Histories of cells in plan against each other and a sum of one's own.
+//! The convolution over cells in plan by transforms, directly, and by a sum of one's own.
 
 use std::sync::Arc;
 
