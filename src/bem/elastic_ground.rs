@@ -127,13 +127,14 @@ impl ElasticGround {
     /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
     /// more cells than matrices between them allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
-        check_count(plan.count())?;
         let profile = profile.into();
         profile.check()?;
         let (elements, depths) = plan.sides();
+        check_count(elements.len())?;
+        let unions = plan.unions();
         let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
         let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
-        let ground = WeightsGround::in_plan(source.clone(), elements, depths);
+        let ground = WeightsGround::in_plan(source.clone(), elements, depths, unions);
         Ok(Self { source, used: None, ground })
     }
 

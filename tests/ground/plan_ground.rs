@@ -181,3 +181,79 @@ fn limits_are_told_beforehand() {
     let outcome = ground.impedances(&[1.0], StripContact::Bonded);
     assert!(matches!(outcome, Err(Error::Scene { .. })), "{outcome:?}");
 }
+
+/// Elements of several cells are what tractions equal over these cells, and means over them, make of the cells' ground.
+#[test]
+fn unions_are_sums_of_cells() {
+    let plan = Plan::rectangle(-1.0..1.0, -1.5..1.5, 5).unwrap();
+    let [columns, rows] = [[1, 3, 1].as_slice(), &[1, 2, 2, 1, 1]];
+    let joined = plan.clone().with_unions(columns, rows).unwrap();
+    let [mut cells, mut unions] =
+        [plan.clone(), joined].map(|plan| ElasticGround::in_plan(half_space(), plan).unwrap());
+    let places = |sizes: &[usize]| -> Vec<usize> {
+        sizes.iter().enumerate().flat_map(|(place, size)| vec![place; *size]).collect()
+    };
+    let [x, y] = [columns, rows].map(places);
+    let owner = |cell: usize| y[cell / 5] * 3 + x[cell % 5];
+    let (count, size) = (plan.count(), unions.elements().len());
+    assert_eq!((count, size), (35, 15));
+    let sizes: Vec<usize> =
+        (0..size).map(|own| (0..count).filter(|cell| owner(*cell) == own).count()).collect();
+    let area = plan.pitch()[0] * plan.pitch()[1];
+    for (element, number) in unions.elements().iter().zip(0..) {
+        let [front, back] = unions.depth(number);
+        let found = element.length() * (back - front);
+        assert!((found / area - sizes[number] as f64).abs() < 1e-12);
+    }
+    let mut random = Random(6);
+    for ground in [&mut cells, &mut unions] {
+        ground.prepare(0.2).unwrap();
+    }
+    let (mut found, mut wanted) = (vec![0.0; 3 * size], vec![0.0; 3 * count]);
+    let means = |wanted: &[f64]| {
+        let mut means = vec![0.0; 3 * size];
+        for (place, value) in wanted.iter().enumerate() {
+            let own = owner(place % count);
+            means[place / count * size + own] += value / sizes[own] as f64;
+        }
+        means
+    };
+    let mut traction = vec![0.0; 3 * size];
+    let of_cell = |traction: &[f64]| -> Vec<f64> {
+        (0..3 * count).map(|n| traction[n / count * size + owner(n % count)]).collect()
+    };
+    for _ in 0..40 {
+        traction.fill_with(|| random.within(-1.0, 1.0));
+        unions.history(&mut found).unwrap();
+        cells.history(&mut wanted).unwrap();
+        let error = largest_difference(&[found.clone()], &[means(&wanted)]);
+        assert!(wanted[0] == 0.0 || error < 1e-13, "{error:e}");
+        unions.commit(&traction);
+        cells.commit(&of_cell(&traction));
+    }
+    let times = |matrix: &[f64], traction: &[f64]| -> Vec<f64> {
+        let row = |row: &[f64]| row.iter().zip(traction).map(|(a, b)| a * b).sum();
+        matrix.chunks_exact(traction.len()).map(row).collect()
+    };
+    for still in [false, true] {
+        let [own, all] = [(&unions, 3 * size), (&cells, 3 * count)].map(|(ground, size)| {
+            let mut matrix = vec![0.0; size * size];
+            if still {
+                ground.static_compliance(&mut matrix).unwrap();
+            } else {
+                ground.step_compliance(&mut matrix).unwrap();
+            }
+            matrix
+        });
+        let wanted = means(&times(&all, &of_cell(&traction)));
+        assert!(largest_difference(&[times(&own, &traction)], &[wanted]) < 1e-13);
+    }
+    for (columns, rows) in
+        [(&[1, 4][..], rows), (&[2, 2, 1], rows), (&[1, 3], rows), (columns, &[1, 2, 2, 2])]
+    {
+        assert!(plan.clone().with_unions(columns, rows).is_err(), "{columns:?} {rows:?}");
+    }
+    // A corner that is not there.
+    assert!(l_shape().with_unions(&[1, 2, 1], &[1, 1, 1, 1]).is_err());
+    assert!(l_shape().with_unions(&[1, 1, 1, 1], &[1, 1, 1, 1]).is_ok());
+}

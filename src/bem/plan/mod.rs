@@ -8,6 +8,7 @@
 //!
 //! | file | what is in it |
 //! |---|---|
+//! | unions | contact elements of several cells |
 //! | cells, faces | plan: cells on a lattice under faces, discs, masks |
 //! | sh | surface compliance across the wavenumber |
 //! | angular_means, static_cells, form_table | form factors, and their integrals |
@@ -25,7 +26,9 @@ mod kernel;
 mod sectors;
 mod sh;
 mod static_cells;
+mod unions;
 
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};
 pub(super) use kernel::{LatticeKernel, static_compliance};
+pub(super) use unions::Unions;
