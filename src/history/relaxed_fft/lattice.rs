@@ -7,8 +7,7 @@
 //! | k | wavenumbers: 0 … S/2 along x; all along y |
 //! | ĝ | 𝓕 of the coefficients over the offset: i times a real number for what is odd in one axis, real otherwise |
 //!
-//! Shear is kept as i times its transform, so that all ĝ are real, and the matrix of a wavenumber symmetric. In plan
-//! the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx, ky).
+//! In plan the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx, ky).
 
 use std::sync::Arc;
 
@@ -179,15 +178,6 @@ impl Lattice {
         debug_assert!(done.is_ok());
     }
 
-    /// Real and imaginary parts of i times a number if it is of shear, and of minus that if it is along y of an image.
-    fn turned(&self, component: usize, image: bool, value: Complex<f64>) -> [f64; 2] {
-        match component {
-            0 => [value.re, value.im],
-            2 if image => [value.im, -value.re],
-            _ => [-value.im, value.re],
-        }
-    }
-
     /// 𝓕 of one value per element (missing ones count as zero) into real and imaginary parts.
     pub(super) fn forward(&mut self, component: usize, values: &[f64], [re, im]: [&mut [f64]; 2]) {
         self.real.fill(0.0);
@@ -213,14 +203,15 @@ impl Lattice {
                     if row < own { (false, row) } else { (true, across - (row - own + 1)) };
                 for (column, (re, im)) in re.iter_mut().zip(im).enumerate() {
                     let value = self.spectra[column * across + place];
-                    [*re, *im] = self.turned(component, image, value);
+                    let sign = if image && component == 2 { -1.0 } else { 1.0 };
+                    (*re, *im) = (sign * value.re, sign * value.im);
                 }
             }
             return;
         }
         self.transform(0);
         for (value, (re, im)) in self.spectrum.iter().zip(re.iter_mut().zip(im)) {
-            [*re, *im] = self.turned(component, false, *value);
+            (*re, *im) = (value.re, value.im);
         }
     }
 
@@ -241,12 +232,6 @@ impl Lattice {
         let [length, across] = self.lengths;
         let columns = self.spectrum.len();
         let own = across / 2 + 1;
-        // −i times shear.
-        let turned = |image: bool, re: f64, im: f64| match component {
-            0 => Complex::new(re, im),
-            2 if image => Complex::new(-im, re),
-            _ => Complex::new(im, -re),
-        };
         if across > 1 {
             for (row, (re, im)) in
                 re.chunks_exact(columns).zip(im.chunks_exact(columns)).enumerate()
@@ -254,13 +239,14 @@ impl Lattice {
                 let (image, place) =
                     if row < own { (false, row) } else { (true, across - (row - own + 1)) };
                 for (column, (re, im)) in re.iter().zip(im).enumerate() {
-                    self.spectra[column * across + place] = turned(image, *re, *im);
+                    let sign = if image && component == 2 { -1.0 } else { 1.0 };
+                    self.spectra[column * across + place] = Complex::new(sign * re, sign * im);
                 }
             }
             self.across[1].process_with_scratch(&mut self.spectra, &mut self.scratch);
         } else {
             for (value, (re, im)) in self.spectra.iter_mut().zip(re.iter().zip(im)) {
-                *value = turned(false, *re, *im);
+                *value = Complex::new(*re, *im);
             }
         }
         let Self { inverse, real, spectrum, spectra, scratch, .. } = self;

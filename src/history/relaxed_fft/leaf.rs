@@ -26,17 +26,20 @@ impl<const N: usize> WithSimd for Leaf<'_, N> {
             let d = place - m;
             for (run, first) in waves.runs().into_iter().filter(|(run, _)| !run.is_empty()) {
                 let of = |kind: usize| &near[kind][d * waves.own + first..][..run.len()];
-                // Real parts, then imaginary ones.
-                for part in 0..2 {
-                    let from = |n: usize| (2 * n + part) * waves.all + run.start;
+                // Real parts, then imaginary ones; pressure and shear couple by i times real numbers.
+                for (part, sign) in [-1.0, 1.0].into_iter().enumerate() {
+                    let from = |n: usize, part: usize| (2 * n + part) * waves.all + run.start;
                     if d <= reach {
                         let coefficients = kinds::<N>().map(|row| row.map(of));
-                        let input = std::array::from_fn(|n| &input[from(n)..][..run.len()]);
-                        add_coupled(sum, from, coefficients, input);
+                        let [own, other] = [part, 1 - part].map(|part| {
+                            std::array::from_fn(|n| &input[from(n, part)..][..run.len()])
+                        });
+                        let from = |n: usize| from(n, part);
+                        add_coupled(sum, from, coefficients, [own, other], sign);
                     } else {
                         for n in 0..N {
-                            let sum = &mut sum[from(n)..][..run.len()];
-                            let input = &input[from(n)..][..run.len()];
+                            let sum = &mut sum[from(n, part)..][..run.len()];
+                            let input = &input[from(n, part)..][..run.len()];
                             for ((sum, input), g) in sum.iter_mut().zip(input).zip(of(n)) {
                                 *sum += g * input;
                             }
@@ -48,22 +51,29 @@ impl<const N: usize> WithSimd for Leaf<'_, N> {
     }
 }
 
-/// sum ← sum + ĝ · input, for what begins at `from` each component.
+/// sum ← sum + ĝ · input, for what begins at `from` each component: the same part of the input, and the other one with
+/// a `sign` where pressure is due to shear.
 #[inline(always)]
 fn add_coupled<const N: usize>(
     sum: &mut [f64],
     from: impl Fn(usize) -> usize,
     coefficients: [[&[f64]; N]; N],
-    input: [&[f64]; N],
+    input: [[&[f64]; N]; 2],
+    sign: f64,
 ) {
-    let count = input[0].len();
-    let (input, coefficients) =
-        (input.map(|it| &it[..count]), coefficients.map(|row| row.map(|it| &it[..count])));
-    for (n, row) in coefficients.into_iter().enumerate() {
+    let count = input[0][0].len();
+    let [own, other] = input.map(|parts| parts.map(|it| &it[..count]));
+    for (n, row) in coefficients.map(|row| row.map(|it| &it[..count])).into_iter().enumerate() {
         let sum = &mut sum[from(n)..][..count];
         for k in 0..count {
-            let first = row[0][k] * input[0][k];
-            sum[k] += (1..N).fold(first, |sum, m| sum + row[m][k] * input[m][k]);
+            sum[k] += if n == 0 {
+                let first = row[0][k] * own[0][k];
+                (1..N).fold(first, |sum, m| sum + sign * row[m][k] * other[m][k])
+            } else {
+                let first = row[1][k] * own[1][k];
+                let shear = (2..N).fold(first, |sum, m| sum + row[m][k] * own[m][k]);
+                shear - sign * row[0][k] * other[0][k]
+            };
         }
     }
 }

@@ -36,7 +36,8 @@ pub(super) struct WaveLevel {
     inverse: Arc<dyn Fft<f64>>,
     waves: WaveNumbers,
     /// Kind by kind: per wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real
-    /// numbers in time, so that the others are conjugates. That of a strip's coupling is empty where
+    /// numbers in time, so that the others are conjugates; those of what couples pressure and shear
+    /// stand for i times them. That of a strip's coupling is empty where
     /// it has died out within smaller blocks.
     spectra: Vec<Vec<Complex<f64>>>,
 }
@@ -232,15 +233,21 @@ fn multiply(block: &mut [Complex<f64>], spectrum: &[Complex<f64>]) {
     }
 }
 
-/// (p, s) ← (c s, c p).
+/// (p, s) ← (i c s, −i c p).
 fn exchange(one: &mut [Complex<f64>], two: &mut [Complex<f64>], coupling: &[Complex<f64>]) {
     let all = coupling.iter().copied().chain(upper(coupling));
     for ((p, s), c) in one.iter_mut().zip(two).zip(all) {
-        (*p, *s) = (c * *s, c * *p);
+        let c = times_i(c);
+        (*p, *s) = (c * *s, -c * *p);
     }
 }
 
-/// Blocks of N components, multiplied by a symmetric matrix.
+fn times_i(value: Complex<f64>) -> Complex<f64> {
+    Complex::new(-value.im, value.re)
+}
+
+/// Blocks of N components, multiplied by a Hermitian matrix: what couples the first with the others is i times the
+/// spectrum in its row, −i times in its column.
 fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Complex<f64>]; N]; N]) {
     let length = blocks.len() / N;
     let bins = length / 2 + 1;
@@ -264,12 +271,18 @@ fn multiply_matrix<const N: usize, const UPPER: bool>(
     let spectra = spectra.map(|row| row.map(|spectrum| &spectrum[..length + usize::from(UPPER)]));
     for place in 0..length {
         let values: [Complex<f64>; N] = std::array::from_fn(|n| blocks[n][place]);
-        for (block, row) in blocks.iter_mut().zip(&spectra) {
-            let term = |n: usize| {
-                let factor = if UPPER { row[n][length - place].conj() } else { row[n][place] };
-                factor * values[n]
+        for (n, (block, row)) in blocks.iter_mut().zip(&spectra).enumerate() {
+            let factor = |m: usize| {
+                if UPPER { row[m][length - place].conj() } else { row[m][place] }
             };
-            block[place] = (1..N).fold(term(0), |sum, n| sum + term(n));
+            block[place] = if n == 0 {
+                let own = factor(0) * values[0];
+                (1..N).fold(own, |sum, m| sum + times_i(factor(m)) * values[m])
+            } else {
+                let own = factor(1) * values[1];
+                let others = (2..N).fold(own, |sum, m| sum + factor(m) * values[m]);
+                others - times_i(factor(0)) * values[0]
+            };
         }
     }
 }
