@@ -245,15 +245,17 @@ impl Lattice {
             }
             self.across[1].process_with_scratch(&mut self.spectra, &mut self.scratch);
         } else {
-            for (value, (re, im)) in self.spectra.iter_mut().zip(re.iter().zip(im)) {
+            for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
                 *value = Complex::new(*re, *im);
             }
         }
         let Self { inverse, real, spectrum, spectra, scratch, .. } = self;
         let scratch = &mut scratch[..inverse.get_scratch_len()];
         for (row, real) in real.chunks_exact_mut(length).enumerate() {
-            for (value, column) in spectrum.iter_mut().zip(spectra.chunks_exact(across)) {
-                *value = column[row];
+            if across > 1 {
+                for (value, column) in spectrum.iter_mut().zip(spectra.chunks_exact(across)) {
+                    *value = column[row];
+                }
             }
             // Real up to rounding, and the inverse transform insists on it; S is even.
             (spectrum[0].im, spectrum[length / 2].im) = (0.0, 0.0);

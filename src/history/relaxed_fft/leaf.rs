@@ -6,6 +6,9 @@ use super::level::WaveNumbers;
 use super::wave_level::kinds;
 use crate::linalg::{Simd, WithSimd};
 
+/// Wavenumbers that are multiplied together.
+const LANES: usize = 4;
+
 /// Sum over the inputs of a leaf so far, for its next output; N components.
 pub(super) struct Leaf<'a, const N: usize> {
     pub(super) sum: &'a mut [f64],
@@ -21,25 +24,36 @@ impl<const N: usize> WithSimd for Leaf<'_, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { sum, inputs, near, waves, reach } = self;
-        let place = inputs.len() / sum.len();
-        for (m, input) in inputs.chunks_exact(sum.len()).enumerate() {
+        let size = sum.len();
+        let place = inputs.len() / size;
+        let mut parts = sum.chunks_exact_mut(waves.all);
+        let mut sums: [[&mut [f64]; 2]; N] =
+            std::array::from_fn(|_| std::array::from_fn(|_| parts.next().unwrap_or_default()));
+        for (m, input) in inputs.chunks_exact(size).enumerate() {
             let d = place - m;
-            for (run, first) in waves.runs().into_iter().filter(|(run, _)| !run.is_empty()) {
+            let mut parts = input.chunks_exact(waves.all);
+            let inputs: [[&[f64]; 2]; N] =
+                std::array::from_fn(|_| std::array::from_fn(|_| parts.next().unwrap_or_default()));
+            for (run, first) in waves.runs() {
+                if run.is_empty() {
+                    continue;
+                }
                 let of = |kind: usize| &near[kind][d * waves.own + first..][..run.len()];
-                // Real parts, then imaginary ones; pressure and shear couple by i times real numbers.
-                for (part, sign) in [-1.0, 1.0].into_iter().enumerate() {
-                    let from = |n: usize, part: usize| (2 * n + part) * waves.all + run.start;
-                    if d <= reach {
-                        let coefficients = kinds::<N>().map(|row| row.map(of));
-                        let [own, other] = [part, 1 - part].map(|part| {
-                            std::array::from_fn(|n| &input[from(n, part)..][..run.len()])
-                        });
-                        let from = |n: usize| from(n, part);
-                        add_coupled(sum, from, coefficients, [own, other], sign);
-                    } else {
-                        for n in 0..N {
-                            let sum = &mut sum[from(n, part)..][..run.len()];
-                            let input = &input[from(n, part)..][..run.len()];
+                let mut sums =
+                    sums.each_mut().map(|parts| parts.each_mut().map(|sum| &mut sum[run.clone()]));
+                let inputs = inputs.map(|parts| parts.map(|input| &input[run.clone()]));
+                if d <= reach {
+                    let coefficients = kinds::<N>().map(|row| row.map(of));
+                    let whole = run.len() - run.len() % LANES;
+                    for k in (0..whole).step_by(LANES) {
+                        add_coupled::<N, LANES>(k, &mut sums, &inputs, &coefficients);
+                    }
+                    for k in whole..run.len() {
+                        add_coupled::<N, 1>(k, &mut sums, &inputs, &coefficients);
+                    }
+                } else {
+                    for (n, (sums, inputs)) in sums.into_iter().zip(inputs).enumerate() {
+                        for (sum, input) in sums.into_iter().zip(inputs) {
                             for ((sum, input), g) in sum.iter_mut().zip(input).zip(of(n)) {
                                 *sum += g * input;
                             }
@@ -51,29 +65,44 @@ impl<const N: usize> WithSimd for Leaf<'_, N> {
     }
 }
 
-/// sum ← sum + ĝ · input, for what begins at `from` each component: the same part of the input, and the other one with
-/// a `sign` where pressure is due to shear.
+/// sum ← sum + ĝ · input for L wavenumbers from the `k`-th on, real and imaginary parts of each component. Pressure and
+/// shear couple by i times real numbers, and by −i.
 #[inline(always)]
-fn add_coupled<const N: usize>(
-    sum: &mut [f64],
-    from: impl Fn(usize) -> usize,
-    coefficients: [[&[f64]; N]; N],
-    input: [[&[f64]; N]; 2],
-    sign: f64,
+fn add_coupled<const N: usize, const L: usize>(
+    k: usize,
+    sums: &mut [[&mut [f64]; 2]; N],
+    inputs: &[[&[f64]; 2]; N],
+    coefficients: &[[&[f64]; N]; N],
 ) {
-    let count = input[0][0].len();
-    let [own, other] = input.map(|parts| parts.map(|it| &it[..count]));
-    for (n, row) in coefficients.map(|row| row.map(|it| &it[..count])).into_iter().enumerate() {
-        let sum = &mut sum[from(n)..][..count];
-        for k in 0..count {
-            sum[k] += if n == 0 {
-                let first = row[0][k] * own[0][k];
-                (1..N).fold(first, |sum, m| sum + sign * row[m][k] * other[m][k])
-            } else {
-                let first = row[1][k] * own[1][k];
-                let shear = (2..N).fold(first, |sum, m| sum + row[m][k] * own[m][k]);
-                shear - sign * row[0][k] * other[0][k]
-            };
+    let load = |values: &[f64]| -> [f64; L] {
+        let values = &values[k..k + L];
+        std::array::from_fn(|lane| values[lane])
+    };
+    let inputs = inputs.map(|parts| parts.map(load));
+    let mut add = |n: usize, part: usize, values: [f64; L]| {
+        for (sum, value) in sums[n][part][k..k + L].iter_mut().zip(values) {
+            *sum += value;
         }
+    };
+    let times = |a: [f64; L], b: [f64; L]| -> [f64; L] { std::array::from_fn(|i| a[i] * b[i]) };
+    let plus = |a: [f64; L], b: [f64; L]| -> [f64; L] { std::array::from_fn(|i| a[i] + b[i]) };
+    let minus = |a: [f64; L], b: [f64; L]| -> [f64; L] { std::array::from_fn(|i| a[i] - b[i]) };
+    let own = load(coefficients[0][0]);
+    let mut down = inputs[0].map(|input| times(own, input));
+    for m in 1..N {
+        let g = load(coefficients[0][m]);
+        down = [minus(down[0], times(g, inputs[m][1])), plus(down[1], times(g, inputs[m][0]))];
+    }
+    down.into_iter().enumerate().for_each(|(part, values)| add(0, part, values));
+    for n in 1..N {
+        let first = load(coefficients[n][1]);
+        let mut along = inputs[1].map(|input| times(first, input));
+        for m in 2..N {
+            let g = load(coefficients[n][m]);
+            along = [0, 1].map(|part| plus(along[part], times(g, inputs[m][part])));
+        }
+        let g = load(coefficients[n][0]);
+        add(n, 0, plus(along[0], times(g, inputs[0][1])));
+        add(n, 1, minus(along[1], times(g, inputs[0][0])));
     }
 }
