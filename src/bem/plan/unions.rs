@@ -73,7 +73,9 @@ impl Unions {
     /// Unions by the element of each cell.
     pub(super) fn new(owners: &[usize]) -> Self {
         let mut sizes = vec![0.0; owners.iter().max().map_or(0, |last| last + 1)];
-        owners.iter().for_each(|owner| sizes[*owner] += 1.0);
+        for owner in owners {
+            sizes[*owner] += 1.0;
+        }
         Self { cells: vec![0.0; SPACE * owners.len()], owners: owners.to_vec(), sizes }
     }
 

@@ -10,7 +10,7 @@ fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
     (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]).collect()
 }
 
-fn kernel(profile: SoilProfile, lattice: Lattice, stages: Stages) -> LatticeKernel {
+fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKernel {
     let [columns, rows] = lattice.counts;
     let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
     LatticeKernel::new(profile, &plan, [STEP, 1e-10], stages, None).unwrap()
@@ -44,7 +44,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
     for rows in rows.chunk_by(|a, b| a[0] == b[0]) {
         let layered = rows[0][0] == "layer_rock";
         let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
-        let kernel = kernel(profile.clone(), square(), Stages::Two);
+        let kernel = kernel(profile.clone(), &square(), Stages::Two);
         kernel.prepare(256).unwrap();
         let quadrature = kernel.quadrature(&mut Watch::nobody()).unwrap();
         let mut work = Workspace::default();
@@ -95,8 +95,8 @@ fn weights_match_the_table_and_sum_up_to_statics() {
 fn weights_depend_on_the_offset_alone() {
     for stages in [Stages::Two, Stages::Three] {
         let oblong = |counts| Lattice { pitch: [0.5, 0.4], counts };
-        let small = kernel(p1(gmb(5), gmb(1)), oblong([2, 3]), stages);
-        let large = kernel(p1(gmb(5), gmb(1)), oblong([4, 3]), stages);
+        let small = kernel(p1(gmb(5), gmb(1)), &oblong([2, 3]), stages);
+        let large = kernel(p1(gmb(5), gmb(1)), &oblong([4, 3]), stages);
         large.prepare(200).unwrap();
         let [one, two] = [weights(&small, 100), weights(&large, 200)];
         let largest = one[0][1][0];
@@ -128,7 +128,7 @@ fn gates_take_some_of_many_cells() {
 
 #[test]
 fn bad_requests_are_told() {
-    let kernel = kernel(half_space(), square(), Stages::Two);
+    let kernel = kernel(half_space(), &square(), Stages::Two);
     assert!(matches!(
         kernel.coefficients(0, 1, [&mut [], &mut [], &mut []]),
         Err(Error::Scene { .. })
