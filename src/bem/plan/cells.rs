@@ -159,7 +159,7 @@ impl Plan {
     /// [`Error::Size`] for numbers that do not sum up to the columns or rows; [`Error::Input`] for a rectangle that is
     /// not all on the mat, and for outermost elements wider than a cell: the edge would be that of an element.
     pub fn with_unions(self, along: &[usize], across: &[usize]) -> Result<Self> {
-        let owners = Some(Unions::owners(&self, along, across)?);
+        let owners = Some(Unions::owners(self.lattice.counts, &self.cells, [along, across])?);
         Ok(Self { owners, ..self })
     }
 

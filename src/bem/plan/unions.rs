@@ -3,7 +3,6 @@
 //! Tractions of an element are those of all its cells, and its displacement is their mean: with the incidence P of cells
 //! and elements, integrals over elements are PᵀFP, which keeps them passive.
 
-use super::cells::Plan;
 use crate::error::{Error, Result, memory, same_length};
 use crate::geometry::SPACE;
 
@@ -19,13 +18,16 @@ pub(in crate::bem) struct Unions {
 }
 
 impl Unions {
-    /// Element of each cell of `plan` if columns and rows are taken together by so many: elements in the order of their
-    /// first cells.
+    /// Element of each cell of a lattice if columns and rows are taken together by so many: elements in the order of
+    /// their first cells.
     ///
     /// # Errors
-    /// As for [`Plan::with_unions`].
-    pub(super) fn owners(plan: &Plan, along: &[usize], across: &[usize]) -> Result<Vec<usize>> {
-        let counts = plan.lattice.counts;
+    /// As for [`Plan::with_unions`](super::Plan::with_unions).
+    pub(super) fn owners(
+        counts: [usize; 2],
+        cells: &[[usize; 2]],
+        [along, across]: [&[usize]; 2],
+    ) -> Result<Vec<usize>> {
         let mut lines = [vec![], vec![]];
         for ((sizes, count), lines) in [along, across].into_iter().zip(counts).zip(&mut lines) {
             let found = sizes.iter().sum();
@@ -35,13 +37,13 @@ impl Unions {
             lines.extend(sizes.iter().enumerate().flat_map(|(n, size)| vec![n; *size]));
         }
         let mut on = vec![false; counts[0] * counts[1]];
-        for [i, j] in &plan.cells {
+        for [i, j] in cells {
             on[j * counts[0] + i] = true;
         }
         let block = |[i, j]: [usize; 2]| lines[1][j] * along.len() + lines[0][i];
         let mut numbers = vec![None; along.len() * across.len()];
         let mut owners = vec![];
-        for cell in &plan.cells {
+        for cell in cells {
             let count = numbers.iter().flatten().count();
             owners.push(*numbers[block(*cell)].get_or_insert(count));
         }
