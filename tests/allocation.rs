@@ -7,9 +7,10 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use basemat::bem::{ElasticGround, SpringGround, Strip};
+use basemat::bem::plan::Plan;
+use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
-use basemat::history::HistoryMethod;
+use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Yielding};
 use basemat::results::Recorder;
 use basemat::structure::{NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets};
@@ -150,6 +151,31 @@ fn steps_do_not_allocate() {
         println!("{name}: {allocations} allocations, {changes} changes of mode");
         assert_eq!(allocations, 0, "{name}");
         assert!(name.starts_with("bonded") || changes > 0, "{name}: the modes never changed");
+    }
+}
+
+/// Transforms along the surface and in time, also where memory ends.
+#[test]
+fn histories_in_plan_do_not_allocate() {
+    for tolerance in [1e-10, 1e-2] {
+        let options = HistoryOptions { tolerance: Some(tolerance), ..HistoryOptions::default() };
+        let plan = Plan::rectangle(-2.0..2.0, -3.0..3.0, 4).unwrap();
+        let mut ground = ElasticGround::in_plan(soil(SI), plan).unwrap();
+        ground = ground.with_history(options).unwrap();
+        ground.prepare(0.01).unwrap();
+        ground.expect_steps(WARM + STEPS, None).unwrap();
+        let size = 3 * ground.elements().len();
+        let (mut displacement, traction) = (vec![0.0; size], vec![1.0; size]);
+        let mut before = 0;
+        for step in 0..WARM + STEPS {
+            if step == WARM {
+                before = COUNT.get();
+            }
+            ground.history(&mut displacement).unwrap();
+            ground.commit(&traction);
+        }
+        assert_eq!(COUNT.get() - before, 0, "{tolerance}");
+        assert_eq!(ground.increment_error_bound() > 0.0, tolerance > 1e-3);
     }
 }
 

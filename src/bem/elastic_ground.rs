@@ -3,29 +3,29 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::elastic_source::ElasticSource;
 use super::layered::{
-    Cost, LIMIT, LayeredKernel, Stages, StripContact, StripImpedance, TOLERANCE, check_limit,
-    check_tolerance, rigid_strip_impedances, rigid_strip_impedances_observed, static_compliance,
+    Cost, LIMIT, Stages, StripContact, StripImpedance, TOLERANCE, check_limit, check_tolerance,
+    rigid_strip_impedances, rigid_strip_impedances_observed,
 };
-use super::{
-    Grading, Ground, PatchKernel, SharedKernels, StaticKernel, Strip, WeightsGround, WeightsSource,
-};
-use crate::error::{Observer, Result, positive};
-use crate::geometry::{ContactElement, check_order};
+use super::plan::Plan;
+use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
+use crate::error::{Error, Observer, Result, positive};
+use crate::geometry::{ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
-use crate::soil::{Base, Soil, SoilProfile};
-use crate::structure::Structure;
+use crate::soil::{Soil, SoilProfile};
+use crate::structure::{FaceNode, Structure};
 
 /// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
 /// its surface.
 ///
 /// A [`Soil`] makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
 /// element means of the displacement at step ends under tractions constant over element and step,
-/// from the closed-form half-plane kernel ([`PatchKernel`]). Radiation is exact.
+/// from the closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
 ///
 /// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
-/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`]). The number of stages follows
+/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`](super::layered::LayeredKernel)). The number of stages follows
 /// [`Stages::for_profile`] and is reported by [`Ground::history_choice`].
 ///
 /// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
@@ -82,83 +82,6 @@ pub struct ElasticGround {
 
 short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
 
-/// A profile and how accurately it is stepped.
-#[derive(Debug, Clone)]
-struct ElasticSource {
-    profile: SoilProfile,
-    stages: Option<Stages>,
-    tolerance: f64,
-    file: Option<PathBuf>,
-    limit: f64,
-}
-
-impl ElasticSource {
-    /// The stages for steps of `time_step` seconds; `None` for the closed form.
-    fn stages(&self, time_step: f64) -> Option<Stages> {
-        let by_rule = || Stages::for_profile(&self.profile, time_step);
-        let closed = self.stages.is_none() && self.profile.is_elastic_half_plane();
-        (!closed).then(|| self.stages.unwrap_or_else(by_rule))
-    }
-
-    /// Step coefficients by convolution quadrature.
-    fn layered(
-        &self,
-        elements: &[ContactElement],
-        time_step: f64,
-        stages: Stages,
-    ) -> Result<LayeredKernel> {
-        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
-            .with_stages(stages)
-            .with_tolerance(self.tolerance)?
-            .with_time_limit(self.limit)
-    }
-}
-
-impl WeightsSource for ElasticSource {
-    fn kernel(
-        &self,
-        elements: &[ContactElement],
-        time_step: f64,
-    ) -> Result<Arc<dyn ConvolutionWeights>> {
-        match (self.stages(time_step), self.profile.base()) {
-            (None, Base::HalfPlane { soil, .. }) => {
-                Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
-            }
-            (stages, _) => {
-                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
-                Ok(Arc::new(match &self.file {
-                    Some(file) => kernel.with_file(file),
-                    None => kernel,
-                }))
-            }
-        }
-    }
-
-    fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
-        match self.profile.base() {
-            Base::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
-                StaticKernel::under(*soil, elements)?.compliance(elements, matrix)
-            }
-            _ => static_compliance(&self.profile, elements, matrix),
-        }
-    }
-
-    fn shear_wave_speed(&self) -> Option<f64> {
-        self.profile.surface().map(|soil| soil.shear_wave_speed())
-    }
-
-    fn identity(&self) -> Option<Vec<f64>> {
-        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
-        let mut numbers = vec![stages, self.tolerance, self.limit];
-        // Grounds with a file do not take their kernel from one without.
-        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
-        numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
-        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
-        numbers.extend(self.profile.identity()?);
-        Some(numbers)
-    }
-}
-
 impl ElasticGround {
     /// Ground of a [`Soil`] or a [`SoilProfile`] under a [`Strip`], or several of them from left to
     /// right, coupled through the soil.
@@ -175,23 +98,67 @@ impl ElasticGround {
         let profile = profile.into();
         profile.check()?;
         let (tolerance, limit) = (TOLERANCE, LIMIT);
-        let source = ElasticSource { profile, stages: None, tolerance, file: None, limit };
+        let (plan, stages, file) = (None, None, None);
+        let source = ElasticSource { profile, plan, stages, tolerance, file, limit };
         let ground = WeightsGround::new(source.clone(), elements)?;
+        Ok(Self { source, used: None, ground })
+    }
+
+    /// Ground of a [`Soil`] or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`]: each is a contact
+    /// element with three directions. A profile's half-plane is a half-space then. Cells are coupled through the soil,
+    /// those of several mats too.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::bem::plan::Plan;
+    /// use basemat::bem::{ElasticGround, Ground};
+    /// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    /// let mut ground = ElasticGround::in_plan(soil, Plan::rectangle(-5.0..5.0, -5.0..5.0, 4)?)?;
+    /// ground.prepare(1.0e-3)?;
+    /// let mut matrix = vec![0.0; 48 * 48];
+    /// ground.step_compliance(&mut matrix)?;
+    /// // Before waves reach the next cell, a pressure moves the surface by p·t/(ρ c₁), but for the edges.
+    /// let plane_wave = 1.0e-3 / (1900.0 * soil.pressure_wave_speed());
+    /// assert!((matrix[0] / plane_wave - 1.0).abs() < 0.5);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
+    /// more cells than matrices between them allow.
+    pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
+        let profile = profile.into();
+        profile.check()?;
+        let (elements, depths) = plan.sides();
+        check_count(elements.len())?;
+        let unions = plan.unions();
+        let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
+        let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
+        let ground = WeightsGround::in_plan(source.clone(), elements, depths, unions);
         Ok(Self { source, used: None, ground })
     }
 
     /// Ground under each foundation of `structure`, as wide as that is, of `count` elements each,
     /// graded towards the edges, where tractions are singular: [`Strip::under`] with
-    /// [`Grading::Cosine`].
+    /// [`Grading::Cosine`]. Under a structure with [faces](Structure::contact_faces) it is a ground
+    /// [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of them all: [`Plan::on_faces`].
     ///
     /// # Errors
-    /// As for [`ElasticGround::new`] and [`Strip::under`].
+    /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`].
     pub fn under(
         profile: impl Into<SoilProfile>,
         structure: &dyn Structure,
         count: usize,
     ) -> Result<Self> {
-        Self::new(profile, Strip::under(structure, count, Grading::Cosine)?)
+        let faces = structure.contact_faces();
+        if faces.is_empty() {
+            return Self::new(profile, Strip::under(structure, count, Grading::Cosine)?);
+        }
+        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+        Self::in_plan(
+            profile,
+            Plan::on_faces(&faces.iter().map(corners).collect::<Vec<_>>(), count)?,
+        )
     }
 
     fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
@@ -205,7 +172,7 @@ impl ElasticGround {
         self.changed(|source| source.stages = Some(stages))
     }
 
-    /// With the `tolerance` of [`LayeredKernel::with_tolerance`]. The closed form is exact.
+    /// With the `tolerance` of [`LayeredKernel::with_tolerance`](super::layered::LayeredKernel::with_tolerance). The closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
@@ -215,14 +182,14 @@ impl ElasticGround {
     }
 
     /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
-    /// them: [`LayeredKernel::with_file`]. The closed form needs none.
+    /// them: [`LayeredKernel::with_file`](super::layered::LayeredKernel::with_file). The closed form needs none.
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         self.changed(|source| source.file = Some(path.into()))
     }
 
     /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
-    /// [`LayeredKernel::with_time_limit`].
+    /// [`LayeredKernel::with_time_limit`](super::layered::LayeredKernel::with_time_limit).
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
@@ -255,7 +222,7 @@ impl ElasticGround {
     }
 
     /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
-    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form, and for cells in plan, of which it is not known.
     ///
     /// ```
     /// use basemat::Soil;
@@ -272,10 +239,11 @@ impl ElasticGround {
     /// ```
     ///
     /// # Errors
-    /// As for [`LayeredKernel::cost`]; [`Error::Input`](crate::Error::Input) for a bad time step.
+    /// As for [`LayeredKernel::cost`](super::layered::LayeredKernel::cost); [`Error::Input`](crate::Error::Input) for a bad time step.
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
-        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
+        let stages = self.source.stages(time_step).filter(|_| self.source.plan.is_none());
+        let Some(stages) = stages else { return Ok(Cost::default()) };
         let kernel = self.source.layered(self.elements(), time_step, stages)?;
         // Convolutions take lags by powers of two.
         kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
@@ -311,7 +279,7 @@ impl ElasticGround {
         frequencies: &[f64],
         contact: StripContact,
     ) -> Result<Vec<StripImpedance>> {
-        rigid_strip_impedances(self.profile(), self.elements(), frequencies, contact)
+        rigid_strip_impedances(self.profile(), self.strips()?, frequencies, contact)
     }
 
     /// The same, with an observer.
@@ -324,8 +292,19 @@ impl ElasticGround {
         contact: StripContact,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        let (profile, elements) = (self.profile(), self.elements());
+        let (profile, elements) = (self.profile(), self.strips()?);
         rigid_strip_impedances_observed(profile, elements, frequencies, contact, observer)
+    }
+
+    /// The elements, if they are strips.
+    fn strips(&self) -> Result<&[ContactElement]> {
+        match self.source.plan {
+            None => Ok(self.elements()),
+            Some(_) => Err(Error::Scene {
+                quantity: "ground in plan",
+                needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
+            }),
+        }
     }
 
     /// The profile.
@@ -338,6 +317,8 @@ impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
+        fn directions(&self) -> usize;
+        fn depth(&self, element: usize) -> [f64; 2];
         fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;

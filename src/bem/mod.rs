@@ -11,6 +11,7 @@
 //! right) and along y (away from the reader). Its elements are rectangles, in any order.
 
 mod elastic_ground;
+mod elastic_source;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod influence;

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::plan::Unions;
 use super::{Ground, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Error, Observer, Result};
-use crate::geometry::{ContactElement, check_order};
+use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
     HistoryOptions, RESERVED_STEPS, SavedChoice,
@@ -106,6 +107,10 @@ use crate::history::{
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
+    /// Front and back ends of elements in plan, m.
+    depths: Option<Vec<[f64; 2]>>,
+    /// Cells of elements in plan that are more than one.
+    unions: Option<Unions>,
     options: HistoryOptions,
     own_history: Option<Box<MakeHistory>>,
     shared: SharedKernels,
@@ -188,7 +193,27 @@ impl WeightsGround {
         check_order(&elements)?;
         let (options, shared) = (HistoryOptions::default(), SharedKernels::default());
         let source = Box::new(source);
-        Ok(Self { source, elements, options, own_history: None, shared, prepared: None })
+        let (depths, unions, own_history, prepared) = (None, None, None, None);
+        Ok(Self { source, elements, depths, unions, options, own_history, shared, prepared })
+    }
+
+    /// The same for elements in plan, whose source knows where they are.
+    pub(super) fn in_plan(
+        source: impl WeightsSource,
+        elements: Vec<ContactElement>,
+        depths: Vec<[f64; 2]>,
+        unions: Option<Unions>,
+    ) -> Self {
+        Self {
+            source: Box::new(source),
+            elements,
+            depths: Some(depths),
+            unions,
+            options: HistoryOptions::default(),
+            own_history: None,
+            shared: SharedKernels::default(),
+            prepared: None,
+        }
     }
 
     /// With other options of its history, or another method alone.
@@ -240,6 +265,14 @@ impl Ground for WeightsGround {
         &self.elements
     }
 
+    fn directions(&self) -> usize {
+        if self.depths.is_some() { SPACE } else { PLANE }
+    }
+
+    fn depth(&self, element: usize) -> [f64; 2] {
+        self.depths.as_ref().and_then(|depths| depths.get(element)).map_or([0.0, 1.0], |ends| *ends)
+    }
+
     fn prepare(&mut self, time_step: f64) -> Result<()> {
         let kernel = self.shared.kernel(&*self.source, &self.elements, time_step)?;
         self.prepared = Some(self.begin(kernel)?);
@@ -269,16 +302,19 @@ impl Ground for WeightsGround {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        match &self.prepared {
-            Some(prepared) => prepared.kernel.step_compliance(matrix),
-            None => Err(NOT_PREPARED),
+        let Some(Prepared { kernel, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
+        match &self.unions {
+            Some(unions) => unions.reduce(matrix, |cells| kernel.step_compliance(cells)),
+            None => kernel.step_compliance(matrix),
         }
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, None)?.evaluate(displacement),
-            None => Err(NOT_PREPARED),
+        let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
+        let history = prepared.history(self.options, None)?;
+        match &mut self.unions {
+            Some(unions) => unions.gather(displacement, |cells| history.evaluate(cells)),
+            None => history.evaluate(displacement),
         }
     }
 
@@ -286,7 +322,7 @@ impl Ground for WeightsGround {
         let Some(prepared) = &mut self.prepared else { return };
         // Where Auto has nothing to go by, it takes a history that can always be made.
         if let Ok(history) = prepared.history(self.options, None) {
-            history.push(traction);
+            history.push(self.unions.as_mut().map_or(traction, |unions| unions.spread(traction)));
         }
     }
 
@@ -342,7 +378,11 @@ impl Ground for WeightsGround {
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.source.static_compliance(&self.elements, matrix)
+        let find = |matrix: &mut [f64]| self.source.static_compliance(&self.elements, matrix);
+        match &self.unions {
+            Some(unions) => unions.reduce(matrix, find),
+            None => find(matrix),
+        }
     }
 }
 

@@ -1,4 +1,8 @@
-//! Geometry: contact elements, their order and that of their numbers; directions.
+//! Geometry: contact elements, their order and that of their numbers; cells of a lattice; directions.
+
+mod lattice;
+
+pub(crate) use lattice::{Lattice, SERIES, offset};
 
 use crate::error::{Error, MemoryError, Result, finite, memory, positive};
 

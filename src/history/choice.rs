@@ -3,8 +3,9 @@
 use std::fmt;
 
 use super::convolution::{ConvolutionWeights, LateWeights};
-use super::relaxed_fft::{LEAF, RelaxedFftHistory};
+use super::relaxed_fft::{LEAF, RelaxedFftHistory, waves_in_plan};
 use crate::error::{CheckpointError, Result};
+use crate::geometry::SERIES;
 
 /// Convolution history of a ground: the method by which it sums the effect of all past tractions.
 ///
@@ -277,9 +278,20 @@ impl Estimate {
 
     /// Of blocks up to this many steps.
     fn transforms(kernel: &dyn ConvolutionWeights, steps: usize, lasts: f64) -> Self {
+        let length = (steps as f64).max(64.0).log2().ceil().exp2();
+        if let Some((lattice, _)) = kernel.classes().plan() {
+            let [all, own] = waves_in_plan(lattice).map(|count| count as f64);
+            let levels = (length / LEAF as f64).log2();
+            let series = (SERIES * kernel.classes().count()) as f64;
+            // Nine products a wavenumber, of real and imaginary parts; transforms of six rows.
+            return Self::of(
+                all * (288.0 + levels * (72.0 + 30.0 * length.log2())),
+                (96.0 * own + 48.0 * all) * length + 48.0 * LEAF as f64 * (own + 2.0 * all),
+                COEFFICIENT * series * length,
+            );
+        }
         let classes = kernel.classes();
         let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
-        let length = (steps as f64).max(64.0).log2().ceil().exp2();
         let making = COEFFICIENT * classes * length;
         if RelaxedFftHistory::takes_wavenumbers(kernel) {
             let levels = (length / 32.0).log2();
@@ -316,6 +328,8 @@ impl Estimate {
 /// Whether the coupling of the pair farthest apart never ends.
 fn couples_without_end(kernel: &dyn ConvolutionWeights) -> Result<bool> {
     let classes = kernel.classes();
-    let farthest = classes.pairs()[classes.elements().len() - 1].class;
-    Ok(kernel.last_coupling_lag(farthest)?.is_none())
+    let farthest = classes.pairs().get(classes.elements().len() - 1);
+    // In plan the last class is that of the largest offset.
+    let class = farthest.map_or(classes.count() - 1, |pair| pair.class);
+    Ok(kernel.last_coupling_lag(class)?.is_none())
 }

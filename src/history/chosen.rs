@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use super::choice::{ChoiceReason, Estimate, HistoryChoice, HistoryMethod};
-use super::convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, ExactHistory};
+use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory};
+use super::direct::DirectHistory;
 use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
+use super::last_lag::LastLag;
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::{Error, MemoryError, Result, memory};
 
@@ -114,6 +116,9 @@ impl ChosenHistory {
         if !steps.is_power_of_two() && self.announced != Some(steps) {
             return Ok(());
         }
+        if exact.has_ended() {
+            self.room = usize::MAX;
+        }
         let most = self.most();
         if steps < most {
             return Ok(());
@@ -196,6 +201,9 @@ impl ConvolutionHistory for ChosenHistory {
 /// Steps that are estimated for where nothing is known.
 const UNKNOWN_STEPS: usize = 100_000;
 
+/// All late coefficients of a ground in plan that may be left out, of all.
+const FORGOTTEN: f64 = 1e-8;
+
 /// Error of coefficients that is taken without being allowed: results then differ by rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -217,7 +225,9 @@ const ROUNDING: f64 = 1e-12;
 pub struct HistoryOptions {
     /// Method; [`HistoryMethod::Auto`] by default.
     pub method: HistoryMethod,
-    /// Relative error that coefficients may have, 1e-12 to 1e-2. Exponentials take it instead of 1e-12
+    /// Relative error that coefficients may have, 1e-12 to 1e-2. In plan, [`HistoryMethod::Auto`] leaves out late
+    /// coefficients that are together less than this of all (1e-8 unless given) as soon as a run is twice as long as
+    /// the others. Exponentials take it instead of 1e-12
     /// ([`HistoryMethod::Auto`]) or 1e-10 ([`HistoryMethod::Exponentials`]); only the half-plane's closed form has
     /// them.
     pub tolerance: Option<f64>,
@@ -326,8 +336,30 @@ impl HistoryOptions {
             }
         };
         fits(Estimate::new(HistoryMethod::RelaxedFft, &**kernel, LEAF)?.memory)?;
-        let history = Kept::Exact(Box::new(RelaxedFftHistory::new(own())));
-        Ok((history, choice(HistoryMethod::RelaxedFft, reason, exact)))
+        let history = RelaxedFftHistory::new(own());
+        if self.method != HistoryMethod::Auto || kernel.classes().plan().is_none() {
+            let choice = choice(HistoryMethod::RelaxedFft, reason, exact);
+            return Ok((Kept::Exact(Box::new(history)), choice));
+        }
+        // In plan the soil forgets; what does not fit into memory has to end before.
+        let error_bound = self.tolerance.unwrap_or(FORGOTTEN);
+        let mut ended = exact;
+        if reason == ChoiceReason::NoExponentials {
+            let lags = room(self, HistoryMethod::RelaxedFft, &**kernel)?;
+            let Some(end) = LastLag::of(&**kernel, error_bound, lags)? else {
+                return Err(Error::Memory(MemoryError {
+                    quantity: "steps of the convolution history",
+                    asked: expected as f64,
+                    needed: exact.memory as f64,
+                    limit: self.memory as f64,
+                    remedy: "take larger cells or fewer steps, or allow more with `HistoryOptions::memory`",
+                }));
+            };
+            ended = Estimate::new(HistoryMethod::RelaxedFft, &**kernel, 2 * end.lag)?;
+        }
+        let choice = choice(HistoryMethod::RelaxedFft, reason, ended);
+        let kept = Kept::Exact(Box::new(history.forgetting(error_bound)));
+        Ok((kept, HistoryChoice { error_bound, ..choice }))
     }
 
     /// Tolerance of exponentials that are not taken for their speed.

@@ -7,7 +7,9 @@
 mod choice;
 mod chosen;
 mod convolution;
+mod direct;
 mod exponentials;
+mod last_lag;
 mod pair_classes;
 mod relaxed_fft;
 
@@ -15,8 +17,9 @@ pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, HistoryChoice, HistoryMethod};
 pub(crate) use chosen::ChosenHistory;
 pub use chosen::HistoryOptions;
-pub(crate) use convolution::RESERVED_STEPS;
-pub use convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, LateWeights};
+pub use convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
+pub use direct::DirectHistory;
+pub(crate) use direct::RESERVED_STEPS;
 pub use exponentials::{ExponentialFit, ExponentialHistory, ExponentialSum, TailProduct};
 pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};

@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use std::ops::Mul;
 
 use crate::error::{Error, Result};
-use crate::geometry::{ContactElement, ContactLayout, PLANE, check_order};
+use crate::geometry::{
+    ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
+};
 use crate::linalg::{ComplexField, hermitian_range};
 
 /// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
@@ -31,6 +33,17 @@ pub(crate) const ACTIONS: [Action; 4] = [
     Action { kind: 2, displacement: 0, traction: 1, odd: Some(1.0) },
     Action { kind: 2, displacement: 1, traction: 0, odd: Some(-1.0) },
 ];
+
+/// What a traction's component of a pair's source does to a component of its receiver's displacement.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Term {
+    /// Kind of coefficient.
+    pub(crate) kind: usize,
+    /// Components of displacement and traction.
+    pub(crate) components: [usize; 2],
+    /// Factor of the coefficient.
+    pub(crate) factor: f64,
+}
 
 /// Where a pair of elements finds its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +88,8 @@ pub struct PairClasses {
     pairs: Vec<Pair>,
     /// One (source, receiver) per class, the receiver on the right.
     representatives: Vec<[ContactElement; 2]>,
+    /// Elements that are cells of a lattice, column and row of each; no pairs are listed then.
+    plan: Option<(Lattice, Vec<[usize; 2]>)>,
 }
 
 impl PairClasses {
@@ -117,10 +132,36 @@ impl PairClasses {
                 pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
             }
         }
-        Ok(Self { elements, pairs, representatives })
+        Ok(Self { elements, pairs, representatives, plan: None })
     }
 
-    /// The elements, from left to right.
+    /// Classes of the pairs of `cells` of a lattice in plan, by column and row: those of [`Lattice::classes`]. The
+    /// elements are their sides along x, for a lattice that begins at `left` (m).
+    ///
+    /// # Errors
+    /// As for [`check_count`].
+    pub(crate) fn in_plan(lattice: Lattice, cells: Vec<[usize; 2]>, left: f64) -> Result<Self> {
+        check_count(cells.len())?;
+        let side = |[column, _]: &[usize; 2]| {
+            let [left, right] =
+                [*column, column + 1].map(|line| left + lattice.pitch[0] * line as f64);
+            ContactElement { left, right }
+        };
+        let elements = cells.iter().map(side).collect();
+        Ok(Self { elements, pairs: vec![], representatives: vec![], plan: Some((lattice, cells)) })
+    }
+
+    /// Lattice and cells of elements in plan.
+    pub(crate) fn plan(&self) -> Option<(&Lattice, &[[usize; 2]])> {
+        self.plan.as_ref().map(|(lattice, cells)| (lattice, &cells[..]))
+    }
+
+    /// Number of kinds of coefficients of a pair: those of a symmetric matrix, its diagonal first.
+    pub(crate) fn kinds(&self) -> usize {
+        if self.plan.is_some() { SERIES } else { KINDS }
+    }
+
+    /// The elements, from left to right; cells in plan in their own order.
     pub fn elements(&self) -> &[ContactElement] {
         &self.elements
     }
@@ -132,7 +173,10 @@ impl PairClasses {
 
     /// Number of classes.
     pub fn count(&self) -> usize {
-        self.representatives.len()
+        match &self.plan {
+            Some((lattice, _)) => lattice.classes().len(),
+            None => self.representatives.len(),
+        }
     }
 
     /// One pair of `class`: its source, and its receiver, which is the source itself or to the
@@ -150,28 +194,52 @@ impl PairClasses {
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        ContactLayout::new(PLANE, self.elements.len())
+        let components = if self.plan.is_some() { SPACE } else { PLANE };
+        ContactLayout::new(components, self.elements.len())
     }
 
-    /// Overwrites `matrix` (2Q × 2Q, row-major) with the coefficients of all pairs. `of_pair` returns
-    /// those of a receiver and a source, kind by kind, the coupling as if the receiver were on the right.
-    pub(crate) fn scatter<T>(
+    /// Calls `put` with every pair's receiver and source, its class, and its terms.
+    pub(crate) fn each(&self, mut put: impl FnMut([usize; 2], &Pair, &[Term])) {
+        let count = self.elements.len();
+        let mut terms = [Term::default(); 9];
+        for (place, pair) in self.pairs.iter().enumerate() {
+            for (term, action) in terms.iter_mut().zip(&ACTIONS) {
+                let components = [action.displacement, action.traction];
+                *term = Term { kind: action.kind, components, factor: pair.factor(action) };
+            }
+            put([place / count, place % count], pair, &terms[..ACTIONS.len()]);
+        }
+        let Some((lattice, cells)) = &self.plan else { return };
+        let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
+        for (p, receiver) in cells.iter().enumerate() {
+            for (q, source) in cells.iter().enumerate() {
+                let (class, block) = lattice.terms(offset(*receiver, *source));
+                for (place, (kind, factor)) in block.into_iter().flatten().enumerate() {
+                    terms[place] = Term { kind, components: [place / 3, place % 3], factor };
+                }
+                put([p, q], &Pair { class, scale, sign: 1.0 }, &terms);
+            }
+        }
+    }
+
+    /// Overwrites `matrix` (row-major) with the coefficients of all pairs. `of_pair` returns those of a receiver and a
+    /// source, kind by kind, the coupling as if the receiver were on the right and away.
+    pub(crate) fn scatter<T, const KINDS: usize>(
         &self,
         matrix: &mut [T],
         mut of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
     ) where
         T: Copy + Mul<f64, Output = T>,
     {
-        let (layout, count) = (self.layout(), self.elements.len());
-        for (place, pair) in self.pairs.iter().enumerate() {
-            let [receiver, source] = [place / count, place % count];
+        let layout = self.layout();
+        self.each(|[receiver, source], pair, terms| {
             let values = of_pair([receiver, source], pair);
-            for action in &ACTIONS {
-                let row = layout.place(action.displacement, receiver);
-                let column = layout.place(action.traction, source);
-                matrix[row * layout.len() + column] = values[action.kind] * pair.factor(action);
+            for Term { kind, components: [displacement, traction], factor } in terms {
+                let row = layout.place(*displacement, receiver);
+                let column = layout.place(*traction, source);
+                matrix[row * layout.len() + column] = values[*kind] * *factor;
             }
-        }
+        });
     }
 
     /// Least eigenvalue of the Hermitian part of a symbol, given pair by pair as for
@@ -180,7 +248,7 @@ impl PairClasses {
     ///
     /// With (1−z) Ĝ(z), integrated over receivers and sources, it tells whether a ground can give
     /// energy away: by Parseval the work of any tractions is not negative if it is not, anywhere on |z| = 1.
-    pub(crate) fn least_eigenvalue<T>(
+    pub(crate) fn least_eigenvalue<T, const KINDS: usize>(
         &self,
         own: impl Fn(usize, usize) -> f64,
         of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
@@ -193,8 +261,9 @@ impl PairClasses {
         self.scatter(&mut matrix, of_pair);
         let scale = |place: usize| {
             let [component, element] = layout.origin(place);
-            let itself = self.pairs[element * (self.elements.len() + 1)].class;
-            1.0 / own(itself, component).sqrt()
+            // Of a lattice the first class is that of a cell on itself.
+            let itself = self.pairs.get(element * (self.elements.len() + 1));
+            1.0 / own(itself.map_or(0, |pair| pair.class), component).sqrt()
         };
         let scales: Vec<f64> = (0..layout.len()).map(scale).collect();
         for (line, row) in matrix.chunks_exact_mut(layout.len()).zip(&scales) {

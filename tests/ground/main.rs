@@ -13,6 +13,7 @@ mod layered_passivity;
 mod observers;
 mod passivity;
 mod plan_cells;
+mod plan_ground;
 mod plan_impedances;
 mod site_response;
 mod site_round_trip;

@@ -3,6 +3,7 @@
 //! REFERENCE: equations of motion integrated here, Newton's law, the same body in the plane, symmetry.
 
 mod cells;
+mod elastic;
 mod equations;
 mod march;
 mod mast;

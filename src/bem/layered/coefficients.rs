@@ -22,11 +22,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use realfft::RealFftPlanner;
 
-use super::contour::{Circle, POINTS, Panels, Place, Polynomials, evaluate, factor};
+use super::contour::{Circle, POINTS, Panels, Place, Polynomials, evaluate, factor, own_classes};
 use super::runge_kutta::{Node, Stages, on_circle};
-use super::wavenumber::{Wavenumbers, Workspace};
+use super::wavenumber::{Compliances, OUTLOOK, Wavenumbers};
 use crate::error::{Error, Result, Watch};
-use crate::history::{KINDS, PairClasses};
+use crate::history::{KINDS as STRIP_KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -36,17 +36,14 @@ pub(crate) const FIRST: usize = 128;
 pub(crate) const BLOCKS: usize = 25;
 /// Points of the circle per N of lags N+1 … 2N; 2N of the first block.
 const POINTS_PER_LAG: usize = 4;
-/// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
-/// the others where a slab carries waves along.
-const WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
 /// Tolerance over its own with which a panel must look resolved before it is sampled: half of those at the limit are.
 pub(super) const DOUBT: f64 = 100.0;
 
 /// Coefficients of neighbouring lags, all classes.
 #[derive(Debug)]
 pub(crate) struct Block {
-    /// Per class: zz, xx, zx, lag by lag.
-    pub(crate) values: Vec<[Vec<f64>; KINDS]>,
+    /// Class by class, kind by kind: lag by lag.
+    pub(crate) values: Vec<Vec<f64>>,
 }
 
 impl Block {
@@ -77,8 +74,8 @@ impl Block {
     }
 
     /// Coefficients of one class from `place` to the block's end.
-    pub(crate) fn from(&self, class: usize, place: usize) -> [&[f64]; KINDS] {
-        self.values[class].each_ref().map(|values| &values[place..])
+    pub(crate) fn from<const KINDS: usize>(&self, class: usize, place: usize) -> [&[f64]; KINDS] {
+        std::array::from_fn(|kind| &self.values[class * KINDS + kind][place..])
     }
 }
 
@@ -110,9 +107,9 @@ impl<'w, 'a> Samples<'w, 'a> {
 
 /// All that coefficients depend on.
 #[derive(Debug)]
-pub(crate) struct Quadrature {
+pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> {
     pub(crate) profile: SoilProfile,
-    pub(crate) integrals: Wavenumbers,
+    pub(crate) integrals: I,
     pub(crate) classes: usize,
     pub(crate) stages: Stages,
     pub(crate) time_step: f64,
@@ -131,16 +128,29 @@ impl Quadrature {
         tolerance: f64,
     ) -> Self {
         let integrals = Wavenumbers::new(classes, tolerance);
-        let panels = (0..stages.count()).map(|_| Panels::new(classes)).collect();
-        let classes = classes.count();
+        Self::of(profile, integrals, own_classes(classes), stages, [time_step, tolerance])
+    }
+}
+
+impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
+    /// Quadrature of these integrals; `own` has, per class, the classes of its two elements on themselves.
+    pub(crate) fn of(
+        profile: SoilProfile,
+        integrals: I,
+        own: Vec<[usize; 2]>,
+        stages: Stages,
+        [time_step, tolerance]: [f64; 2],
+    ) -> Self {
+        let (classes, own) = (own.len(), Arc::from(own));
+        let panels = (0..stages.count()).map(|_| Panels::new(&own)).collect();
         Self { profile, integrals, classes, stages, time_step, tolerance, panels }
     }
 
-    /// Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z) for all classes (zz, xx, zx), at z given by ln |z| and its angle.
+    /// Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z) for all classes, at z given by ln |z| and its angle.
     pub(crate) fn mobility(
         &self,
         place: [f64; 2],
-        work: &mut Workspace,
+        work: &mut I::Workspace,
         scratch: &mut [[Complex; KINDS]],
         sums: &mut [[Complex; KINDS]],
     ) -> Result<()> {
@@ -161,7 +171,7 @@ impl Quadrature {
     pub(super) fn add(
         &self,
         node: Node,
-        work: &mut Workspace,
+        work: &mut I::Workspace,
         scratch: &mut [[Complex; KINDS]],
         sums: &mut [[Complex; KINDS]],
     ) -> Result<()> {
@@ -200,25 +210,20 @@ impl Quadrature {
         let (mut output, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
         let growth: Vec<_> =
             (first..first + lags).map(|n| (-logarithm * n as f64).exp() / length as f64).collect();
-        let mut values = Vec::with_capacity(self.classes);
-        for rows in spectra.chunks_exact(KINDS * circle.points()) {
-            let mut components = [const { Vec::new() }; KINDS];
-            for (list, row) in components.iter_mut().zip(rows.chunks_exact(circle.points())) {
-                for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
-                    // The transform has the other sign.
-                    *input = (*value * *over).conj().inner();
-                }
-                samples.reach(0)?;
-                // The ends of the circle are real.
-                [input[0].im, input[length / 2].im] = [0.0; 2];
-                transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
-                    |_| Error::Singular { matrix: "spectrum of step coefficients", order: length },
-                )?;
-                list.extend(
-                    output[first..].iter().zip(&growth).map(|(value, scale)| value * scale),
-                );
+        let mut values = Vec::with_capacity(self.classes * KINDS);
+        for row in spectra.chunks_exact(circle.points()) {
+            for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
+                // The transform has the other sign.
+                *input = (*value * *over).conj().inner();
             }
-            values.push(components);
+            samples.reach(0)?;
+            // The ends of the circle are real.
+            [input[0].im, input[length / 2].im] = [0.0; 2];
+            transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
+                |_| Error::Singular { matrix: "spectrum of step coefficients", order: length },
+            )?;
+            let lags = output[first..].iter().zip(&growth);
+            values.push(lags.map(|(value, scale)| value * scale).collect());
         }
         samples.end()?;
         Ok(Block { values })
@@ -263,46 +268,28 @@ impl Quadrature {
         Ok(spectra)
     }
 
-    /// Whether a panel looks resolved to so many times the tolerance: for the surface compliance at a small wavenumber,
-    /// and for waves along the shortest element and the patch.
+    /// Whether a panel looks resolved to so many times the tolerance.
     pub(super) fn looks(
         &self,
         node: usize,
         place: Place,
-        work: &mut Workspace,
+        work: &mut I::Workspace,
     ) -> Result<impl Fn(f64) -> bool> {
-        let Wavenumbers { span, shortest, .. } = self.integrals;
         let mut values = vec![];
-        let wavenumbers = if self.has_slab() { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
         for point in place.places() {
             let over = factor(node, point).inverse();
             for node in self.nodes(point).skip(node).take(1) {
-                work.compliance.set(&self.profile, self.variable(node))?;
-                work.evaluations += wavenumbers.len();
-                let (_, q2, _) = work.compliance.top();
-                let one = Complex::real(1.0);
-                let waves = [shortest, span].map(|way| {
-                    let turn = q2.sqrt().scale(way);
-                    (-turn).exp() / (one + turn)
-                });
-                let weight = node.weight * over * (one + waves[0] + waves[1]);
-                for wavenumber in wavenumbers {
-                    let c = work.compliance.at(wavenumber / span);
-                    values.extend([c.zz, c.xx, c.xz].map(|value| weight * value));
-                }
+                let first = values.len();
+                self.integrals.outlook(&self.profile, self.variable(node), work, &mut values)?;
+                let weight = node.weight * over;
+                values[first..].iter_mut().for_each(|value| *value = *value * weight);
             }
         }
-        let own: Vec<_> = (0..wavenumbers.len()).map(|place| [place; 2]).collect();
+        let own: Vec<_> = (0..values.len() / (POINTS * OUTLOOK)).map(|place| [place; 2]).collect();
         let tolerance = self.tolerance;
-        Ok(move |times| Polynomials::through(&values, &own, times * tolerance).is_some())
-    }
-
-    /// Whether the top layer carries more along the patch than the ground below it.
-    fn has_slab(&self) -> bool {
-        let top = self.profile.layers().first();
-        top.zip(self.profile.soils().nth(1)).is_some_and(|(top, (below, _))| {
-            let carried = top.soil.shear_modulus() * top.thickness;
-            carried > below.shear_modulus() * self.integrals.span
+        Ok(move |times| {
+            own.is_empty()
+                || Polynomials::through::<OUTLOOK>(&values, &own, times * tolerance).is_some()
         })
     }
 
@@ -315,7 +302,7 @@ impl Quadrature {
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {
-        let (mut missing, mut work) = (vec![], Workspace::default());
+        let (mut missing, mut work) = (vec![], I::Workspace::default());
         for place in places.iter().filter(|place| panels.known(**place).is_none()) {
             samples.reach(0)?;
             if self.looks(node, *place, &mut work)?(DOUBT) {
@@ -332,7 +319,8 @@ impl Quadrature {
         }
         let mut kept = panels.kept();
         for (place, values) in missing.into_iter().zip(values.chunks(POINTS * self.classes)) {
-            let found = Polynomials::through(values.as_flattened(), &panels.own, self.tolerance);
+            let found =
+                Polynomials::through::<KINDS>(values.as_flattened(), &panels.own, self.tolerance);
             kept.insert(*place, found.map(Arc::new));
         }
         Ok(())
@@ -350,7 +338,7 @@ impl Quadrature {
         let queue = Mutex::new(places.iter().zip(values.chunks_mut(self.classes)).enumerate());
         let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = |after: &mut dyn FnMut(usize) -> Result<()>| {
-            let mut work = Workspace::default();
+            let mut work = I::Workspace::default();
             let mut scratch = vec![[Complex::default(); KINDS]; self.classes];
             while !stopped.load(Ordering::Relaxed) {
                 // A thread that panicked leaves a queue that is still good.

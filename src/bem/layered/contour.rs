@@ -22,7 +22,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::runge_kutta::on_circle;
 use crate::error::Result;
-use crate::history::{KINDS, PairClasses};
+use crate::history::PairClasses;
 use crate::linalg::Complex;
 
 /// Chebyshev points of a panel.
@@ -92,7 +92,11 @@ pub(crate) struct Polynomials {
 impl Polynomials {
     /// Through `values` at the points of a panel, one column for each function; `None` if they are resolved over no
     /// power. `own` and `tolerance` are those of [`is_resolved`].
-    pub(crate) fn through(values: &[Complex], own: &[[usize; 2]], tolerance: f64) -> Option<Self> {
+    pub(crate) fn through<const KINDS: usize>(
+        values: &[Complex],
+        own: &[[usize; 2]],
+        tolerance: f64,
+    ) -> Option<Self> {
         TURNS.into_iter().find_map(|turn| {
             let mut values = values.to_vec();
             let count = values.len() / POINTS;
@@ -103,7 +107,7 @@ impl Polynomials {
                 }
             }
             let coefficients = transformed(&values);
-            let resolved = is_resolved(&coefficients, own, tolerance, turn);
+            let resolved = is_resolved::<KINDS>(&coefficients, own, tolerance, turn);
             resolved.then_some(Self { coefficients, turn })
         })
     }
@@ -161,14 +165,8 @@ fn transformed(values: &[Complex]) -> Vec<Complex> {
 }
 
 impl Panels {
-    pub(crate) fn new(classes: &PairClasses) -> Self {
-        let mut own = vec![[0; 2]; classes.count()];
-        let (pairs, elements) = (classes.pairs(), classes.elements().len());
-        for (place, pair) in pairs.iter().enumerate() {
-            let ends = [place / elements, place % elements];
-            own[pair.class] = ends.map(|element| pairs[element * (elements + 1)].class);
-        }
-        Self { kept: Mutex::default(), own: own.into() }
+    pub(crate) fn new(own: &Arc<[[usize; 2]]>) -> Self {
+        Self { kept: Mutex::default(), own: Arc::clone(own) }
     }
 
     pub(super) fn kept(&self) -> MutexGuard<'_, HashMap<Place, Option<Arc<Polynomials>>>> {
@@ -181,9 +179,25 @@ impl Panels {
     }
 }
 
+/// Per class: those of its two elements on themselves.
+pub(super) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
+    let mut own = vec![[0; 2]; classes.count()];
+    let (pairs, elements) = (classes.pairs(), classes.elements().len());
+    for (place, pair) in pairs.iter().enumerate() {
+        let ends = [place / elements, place % elements];
+        own[pair.class] = ends.map(|element| pairs[element * (elements + 1)].class);
+    }
+    own
+}
+
 /// Whether the last two of the `coefficients` are small beside those of the elements themselves, up to the unit
 /// circle; `own` has, per class, the classes of its two elements, `turn` belongs to the coefficients.
-fn is_resolved(coefficients: &[Complex], own: &[[usize; 2]], tolerance: f64, turn: f64) -> bool {
+fn is_resolved<const KINDS: usize>(
+    coefficients: &[Complex],
+    own: &[[usize; 2]],
+    tolerance: f64,
+    turn: f64,
+) -> bool {
     let shift = 2.0 * ASIDE;
     let growth = shift + (1.0 + shift * shift).sqrt();
     let most = LAST * tolerance / growth.powf((POINTS - 1) as f64) / (turn * shift).exp();
@@ -194,8 +208,11 @@ fn is_resolved(coefficients: &[Complex], own: &[[usize; 2]], tolerance: f64, tur
     let largest = |class: usize, kind: usize| {
         degrees.iter().map(|row| row[class][kind].abs()).fold(0.0, f64::max)
     };
-    let sizes: Vec<_> =
-        (0..own.len()).map(|class| largest(class, 0).min(largest(class, 1))).collect();
+    // Of a symmetric matrix the diagonal comes first.
+    let least = |class: usize| {
+        (0..KINDS.div_ceil(2)).map(|kind| largest(class, kind)).fold(f64::INFINITY, f64::min)
+    };
+    let sizes: Vec<_> = (0..own.len()).map(least).collect();
     let [.., one, two] = &degrees[..] else { return false };
     one.iter().zip(*two).zip(own).all(|((one, two), own)| {
         let allowed = most * own.map(|class| sizes[class]).iter().product::<f64>().sqrt();

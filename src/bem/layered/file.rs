@@ -7,7 +7,7 @@
 //! | 0, 1 | "BASEMATK", format |
 //! | 2 | fingerprint of the kernel |
 //! | 3, 4 | classes of pairs, blocks of lags |
-//! | then | coefficients: by block, class, component (zz, xx, zx), lag |
+//! | then | coefficients: by block, class, kind (zz, xx, zx), lag |
 //! | last | check sum of all before |
 //!
 //! The fingerprint is that of the mobility at the points of the passivity gate, bit for bit, with step,
@@ -34,8 +34,12 @@ const HEADER: usize = 5;
 ///
 /// # Errors
 /// [`LayeredError::File`] for a file that cannot be read, is no kernel's, or is damaged.
-pub(crate) fn read(path: &Path, fingerprint: u64, classes: usize) -> Result<Vec<Block>> {
-    match contents(path, fingerprint, classes) {
+pub(crate) fn read(
+    path: &Path,
+    fingerprint: u64,
+    [classes, kinds]: [usize; 2],
+) -> Result<Vec<Block>> {
+    match contents(path, fingerprint, [classes, kinds]) {
         Err(KernelFileError::Unreadable(std::io::ErrorKind::NotFound)) => Ok(vec![]),
         found => found.map_err(|reason| {
             Error::from(LayeredError::File { file: path.display().to_string(), reason })
@@ -46,7 +50,7 @@ pub(crate) fn read(path: &Path, fingerprint: u64, classes: usize) -> Result<Vec<
 fn contents(
     path: &Path,
     fingerprint: u64,
-    classes: usize,
+    [classes, kinds]: [usize; 2],
 ) -> std::result::Result<Vec<Block>, KernelFileError> {
     let unreadable = |error: std::io::Error| KernelFileError::Unreadable(error.kind());
     let mut file = File::open(path).map_err(unreadable)?;
@@ -70,7 +74,7 @@ fn contents(
     let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
     let size = |blocks: usize| {
         let lags: usize = (0..blocks).map(Block::lags).sum();
-        (HEADER + 3 * classes * lags + 1) as u64 * 8
+        (HEADER + kinds * classes * lags + 1) as u64 * 8
     };
     let needed = (blocks <= BLOCKS).then(|| size(blocks));
     if needed != Some(found) {
@@ -96,7 +100,7 @@ fn contents(
     let mut list = |lags: usize| numbers.by_ref().take(lags).collect::<Vec<_>>();
     let mut block = |number: usize| {
         let lags = Block::lags(number);
-        Block { values: (0..classes).map(|_| std::array::from_fn(|_| list(lags))).collect() }
+        Block { values: (0..kinds * classes).map(|_| list(lags)).collect() }
     };
     Ok((0..blocks).map(&mut block).collect())
 }
@@ -109,7 +113,7 @@ pub(crate) fn write(
     blocks: &[&Block],
 ) -> Result<()> {
     static WRITTEN: AtomicU64 = AtomicU64::new(0);
-    let lists = || blocks.iter().flat_map(|block| block.values.iter().flatten());
+    let lists = || blocks.iter().flat_map(|block| &block.values);
     let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;
     let mut bytes: Vec<u8> = Vec::with_capacity(8 * count);
     let mut sum = CheckSum::default();

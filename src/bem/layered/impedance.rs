@@ -11,7 +11,7 @@ use realfft::num_complex::Complex64;
 
 use super::passivity::assembled;
 use super::static_compliance;
-use super::wavenumber::{Wavenumbers, Workspace};
+use super::wavenumber::{Compliances, Wavenumbers, Workspace};
 use crate::error::{Error, LayeredError, Observer, Result, Watch, not_negative};
 use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};

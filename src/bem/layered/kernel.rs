@@ -2,15 +2,14 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
-use std::time::Duration;
 
-use super::coefficients::{BLOCKS, Block, FIRST, Quadrature, Samples};
+use super::coefficients::{Block, Quadrature, Samples};
 use super::cost::{Cost, Outlook};
+use super::kept::{KeptBlocks, copy_lags, last_block, threads};
+use super::passivity;
 use super::runge_kutta::Stages;
 use super::wavenumber::Workspace;
-use super::{file, passivity};
-use crate::error::{Error, Observer, Result, Watch, memory, positive, same_length};
+use crate::error::{Error, Observer, Result, Watch, memory, positive};
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, KINDS, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
@@ -38,13 +37,8 @@ use crate::soil::SoilProfile;
 pub struct LayeredKernel {
     classes: PairClasses,
     quadrature: Quadrature,
-    /// Fingerprint of what has passed the gate.
-    checked: OnceLock<Result<u64>>,
-    blocks: [OnceLock<Result<Block>>; BLOCKS],
-    /// Held by the thread that computes.
-    making: Mutex<()>,
+    kept: KeptBlocks,
     spectra: SharedSpectra,
-    file: Option<PathBuf>,
     /// Most processor time that coefficients may take, s.
     limit: f64,
 }
@@ -53,9 +47,6 @@ pub struct LayeredKernel {
 pub(crate) const TOLERANCE: f64 = 1e-10;
 /// Default limit on processor time, s.
 pub(crate) const LIMIT: f64 = 600.0;
-
-/// Between two looks whether another thread has ended.
-const WAIT: Duration = Duration::from_millis(20);
 
 impl LayeredKernel {
     /// Kernel of `profile` under `elements` (left to right, not overlapping) for steps of `time_step`
@@ -73,7 +64,7 @@ impl LayeredKernel {
         profile.check()?;
         profile.check_causal()?;
         let classes = PairClasses::new(elements)?;
-        Ok(Self::made(profile, classes, time_step, Stages::default(), TOLERANCE))
+        Ok(Self::made(profile, classes, time_step, Stages::default(), TOLERANCE, None))
     }
 
     fn made(
@@ -82,20 +73,19 @@ impl LayeredKernel {
         time_step: f64,
         stages: Stages,
         tolerance: f64,
+        file: Option<PathBuf>,
     ) -> Self {
         let quadrature = Quadrature::new(profile, &classes, stages, time_step, tolerance);
-        let blocks = std::array::from_fn(|_| OnceLock::new());
-        let (checked, spectra) = (OnceLock::new(), SharedSpectra::default());
-        let making = Mutex::default();
-        Self { classes, quadrature, checked, blocks, making, spectra, file: None, limit: LIMIT }
+        let kept = KeptBlocks::new([classes.count(), KINDS], file);
+        Self { classes, quadrature, kept, spectra: SharedSpectra::default(), limit: LIMIT }
     }
 
     /// With another number of stages.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
         let Quadrature { profile, time_step, tolerance, .. } = self.quadrature;
-        let made = Self::made(profile, self.classes, time_step, stages, tolerance);
-        Self { file: self.file, limit: self.limit, ..made }
+        let (limit, file) = (self.limit, self.kept.file);
+        Self { limit, ..Self::made(profile, self.classes, time_step, stages, tolerance, file) }
     }
 
     /// With the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace
@@ -107,8 +97,9 @@ impl LayeredKernel {
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
         check_tolerance(tolerance)?;
         let Quadrature { profile, time_step, stages, .. } = self.quadrature;
-        let made = Self::made(profile, self.classes, time_step, stages, tolerance);
-        Ok(Self { file: self.file, limit: self.limit, ..made })
+        let (limit, file) = (self.limit, self.kept.file);
+        let made = Self::made(profile, self.classes, time_step, stages, tolerance, file);
+        Ok(Self { limit, ..made })
     }
 
     /// With coefficients from the file `path`, and those that it lacks written to it by
@@ -137,8 +128,9 @@ impl LayeredKernel {
     /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) then also return
     /// [`LayeredError::File`](crate::LayeredError::File) and [`Error::Write`].
     #[must_use]
-    pub fn with_file(self, path: impl Into<PathBuf>) -> Self {
-        Self { file: Some(path.into()), ..self }
+    pub fn with_file(mut self, path: impl Into<PathBuf>) -> Self {
+        self.kept.file = Some(path.into());
+        self
     }
 
     /// With at most so many `seconds` of a processor for coefficients, by [`LayeredKernel::cost`] and not by
@@ -172,45 +164,9 @@ impl LayeredKernel {
 
     /// Block `number`, computed now if it has not been.
     fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&Block> {
-        self.once(&self.blocks[number], watch, |watch| {
+        self.kept.block(number, watch, |watch| {
             self.quadrature.block(number, threads(), Samples::new(watch, expected))
         })
-    }
-
-    /// What is in `place`, made now if nothing is; what was stopped leaves nothing.
-    fn once<'a, T>(
-        &self,
-        place: &'a OnceLock<Result<T>>,
-        watch: &mut Watch,
-        make: impl FnOnce(&mut Watch) -> Result<T>,
-    ) -> Result<&'a T> {
-        let found = |made: &'a Result<T>| made.as_ref().map_err(Clone::clone);
-        if let Some(made) = place.get() {
-            return found(made);
-        }
-        let _making = self.enter(watch)?;
-        if let Some(made) = place.get() {
-            return found(made);
-        }
-        match make(watch) {
-            Err(stopped @ Error::Stopped(_)) => Err(stopped),
-            made => found(place.get_or_init(|| made)),
-        }
-    }
-
-    /// Waits until no other thread computes, with an open ear for the observer.
-    fn enter(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
-        while watch.is_observed() {
-            match self.making.try_lock() {
-                Ok(making) => return Ok(making),
-                Err(TryLockError::Poisoned(poisoned)) => return Ok(poisoned.into_inner()),
-                Err(TryLockError::WouldBlock) => {
-                    watch.reach(0)?;
-                    std::thread::sleep(WAIT);
-                }
-            }
-        }
-        Ok(self.making.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Passes the gate, and refuses what is missing of the blocks of `wanted` if it costs too much; `outlook` are the
@@ -221,16 +177,20 @@ impl LayeredKernel {
         outlook: Option<&Outlook>,
         watch: &mut Watch,
     ) -> Result<u64> {
-        let missing = self.missing(wanted.clone());
-        let open = self.checked.get().is_none();
+        let missing = self.kept.missing(wanted.clone());
+        let open = !self.kept.is_checked();
         // A file may hold all that is wanted.
-        let late = open && self.file.is_some();
+        let late = open && self.kept.file.is_some();
         let first = if late { 0..0 } else { missing };
         if open || !first.is_empty() {
             self.quadrature.afford(first, open, self.limit, outlook.filter(|_| !late))?;
         }
-        let fingerprint = *self.once(&self.checked, watch, |watch| self.check(watch))?;
-        let rest = self.missing(wanted);
+        let elements = self.classes.elements().iter();
+        let ends = elements.flat_map(|element| [element.left, element.right]);
+        let check =
+            |watch: &mut Watch| passivity::check(&self.quadrature, &self.classes, ends, watch);
+        let fingerprint = self.kept.gate(watch, check)?;
+        let rest = self.kept.missing(wanted);
         if late && !rest.is_empty() {
             self.quadrature.afford(rest, false, self.limit, None)?;
         }
@@ -246,33 +206,15 @@ impl LayeredKernel {
         Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
-    /// Those of the blocks of `wanted` from the first on that is not there.
-    fn missing(&self, wanted: Range<usize>) -> Range<usize> {
-        let there = |number: &usize| self.blocks[*number].get().is_some();
-        wanted.start + wanted.clone().take_while(there).count()..wanted.end
-    }
-
-    /// Whether it is passive; if so, its fingerprint, and the blocks of the file are in place.
-    fn check(&self, watch: &mut Watch) -> Result<u64> {
-        let fingerprint = passivity::check(&self.quadrature, &self.classes, watch)?;
-        if let Some(path) = &self.file {
-            let blocks = file::read(path, fingerprint, self.classes.count())?;
-            for (place, block) in self.blocks.iter().zip(blocks) {
-                let _ = place.set(Ok(block));
-            }
-        }
-        Ok(fingerprint)
-    }
-
     /// Computes the blocks of lags up to `lags`; without an observer, nobody counts beforehand.
     fn make_ready(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let last = last_block(lags.max(1))?;
-        self.fits(&self.missing(0..last + 1))?;
+        self.fits(&self.kept.missing(0..last + 1))?;
         let mut expected = vec![0; last + 1];
         let mut watch = Watch::nobody();
         let mut outlook = None;
         if let Some(observer) = observer {
-            let missing = self.missing(0..last + 1);
+            let missing = self.kept.missing(0..last + 1);
             // What cannot be counted beforehand fails as it does without an observer.
             outlook = self.quadrature.outlook(missing.clone(), &mut Workspace::default()).ok();
             let counts = outlook.iter().flat_map(Outlook::counts);
@@ -281,7 +223,7 @@ impl LayeredKernel {
             watch = Watch::new("step coefficients of layered ground", total, observer);
         }
         let fingerprint = self.admit(0..last + 1, outlook.as_ref(), &mut watch)?;
-        let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
+        let complete = self.kept.missing(0..last + 1).is_empty();
         let mut done = passivity::POINTS;
         watch.reach(done)?;
         for (number, count) in expected.into_iter().enumerate() {
@@ -289,9 +231,7 @@ impl LayeredKernel {
             done += count;
         }
         watch.reach(done)?;
-        let Some(path) = self.file.as_ref().filter(|_| !complete) else { return Ok(()) };
-        let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
-        file::write(path, fingerprint, self.classes.count(), &blocks.collect::<Vec<_>>())
+        if complete { Ok(()) } else { self.kept.write(fingerprint) }
     }
 }
 
@@ -322,31 +262,16 @@ impl ConvolutionWeights for LayeredKernel {
         &self,
         class: usize,
         first_lag: usize,
-        mut values: [&mut [f64]; KINDS],
+        values: [&mut [f64]; KINDS],
     ) -> Result<()> {
         self.classes.representative(class)?;
-        let lags = values[0].len();
-        same_length("tangential coefficients", values[1].len(), lags)?;
-        same_length("coupling coefficients", values[2].len(), lags)?;
-        if first_lag == 0 {
-            return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
-        }
-        last_block(first_lag.saturating_add(lags))?;
-        let mut done = 0;
-        while done < lags {
-            let (number, place) = Block::place(first_lag + done);
-            if self.blocks[number].get().is_none() {
+        copy_lags(class, first_lag, values, |number| {
+            if !self.kept.has(number) {
                 self.fits(&(number..number + 1))?;
                 self.admit(number..number + 1, None, &mut Watch::nobody())?;
             }
-            let found = self.block(number, &mut Watch::nobody(), 0..0)?.from(class, place);
-            let count = found[0].len().min(lags - done);
-            for (values, found) in values.iter_mut().zip(found) {
-                values[done..done + count].copy_from_slice(&found[..count]);
-            }
-            done += count;
-        }
-        Ok(())
+            self.block(number, &mut Watch::nobody(), 0..0)
+        })
     }
 
     fn spectra(&self) -> Option<&SharedSpectra> {
@@ -376,25 +301,4 @@ pub(crate) fn check_limit(seconds: f64) -> Result<f64> {
         value: seconds,
         needed: "not negative",
     })
-}
-
-/// Number of the block with lag `lag`.
-fn last_block(lag: usize) -> Result<usize> {
-    let most = FIRST << (BLOCKS - 1);
-    if lag > most {
-        return Err(Error::Input {
-            quantity: "lag of a layered ground",
-            value: lag as f64,
-            needed: "at most 2147483648",
-        });
-    }
-    Ok(Block::place(lag).0)
-}
-
-/// Threads for one block.
-fn threads() -> usize {
-    #[cfg(feature = "rayon")]
-    return rayon::current_num_threads();
-    #[cfg(not(feature = "rayon"))]
-    1
 }

@@ -3,9 +3,9 @@
 use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
-use super::wavenumber::Workspace;
+use super::wavenumber::Compliances;
 use crate::error::{LayeredError, Result, Watch};
-use crate::history::{KINDS, PairClasses};
+use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::text::check_sum::CheckSum;
 
@@ -24,21 +24,21 @@ pub(crate) fn places() -> impl Iterator<Item = [f64; 2]> {
 /// times the number of degrees of freedom, every pair relative to its elements' own mobilities.
 ///
 /// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
-/// elements and of what else a coefficient depends on.
-pub(crate) fn check(
-    quadrature: &Quadrature,
+/// `mesh` and of what else a coefficient depends on.
+pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
+    quadrature: &Quadrature<I, KINDS>,
     classes: &PairClasses,
+    mesh: impl Iterator<Item = f64>,
     watch: &mut Watch,
 ) -> Result<u64> {
     let order = classes.layout().len();
     let allowed = -quadrature.tolerance * order as f64;
-    let mut work = Workspace::default();
+    let mut work = I::Workspace::default();
     let mut scratch = vec![[Complex::default(); KINDS]; classes.count()];
     let mut values = scratch.clone();
     let mut fingerprint = CheckSum::default();
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
-    let ends = classes.elements().iter().flat_map(|element| [element.left, element.right]);
-    sizes.into_iter().chain(ends).for_each(|number| fingerprint.add_number(number));
+    sizes.into_iter().chain(mesh).for_each(|number| fingerprint.add_number(number));
     for (point, [logarithm, angle]) in places().enumerate() {
         quadrature.mobility([logarithm, angle], &mut work, &mut scratch, &mut values)?;
         watch.reach(point + 1)?;
@@ -56,7 +56,10 @@ pub(crate) fn check(
 
 /// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute
 /// diagonal; NaN if it is not finite.
-pub(crate) fn margin(classes: &PairClasses, values: &[[Complex; KINDS]]) -> f64 {
+pub(crate) fn margin<const KINDS: usize>(
+    classes: &PairClasses,
+    values: &[[Complex; KINDS]],
+) -> f64 {
     let own = |class: usize, component: usize| {
         values[class][component].inner().norm().max(f64::MIN_POSITIVE)
     };
@@ -64,7 +67,10 @@ pub(crate) fn margin(classes: &PairClasses, values: &[[Complex; KINDS]]) -> f64 
 }
 
 /// All pairs in work form (2Q × 2Q, row-major): integrals over receiver and source.
-pub(crate) fn assembled(classes: &PairClasses, values: &[[Complex; KINDS]]) -> Vec<Complex64> {
+pub(crate) fn assembled<const KINDS: usize>(
+    classes: &PairClasses,
+    values: &[[Complex; KINDS]],
+) -> Vec<Complex64> {
     let mut matrix = vec![Complex64::default(); classes.layout().square()];
     classes.scatter(&mut matrix, |_, pair| values[pair.class].map(Complex::inner));
     matrix

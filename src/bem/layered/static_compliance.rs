@@ -106,6 +106,7 @@ fn smooth(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bem::layered::wavenumber::Compliances;
     use crate::bem::{Grading, StaticKernel, Strip};
     use crate::soil::{Kjartansson, Soil};
     use crate::{Error, LayeredError};

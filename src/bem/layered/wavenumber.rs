@@ -28,6 +28,46 @@ const MOST_PANELS: f64 = 65_536.0;
 /// Panels that short elements may ask for.
 const MOST_FOR_SHORT: f64 = 100.0;
 
+/// Compliances of classes of pairs, of some kinds each.
+pub(crate) trait Compliances<const KINDS: usize>: Sync {
+    /// What one thread needs for one after the other.
+    type Workspace: Default;
+
+    /// Overwrites `values`, one per class, with the compliances at `s`, Re s > 0 (or damped layers), integrals over
+    /// receiver and source.
+    ///
+    /// # Errors
+    /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
+    fn compliance(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Self::Workspace,
+        values: &mut [[Complex; KINDS]],
+    ) -> Result<()>;
+
+    /// Appends [`OUTLOOK`] numbers for each of a few wavenumbers that stand for the compliances at `s`, at a hundredth of
+    /// the cost; nothing where panels are tried without looking.
+    ///
+    /// # Errors
+    /// As for [`SoilProfile::moduli`].
+    fn outlook(
+        &self,
+        _profile: &SoilProfile,
+        _s: Complex,
+        _work: &mut Self::Workspace,
+        _values: &mut Vec<Complex>,
+    ) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
+/// the others where a slab carries waves along.
+const WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
+/// Components of the surface compliance in an outlook: zz, xx, xz.
+pub(crate) const OUTLOOK: usize = 3;
+
 /// Integrals over the wavenumber for the pairs of a patch.
 #[derive(Debug)]
 pub(crate) struct Wavenumbers {
@@ -93,31 +133,15 @@ pub(super) enum Found<'a> {
     Moments(&'a [[f64; 6]; DEGREES]),
 }
 
-impl Wavenumbers {
-    pub(crate) fn new(classes: &PairClasses, tolerance: f64) -> Self {
-        let forms = FormFactors::new(classes);
-        let lengths = || classes.elements().iter().map(crate::bem::ContactElement::length);
-        Self {
-            polynomials: forms.rule.nodes.iter().map(|x| legendre(*x)).collect(),
-            tails: Tails::default(),
-            span: classes.span(),
-            shortest: lengths().fold(f64::INFINITY, f64::min),
-            longest: lengths().fold(0.0, f64::max),
-            tolerance,
-            forms,
-        }
-    }
+/// Of a class zz, xx, zx.
+impl Compliances<KINDS> for Wavenumbers {
+    type Workspace = Workspace;
 
-    /// Overwrites `values` (one per class: zz, xx, zx) with the compliances at `s`, Re s > 0 (or damped
-    /// layers), integrals over receiver and source.
-    ///
-    /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
-    pub(crate) fn compliance(
+    fn compliance(
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Workspace,
+        work: &mut Self::Workspace,
         values: &mut [[Complex; KINDS]],
     ) -> Result<()> {
         let mut compliance = std::mem::take(&mut work.compliance);
@@ -134,11 +158,58 @@ impl Wavenumbers {
         Ok(())
     }
 
+    /// The surface compliance at small wavenumbers, and on waves along the shortest element and the patch.
+    fn outlook(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Self::Workspace,
+        values: &mut Vec<Complex>,
+    ) -> Result<()> {
+        let slab = profile.layers().first().zip(profile.soils().nth(1));
+        // Whether the top layer carries more along the patch than the ground below it.
+        let has_slab = slab.is_some_and(|(top, (below, _))| {
+            let carried = top.soil.shear_modulus() * top.thickness;
+            carried > below.shear_modulus() * self.span
+        });
+        let wavenumbers = if has_slab { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
+        work.compliance.set(profile, s)?;
+        work.evaluations += wavenumbers.len();
+        let (_, q2, _) = work.compliance.top();
+        let one = Complex::real(1.0);
+        let waves = [self.shortest, self.span].map(|way| {
+            let turn = q2.sqrt().scale(way);
+            (-turn).exp() / (one + turn)
+        });
+        let weight = one + waves[0] + waves[1];
+        for wavenumber in wavenumbers {
+            let c = work.compliance.at(wavenumber / self.span);
+            values.extend([c.zz, c.xx, c.xz].map(|value| weight * value));
+        }
+        Ok(())
+    }
+}
+
+impl Wavenumbers {
+    pub(crate) fn new(classes: &PairClasses, tolerance: f64) -> Self {
+        let forms = FormFactors::new(classes);
+        let lengths = || classes.elements().iter().map(crate::bem::ContactElement::length);
+        Self {
+            polynomials: forms.rule.nodes.iter().map(|x| legendre(*x)).collect(),
+            tails: Tails::default(),
+            span: classes.span(),
+            shortest: lengths().fold(f64::INFINITY, f64::min),
+            longest: lengths().fold(0.0, f64::max),
+            tolerance,
+            forms,
+        }
+    }
+
     /// Work for the compliances at `s`: all of it but the pairs'. `meet` is called with each panel, and whether it
     /// is halved.
     ///
     /// # Errors
-    /// As for [`Wavenumbers::compliance`].
+    /// As for [`Compliances::compliance`].
     pub(crate) fn counts(
         &self,
         profile: &SoilProfile,
@@ -259,7 +330,7 @@ impl Wavenumbers {
     /// Number of panels that an integral begins with at `s`.
     ///
     /// # Errors
-    /// As for [`Wavenumbers::compliance`].
+    /// As for [`Compliances::compliance`].
     pub(crate) fn widest(&self, profile: &SoilProfile, s: Complex) -> Result<usize> {
         let mut compliance = Compliance::default();
         compliance.set(profile, s)?;

@@ -9,7 +9,7 @@
 //! They depend on the lattice alone. The integrands are entire and periodic, so that the midpoint rule converges as
 //! soon as it has as many points as they turn, and a few more for the transition of Bessel functions, kD^⅓ wide.
 
-use super::lattice::Lattice;
+use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 
 /// Number of forms.

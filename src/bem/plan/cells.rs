@@ -4,8 +4,10 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::faces::Face;
-use super::lattice::Lattice;
+use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, finite, memory, positive};
+use crate::geometry::{ContactElement, Lattice};
+use crate::history::PairClasses;
 
 /// How far outer cells reach beyond the outline, of their side: piecewise constant tractions under a rigid base behave
 /// like a mat whose edge lies so far inside them.
@@ -43,6 +45,8 @@ pub struct Plan {
     area: f64,
     /// Faces of the outline, and cells along its shorter side; none of discs and masks.
     faces: (Vec<Face>, usize),
+    /// Contact element of each cell, unless each is one.
+    owners: Option<Vec<usize>>,
 }
 
 impl Plan {
@@ -135,7 +139,28 @@ impl Plan {
             overhang: 0.0,
             area,
             faces: (vec![], 0),
+            owners: None,
         })
+    }
+
+    /// With contact elements that are rectangles of cells: columns taken together by `along`, rows by `across`, all of
+    /// them. The ground stays that of the cells. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 along each axis are as good
+    /// for a rigid mat as all of them, with a quarter of the elements.
+    ///
+    /// ```
+    /// use basemat::bem::plan::Plan;
+    /// let graded = [1, 2, 2, 3, 3, 2, 2, 1];
+    /// let mat = Plan::rectangle(-5.0..5.0, -5.0..5.0, 16)?.with_unions(&graded, &graded)?;
+    /// assert_eq!(mat.count(), 256);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for numbers that do not sum up to the columns or rows; [`Error::Input`] for a rectangle that is
+    /// not all on the mat, and for outermost elements wider than a cell: the edge would be that of an element.
+    pub fn with_unions(self, along: &[usize], across: &[usize]) -> Result<Self> {
+        let owners = Some(Unions::owners(self.lattice.counts, &self.cells, [along, across])?);
+        Ok(Self { owners, ..self })
     }
 
     /// The same outline with cells that end where it does. For given pressures that is exact; of the response of a
@@ -206,6 +231,47 @@ impl Plan {
     /// their way to the nearest line between cells.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
+    }
+
+    /// Pairs of the cells.
+    pub(super) fn classes(&self) -> Result<PairClasses> {
+        PairClasses::in_plan(self.lattice.clone(), self.cells.clone(), self.corner[0])
+    }
+
+    /// Contact elements of several cells, if there are any.
+    pub(in crate::bem) fn unions(&self) -> Option<Unions> {
+        self.owners.as_deref().map(Unions::new)
+    }
+
+    /// Sides of the contact elements along x, and front and back ends, m.
+    pub(in crate::bem) fn sides(&self) -> (Vec<ContactElement>, Vec<[f64; 2]>) {
+        let ends = |axis: usize, cell: &[usize; 2]| {
+            [0, 1]
+                .map(|end| self.corner[axis] + self.lattice.pitch[axis] * (cell[axis] + end) as f64)
+        };
+        let mut elements: Vec<ContactElement> = vec![];
+        let mut depths: Vec<[f64; 2]> = vec![];
+        for (number, cell) in self.cells.iter().enumerate() {
+            let ([left, right], depth) = (ends(0, cell), ends(1, cell));
+            // Cells come row by row, and the first of an element before its others.
+            let owner = self.owners.as_ref().map_or(number, |owners| owners[number]);
+            if let Some((element, [_, back])) = elements.get_mut(owner).zip(depths.get_mut(owner)) {
+                (element.right, *back) = (element.right.max(right), back.max(depth[1]));
+            } else {
+                elements.push(ContactElement { left, right });
+                depths.push(depth);
+            }
+        }
+        (elements, depths)
+    }
+
+    /// Numbers that say which cells of which lattice they are.
+    pub(in crate::bem) fn identity(&self) -> impl Iterator<Item = f64> {
+        let Lattice { pitch, counts } = &self.lattice;
+        let cells = self.cells.iter().flatten();
+        let counts = counts.iter().chain(cells).map(|count| *count as f64);
+        let owners = self.owners.iter().flatten().map(|owner| *owner as f64);
+        pitch.iter().copied().chain(self.corner).chain(counts).chain(owners)
     }
 
     /// Area of each cell that is inside the outline, m².

@@ -12,10 +12,10 @@
 use std::sync::OnceLock;
 
 use super::angular_means::{AngularMeans, FORMS};
-use super::lattice::Lattice;
 use super::static_cells;
 use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid};
 use crate::error::{PlanError, Result, Watch, memory};
+use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
 

@@ -6,8 +6,9 @@
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
 use super::sectors::{MOTIONS, Sectors};
-use crate::bem::layered::{PER_FREQUENCY, StripContact, extrapolated, points};
+use crate::bem::layered::{Compliances, PER_FREQUENCY, StripContact, extrapolated, points};
 use crate::error::{Observer, PlanError, Result, Watch, not_negative};
+use crate::geometry::SERIES;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -116,7 +117,8 @@ fn all(
     };
     let sectors = Sectors::new(plan);
     let diagonal: [usize; MOTIONS] = std::array::from_fn(|i| (MOTIONS + 1) * i);
-    let (mut work, mut values) = (Workspace::default(), vec![]);
+    let mut work = Workspace::default();
+    let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
     let mut found = Vec::with_capacity(frequencies.len());
     for (number, (frequency, list)) in frequencies.iter().zip(lists).enumerate() {
         let mut samples = Vec::with_capacity(list.len());

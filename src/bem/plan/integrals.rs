@@ -17,12 +17,13 @@
 
 use super::angular_means::FORMS;
 use super::form_table::{FormTable, Need, Rows, TERMS};
-use super::lattice::{Lattice, SERIES};
 use super::sh::transverse;
 use crate::bem::layered::{
-    Compliance, DEGREES, FLOOR, POINTS, SHARE, Surface, by_halves, legendre, surface_series,
+    Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, Surface, by_halves, legendre,
+    surface_series,
 };
 use crate::error::{LayeredError, PlanError, Result, Watch};
+use crate::geometry::{Lattice, SERIES};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -54,7 +55,7 @@ pub(super) struct Integrals {
 
 /// What one thread needs for one integral after the other.
 #[derive(Debug, Default)]
-pub(super) struct Workspace {
+pub(crate) struct Workspace {
     ground: Compliance,
     /// At all points, with their weights.
     kernels: Vec<Kernel>,
@@ -93,6 +94,32 @@ fn series(a2: f64) -> [[f64; KERNELS]; TERMS] {
     })
 }
 
+/// Of a class zz, xx, yy, xy, zx and zy, m³/Pa × m.
+impl Compliances<SERIES> for Integrals {
+    type Workspace = Workspace;
+
+    fn compliance(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Workspace,
+        values: &mut [[Complex; SERIES]],
+    ) -> Result<()> {
+        let mut ground = std::mem::take(&mut work.ground);
+        let outcome = ground.set(profile, s).and_then(|()| self.sum(&mut ground, s, work));
+        work.ground = ground;
+        outcome?;
+        let (classes, unit) = (self.table.classes, 0.5 * std::f64::consts::FRAC_1_PI);
+        for (class, values) in values.iter_mut().enumerate() {
+            for (series, value) in values.iter_mut().enumerate() {
+                let part = |part: usize| unit * work.sums[(2 * series + part) * classes + class];
+                *value = Complex::new(part(0), part(1));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Integrals {
     /// Integrals that serve `profile` at all Laplace variables of `list`, relative to a cell's own compliance.
     ///
@@ -117,33 +144,6 @@ impl Integrals {
         }
         let table = FormTable::new(lattice, Need { root, deep }, watch)?;
         Ok(Self { table, finest: lattice.finest(), tolerance })
-    }
-
-    /// Overwrites `values` (per class: zz, xx, yy, xy, zx, zy) with the compliances at `s`, integrals over receiver
-    /// and source, m³/Pa × m.
-    ///
-    /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
-    pub(super) fn compliance(
-        &self,
-        profile: &SoilProfile,
-        s: Complex,
-        work: &mut Workspace,
-        values: &mut Vec<[Complex; SERIES]>,
-    ) -> Result<()> {
-        let mut ground = std::mem::take(&mut work.ground);
-        let outcome = ground.set(profile, s).and_then(|()| self.sum(&mut ground, s, work));
-        work.ground = ground;
-        outcome?;
-        let (classes, unit) = (self.table.classes, 0.5 * std::f64::consts::FRAC_1_PI);
-        values.clear();
-        values.extend((0..classes).map(|class| {
-            std::array::from_fn(|series| {
-                let part = |part: usize| unit * work.sums[(2 * series + part) * classes + class];
-                Complex::new(part(0), part(1))
-            })
-        }));
-        Ok(())
     }
 
     fn sum(&self, ground: &mut Compliance, s: Complex, work: &mut Workspace) -> Result<()> {

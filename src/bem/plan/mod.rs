@@ -8,11 +8,12 @@
 //!
 //! | file | what is in it |
 //! |---|---|
+//! | unions | contact elements of several cells |
 //! | cells, faces | plan: cells on a lattice under faces, discs, masks |
-//! | lattice | offsets between cells, and their signs |
 //! | sh | surface compliance across the wavenumber |
 //! | angular_means, static_cells, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
+//! | kernel | step coefficients by convolution quadrature |
 //! | sectors, impedance | rigid mats at one frequency |
 
 mod angular_means;
@@ -21,10 +22,13 @@ pub(crate) mod faces;
 mod form_table;
 mod impedance;
 mod integrals;
-mod lattice;
+mod kernel;
 mod sectors;
 mod sh;
 mod static_cells;
+mod unions;
 
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};
+pub(super) use kernel::{LatticeKernel, static_compliance};
+pub(super) use unions::Unions;

@@ -11,8 +11,8 @@
 use realfft::num_complex::Complex64;
 
 use super::cells::Plan;
-use super::lattice::{SERIES, offset};
 use crate::error::{Error, Result, memory};
+use crate::geometry::{SERIES, offset};
 use crate::linalg::{Complex, DenseFactor};
 
 /// Rigid motions: along x, y, z (up) and about these axes.
@@ -186,6 +186,7 @@ fn mirrored(h: [bool; 2], cell: [usize; 2], counts: [usize; 2]) -> [usize; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bem::layered::Compliances;
     use crate::bem::plan::integrals::{Integrals, Workspace};
     use crate::error::Watch;
     use crate::soil::{Soil, SoilProfile};
@@ -210,7 +211,8 @@ mod tests {
             let s = Complex::new(0.1, 0.8);
             let mut watch = Watch::nobody();
             let integrals = Integrals::new(&plan.lattice, &profile, [s], 1e-9, &mut watch).unwrap();
-            let (mut work, mut values) = (Workspace::default(), vec![]);
+            let mut work = Workspace::default();
+            let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
             integrals.compliance(&profile, s, &mut work, &mut values).unwrap();
             let sectors = Sectors::new(&plan);
             assert_eq!(sectors.group.len(), order, "{text}");

@@ -164,8 +164,8 @@ pub(crate) trait Blocks: Send {
     fn grow(&mut self, kernel: &dyn ConvolutionWeights, steps: usize) -> Result<()>;
 
     /// Makes ready for any number of steps, in memory that does not grow: no coefficient is other
-    /// than zero beyond d = `reach`, a leaf times a power of two. To be called before the first step,
-    /// in the place of [`Blocks::grow`].
+    /// than zero beyond d = `reach`, a leaf times a power of two; of a lattice none counts from there on. To be called before
+    /// the first step, in the place of [`Blocks::grow`], or where capacity is at most 2 `reach`.
     fn bound(&mut self, kernel: &dyn ConvolutionWeights, reach: usize) -> Result<()>;
 
     /// Works the input of step `now` − 1 in, so that the output of `now` is complete.

@@ -3,45 +3,67 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | S | length of the transform, at least two patches less one: nothing wraps around |
-//! | k | wavenumber, 0 … S/2 |
-//! | ĝ | 𝓕 of the coefficients over the offset: real for normal and tangential ones, which are even, i times a real number for the coupling, which is odd |
+//! | S | lengths of the transform, along each axis at least two patches less one: nothing wraps around |
+//! | k | wavenumbers: 0 … S/2 along x; all along y |
+//! | ĝ | 𝓕 of the coefficients over the offset: i times a real number for what is odd in one axis, real otherwise |
+//!
+//! In plan the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx, ky).
 
 use std::sync::Arc;
 
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner};
 
+use super::level::WaveNumbers;
+use super::plan_spectra::{CHUNK, coefficients_in_plan, smooth};
 use crate::error::Result;
+use crate::geometry::{Lattice as Plan, SERIES, SPACE};
 use crate::history::convolution::ConvolutionWeights;
-use crate::history::pair_classes::PairClasses;
-
-/// Lags that are evaluated together.
-const CHUNK: usize = 512;
+use crate::history::pair_classes::{KINDS, PairClasses};
 
 /// Cells of the lattice per element, at most: gaps between strips are transformed too.
 const EMPTY: usize = 2;
 
 /// Where the elements are, and the transforms along the surface.
 pub(super) struct Lattice {
-    /// Cell of each element.
+    /// Place of each element among the cells, row by row of S along x.
     cells: Vec<usize>,
-    /// Class of each offset, where a pair has it.
-    classes: Vec<Option<usize>>,
-    /// 1/length of the elements.
+    offsets: Offsets,
+    /// 1/size of the elements.
     scale: f64,
-    /// S.
-    length: usize,
+    /// S along x and y; 1 along y in the plane.
+    lengths: [usize; 2],
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Along y.
+    across: [Arc<dyn Fft<f64>>; 2],
+    /// Rows of cells.
     real: Vec<f64>,
+    /// Of one row.
     spectrum: Vec<Complex<f64>>,
+    /// Of all, columns of S along y.
+    spectra: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
+}
+
+/// Classes of offsets.
+enum Offsets {
+    /// Along a strip, where a pair has it.
+    Strip(Vec<Option<usize>>),
+    Plan(Plan),
 }
 
 impl Lattice {
     /// The lattice of the elements; `None` if they are not on one, or one mostly empty.
     pub(super) fn of(pairs: &PairClasses) -> Option<Self> {
+        if let Some((lattice, cells)) = pairs.plan() {
+            let lengths = lattice.counts.map(|count| smooth(2 * count - 1));
+            let cells = cells.iter().map(|[i, j]| j * lengths[0] + i).collect();
+            let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
+            let rows = lattice.counts[1];
+            return Some(Self::new(cells, Offsets::Plan(lattice.clone()), scale, lengths, rows));
+        }
         let elements = pairs.elements();
         let (first, last) = (elements.first()?, elements.last()?);
         let pitch = first.length();
@@ -71,90 +93,183 @@ impl Lattice {
                 }
             }
         }
-        let length = smooth(2 * classes.len() - 1);
+        let lengths = [smooth(2 * classes.len() - 1), 1];
+        Some(Self::new(cells, Offsets::Strip(classes), scale, lengths, 1))
+    }
+
+    fn new(
+        cells: Vec<usize>,
+        offsets: Offsets,
+        scale: f64,
+        lengths: [usize; 2],
+        rows: usize,
+    ) -> Self {
         let mut planner = RealFftPlanner::new();
+        let [length, across] = lengths;
         let (forward, inverse) =
             (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
-        let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
-        Some(Self {
+        let mut planner = FftPlanner::new();
+        let across = [planner.plan_fft_forward(across), planner.plan_fft_inverse(across)];
+        let along = forward.get_scratch_len().max(inverse.get_scratch_len());
+        let scratch =
+            across.iter().map(|plan| plan.get_inplace_scratch_len()).fold(along, usize::max);
+        let columns = length / 2 + 1;
+        Self {
             cells,
-            classes,
+            offsets,
             scale,
-            length,
-            real: vec![0.0; length],
-            spectrum: vec![Complex::default(); length / 2 + 1],
+            lengths,
+            real: vec![0.0; rows * length],
+            spectrum: vec![Complex::default(); columns],
+            spectra: vec![Complex::default(); columns * lengths[1]],
             scratch: vec![Complex::default(); scratch],
             forward,
             inverse,
-        })
+            across,
+        }
     }
 
-    /// Number of wavenumbers.
-    pub(super) fn waves(&self) -> usize {
-        self.length / 2 + 1
+    /// The wavenumbers.
+    pub(super) fn waves(&self) -> WaveNumbers {
+        let columns = self.spectrum.len();
+        WaveNumbers {
+            all: columns * self.lengths[1],
+            own: columns * (self.lengths[1] / 2 + 1),
+            first: columns,
+        }
+    }
+
+    /// Number of components of each element.
+    pub(super) fn components(&self) -> usize {
+        if self.is_plan() { SPACE } else { 2 }
+    }
+
+    /// Number of kinds of coefficients.
+    pub(super) fn kinds(&self) -> usize {
+        if self.is_plan() { SERIES } else { KINDS }
+    }
+
+    fn is_plan(&self) -> bool {
+        matches!(self.offsets, Offsets::Plan(_))
     }
 
     /// Real numbers held.
     pub(super) fn numbers(&self) -> usize {
-        self.real.len() + 2 * (self.spectrum.len() + self.scratch.len())
+        self.real.len() + 2 * (self.spectrum.len() + self.spectra.len() + self.scratch.len())
     }
 
     /// Last lag at which any coupling is not zero; the largest number if it never ends.
     pub(super) fn last_coupling_lag(&self, kernel: &dyn ConvolutionWeights) -> Result<usize> {
+        let Offsets::Strip(classes) = &self.offsets else { return Ok(usize::MAX) };
         let mut last = 0;
-        for class in self.classes.iter().flatten() {
+        for class in classes.iter().flatten() {
             last = last.max(kernel.last_coupling_lag(*class)?.unwrap_or(usize::MAX));
         }
         Ok(last)
     }
 
-    fn transform(&mut self) {
-        let Self { forward, real, spectrum, scratch, .. } = self;
+    /// 𝓕 of row `row`.
+    fn transform(&mut self, row: usize) {
+        let Self { forward, real, spectrum, scratch, lengths: [length, _], .. } = self;
         let scratch = &mut scratch[..forward.get_scratch_len()];
         // All lengths are the plan's own, so there is nothing that could fail.
+        let real = &mut real[row * *length..(row + 1) * *length];
         let done = forward.process_with_scratch(real, spectrum, scratch);
         debug_assert!(done.is_ok());
     }
 
     /// 𝓕 of one value per element (missing ones count as zero) into real and imaginary parts.
-    pub(super) fn forward(&mut self, values: &[f64], [re, im]: [&mut [f64]; 2]) {
+    pub(super) fn forward(&mut self, component: usize, values: &[f64], [re, im]: [&mut [f64]; 2]) {
         self.real.fill(0.0);
         for (&cell, &value) in self.cells.iter().zip(values) {
             self.real[cell] = value;
         }
-        self.transform();
+        let [length, across] = self.lengths;
+        let columns = self.spectrum.len();
+        if across > 1 {
+            self.spectra.fill(Complex::default());
+            for row in 0..self.real.len() / length {
+                self.transform(row);
+                for (column, value) in self.spectrum.iter().enumerate() {
+                    self.spectra[column * across + row] = *value;
+                }
+            }
+            self.across[0].process_with_scratch(&mut self.spectra, &mut self.scratch);
+            let own = across / 2 + 1;
+            let rows = re.chunks_exact_mut(columns).zip(im.chunks_exact_mut(columns));
+            for (row, (re, im)) in rows.enumerate() {
+                // Images (kx, −ky), from the first on.
+                let (image, place) =
+                    if row < own { (false, row) } else { (true, across - (row - own + 1)) };
+                for (column, (re, im)) in re.iter_mut().zip(im).enumerate() {
+                    let value = self.spectra[column * across + place];
+                    let sign = if image && component == 2 { -1.0 } else { 1.0 };
+                    (*re, *im) = (sign * value.re, sign * value.im);
+                }
+            }
+            return;
+        }
+        self.transform(0);
         for (value, (re, im)) in self.spectrum.iter().zip(re.iter_mut().zip(im)) {
             (*re, *im) = (value.re, value.im);
         }
     }
 
     /// Overwrites one value per element from real and imaginary parts; means over the elements.
-    pub(super) fn inverse(&mut self, parts: [&[f64]; 2], values: &mut [f64]) {
-        self.back(parts, self.scale, values);
+    pub(super) fn inverse(&mut self, component: usize, parts: [&[f64]; 2], values: &mut [f64]) {
+        self.back(component, parts, self.scale, values);
     }
 
     /// Overwrites the values of which [`Lattice::forward`] made real and imaginary parts, times a
     /// factor.
-    pub(super) fn back(&mut self, [re, im]: [&[f64]; 2], factor: f64, values: &mut [f64]) {
-        for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
-            *value = Complex::new(*re, *im);
+    pub(super) fn back(
+        &mut self,
+        component: usize,
+        [re, im]: [&[f64]; 2],
+        factor: f64,
+        values: &mut [f64],
+    ) {
+        let [length, across] = self.lengths;
+        let columns = self.spectrum.len();
+        let own = across / 2 + 1;
+        if across > 1 {
+            for (row, (re, im)) in
+                re.chunks_exact(columns).zip(im.chunks_exact(columns)).enumerate()
+            {
+                let (image, place) =
+                    if row < own { (false, row) } else { (true, across - (row - own + 1)) };
+                for (column, (re, im)) in re.iter().zip(im).enumerate() {
+                    let sign = if image && component == 2 { -1.0 } else { 1.0 };
+                    self.spectra[column * across + place] = Complex::new(sign * re, sign * im);
+                }
+            }
+            self.across[1].process_with_scratch(&mut self.spectra, &mut self.scratch);
+        } else {
+            for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
+                *value = Complex::new(*re, *im);
+            }
         }
-        // Real up to rounding, and the inverse transform insists on it; S is even.
-        let last = self.length / 2;
-        (self.spectrum[0].im, self.spectrum[last].im) = (0.0, 0.0);
-        let Self { inverse, real, spectrum, scratch, .. } = self;
+        let Self { inverse, real, spectrum, spectra, scratch, .. } = self;
         let scratch = &mut scratch[..inverse.get_scratch_len()];
-        let done = inverse.process_with_scratch(spectrum, real, scratch);
-        debug_assert!(done.is_ok());
-        let scale = factor / self.length as f64;
+        for (row, real) in real.chunks_exact_mut(length).enumerate() {
+            if across > 1 {
+                for (value, column) in spectrum.iter_mut().zip(spectra.chunks_exact(across)) {
+                    *value = column[row];
+                }
+            }
+            // Real up to rounding, and the inverse transform insists on it; S is even.
+            (spectrum[0].im, spectrum[length / 2].im) = (0.0, 0.0);
+            let done = inverse.process_with_scratch(spectrum, real, scratch);
+            debug_assert!(done.is_ok());
+        }
+        let scale = factor / (length * across) as f64;
         for (&cell, value) in self.cells.iter().zip(values) {
             *value = scale * self.real[cell];
         }
     }
 
-    /// Hands out ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0: `accept` is given d, and
-    /// one slice over the wavenumbers per kind; the coupling, over i, is left out from d =
-    /// `coupled` on.
+    /// Hands out ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0: `accept` is given the kind, d, and one slice
+    /// over the wavenumbers; the coupling of strips is left out from d = `coupled` on.
     pub(super) fn coefficients(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -162,14 +277,19 @@ impl Lattice {
         coupled: usize,
         mut accept: impl FnMut(usize, usize, &[f64]),
     ) -> Result<()> {
-        let offsets = self.classes.len();
-        let mut table: [_; 3] = std::array::from_fn(|_| vec![0.0; CHUNK.min(count) * offsets]);
-        let mut values = vec![0.0; self.waves()];
+        if let Offsets::Plan(lattice) = &self.offsets {
+            return coefficients_in_plan(lattice, self.lengths, kernel, count, accept);
+        }
+        let Offsets::Strip(classes) = &self.offsets else { return Ok(()) };
+        let classes = classes.clone();
+        let (offsets, length) = (classes.len(), self.lengths[0]);
+        let mut table: [_; KINDS] = std::array::from_fn(|_| vec![0.0; CHUNK.min(count) * offsets]);
+        let mut values = vec![0.0; self.waves().all];
         for begin in (0..count).step_by(CHUNK) {
             let width = CHUNK.min(count - begin);
             // The first is the instantaneous coefficient, no part of the history.
             let skip = usize::from(begin == 0);
-            for (offset, class) in self.classes.iter().enumerate() {
+            for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };
                 let of = offset * width + skip..(offset + 1) * width;
                 let [normal, tangential, coupling] =
@@ -187,10 +307,10 @@ impl Lattice {
                         let value = table[offset * width + d - begin];
                         self.real[offset] = if odd && offset == 0 { 0.0 } else { value };
                         if offset > 0 {
-                            self.real[self.length - offset] = if odd { -value } else { value };
+                            self.real[length - offset] = if odd { -value } else { value };
                         }
                     }
-                    self.transform();
+                    self.transform(0);
                     for (value, spectrum) in values.iter_mut().zip(&self.spectrum) {
                         *value = if odd { spectrum.im } else { spectrum.re };
                     }
@@ -200,21 +320,4 @@ impl Lattice {
         }
         Ok(())
     }
-}
-
-/// The smallest even number from `least` on with no prime factor above 5.
-fn smooth(least: usize) -> usize {
-    let is_smooth = |mut number: usize| {
-        for factor in [2, 3, 5] {
-            while number.is_multiple_of(factor) {
-                number /= factor;
-            }
-        }
-        number == 1
-    };
-    let mut length = least.max(2).next_multiple_of(2);
-    while !is_smooth(length) {
-        length += 2;
-    }
-    length
 }

@@ -307,6 +307,31 @@ impl Ring {
     }
 }
 
+// Wavenumbers of a lattice.
+
+/// Wavenumbers, and those that have spectra of their own: the others are mirror images.
+#[derive(Clone, Copy)]
+pub(super) struct WaveNumbers {
+    /// All.
+    pub(super) all: usize,
+    /// Those with spectra, which come first.
+    pub(super) own: usize,
+    /// The first that has an image.
+    pub(super) first: usize,
+}
+
+impl WaveNumbers {
+    /// Place of the spectrum of a wavenumber.
+    pub(super) fn spectrum(self, wave: usize) -> usize {
+        if wave < self.own { wave } else { wave - self.own + self.first }
+    }
+
+    /// Runs of wavenumbers, and the place of the spectrum that each begins with.
+    pub(super) fn runs(self) -> [(std::ops::Range<usize>, usize); 2] {
+        [(0..self.own, 0), (self.own..self.all, self.first)]
+    }
+}
+
 // Coefficients over short delays, class by class.
 
 /// Coefficients that are summed directly.

@@ -2,8 +2,10 @@
 
 mod coefficients;
 mod lattice;
+mod leaf;
 mod level;
 mod pairs;
+mod plan_spectra;
 pub(crate) mod wave_level;
 mod waves;
 
@@ -13,8 +15,10 @@ use self::lattice::Lattice;
 use self::pairs::Pairs;
 use self::waves::Waves;
 use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory, check_inputs};
-use crate::error::{Error, Result, same_length};
+use super::last_lag::LastLag;
+use crate::error::{CheckpointError, Error, Result, same_length};
 pub(crate) use crate::history::relaxed_fft::coefficients::{Blocks, LEAF};
+pub(crate) use crate::history::relaxed_fft::plan_spectra::waves_in_plan;
 pub use crate::history::relaxed_fft::wave_level::SharedSpectra;
 
 /// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs
@@ -82,6 +86,12 @@ pub struct RelaxedFftHistory {
     input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
+    /// All coefficients together that may be left out, of all.
+    forgotten: Option<f64>,
+    /// Where memory ends, once that is known.
+    end: Option<LastLag>,
+    /// Largest traction so far, Pa, where memory may end.
+    largest: f64,
 }
 
 short_debug! {
@@ -92,12 +102,13 @@ impl RelaxedFftHistory {
     /// Whether it transforms along the surface, unless told otherwise.
     pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
         let classes = kernel.classes();
-        classes.elements().len() >= WAVES_FROM && Lattice::of(classes).is_some()
+        let many = classes.elements().len() >= WAVES_FROM;
+        classes.plan().is_some() || many && Lattice::of(classes).is_some()
     }
 
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
-        let padded = vec![0.0; 2 * kernel.classes().elements().len()];
+        let padded = vec![0.0; kernel.classes().layout().len()];
         Self {
             kernel,
             blocks: None,
@@ -108,6 +119,9 @@ impl RelaxedFftHistory {
             padded,
             input: Vec::new(),
             failed: None,
+            forgotten: None,
+            end: None,
+            largest: 0.0,
         }
     }
 
@@ -127,6 +141,17 @@ impl RelaxedFftHistory {
         self
     }
 
+    /// With a memory that ends in plan where all later coefficients together are less than `tolerance` of all.
+    pub(super) fn forgetting(mut self, tolerance: f64) -> Self {
+        self.forgotten = Some(tolerance);
+        self
+    }
+
+    /// First of the inputs that are kept of `steps`, in a memory that ends at lag `last`: all that blocks still need.
+    fn first_kept(last: Option<usize>, steps: usize) -> usize {
+        last.map_or(0, |last| (steps / last).saturating_sub(1) * last)
+    }
+
     /// Makes ready for at least `steps` steps.
     fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
         let kernel = &*self.kernel;
@@ -135,7 +160,7 @@ impl RelaxedFftHistory {
         } else {
             let (leaf, classes) = (self.leaf.unwrap_or(LEAF), kernel.classes());
             let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
-            match Lattice::of(classes).filter(|_| wanted) {
+            match Lattice::of(classes).filter(|_| wanted || classes.plan().is_some()) {
                 Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
                 None => Box::new(Pairs::new(kernel, leaf)?),
             }
@@ -143,15 +168,22 @@ impl RelaxedFftHistory {
         let blocks = self.blocks.insert(blocks);
         let capacity = blocks.capacity();
         if capacity < steps {
+            if let Some(tolerance) = self.forgotten.filter(|_| self.end.is_none()) {
+                let lags = steps.checked_next_power_of_two().unwrap_or(steps);
+                self.end = LastLag::of(kernel, tolerance, lags)?;
+            }
             let mut inputs = Vec::new();
             let worked_in = self.steps - usize::from(self.pending);
             if !capacity.is_power_of_two() {
                 (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
             }
-            blocks.grow(kernel, steps)?;
+            match self.end {
+                Some(LastLag { lag, .. }) => blocks.bound(kernel, lag)?,
+                None => blocks.grow(kernel, steps)?,
+            }
             if !inputs.is_empty() {
                 blocks.clear();
-                march(&mut **blocks, &inputs);
+                march(&mut **blocks, 0, &inputs);
                 if !self.pending {
                     blocks.work_in(self.steps);
                 }
@@ -183,14 +215,19 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let count = self.kernel.classes().elements().len();
-        same_length("displacement of the history", displacement.len(), 2 * count)?;
+        let size = self.kernel.classes().layout().len();
+        same_length("displacement of the history", displacement.len(), size)?;
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
         let now = self.steps;
         self.settle()?.read(now, displacement);
         Ok(())
+    }
+
+    /// What memory that has ended leaves out of two displacements.
+    fn increment_error_bound(&self) -> f64 {
+        self.end.map_or(0.0, |end| 2.0 * end.rest * self.largest)
     }
 
     fn memory(&self) -> usize {
@@ -204,6 +241,9 @@ impl ConvolutionHistory for RelaxedFftHistory {
             let given = traction.len().min(padded.len());
             padded[..given].copy_from_slice(&traction[..given]);
             padded[given..].fill(0.0);
+            if self.forgotten.is_some() {
+                self.largest = padded.iter().fold(self.largest, |most, x| most.max(x.abs()));
+            }
             match self.settle() {
                 Ok(blocks) => {
                     blocks.write(now, &padded);
@@ -216,7 +256,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps += 1;
     }
 
-    /// All inputs, step by step: what they give to coming steps is worked out again.
+    /// All inputs that count, step by step: what they give to coming steps is worked out again.
     fn save(&self) -> Result<Vec<f64>> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
@@ -224,7 +264,11 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let mut values = Vec::new();
         if let Some(blocks) = &self.blocks {
             let worked_in = self.steps - usize::from(self.pending);
-            (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut values));
+            let first = Self::first_kept(self.end.map(|end| end.lag), self.steps);
+            (first..self.steps).for_each(|step| blocks.input(step, worked_in, &mut values));
+        }
+        if self.forgotten.is_some() {
+            values.extend([self.largest, self.end.map_or(0.0, |end| end.lag as f64)]);
         }
         Ok(values)
     }
@@ -232,16 +276,36 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // Before there is room for them: a damaged number of steps may ask for any amount.
         let width = self.grow(1)?.width();
-        check_inputs(steps, width, values)?;
-        let blocks = self.grow(steps)?;
+        let corrupt = || CheckpointError::Corrupt { quantity: "memory of the history" };
+        let (values, largest, last) = match (self.forgotten, values) {
+            (None, values) => (values, 0.0, None),
+            (Some(_), [values @ .., largest, last]) => {
+                let known = (0..usize::BITS - 1).map(|power| 1_usize << power);
+                let found = known.into_iter().find(|lag| *lag as f64 == *last);
+                (values, *largest, found)
+            }
+            _ => return Err(corrupt().into()),
+        };
+        let first = Self::first_kept(last, steps);
+        check_inputs(steps - first, width, values)?;
+        self.grow(steps)?;
+        if self.end.map(|end| end.lag) != last {
+            return Err(corrupt().into());
+        }
+        let blocks = self.grow(0)?;
         blocks.clear();
-        march(blocks, values);
+        march(blocks, first, values);
+        self.largest = largest;
         (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
     }
 }
 
 impl ExactHistory for RelaxedFftHistory {
+    fn has_ended(&self) -> bool {
+        self.end.is_some()
+    }
+
     fn traction(&mut self, step: usize, traction: &mut [f64]) {
         let worked_in = self.steps - usize::from(self.pending);
         if let Some(blocks) = &mut self.blocks {
@@ -265,10 +329,11 @@ pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<B
     Ok(blocks)
 }
 
-/// Goes through all steps again, from nothing to where the last of `inputs` is still pending.
-fn march(blocks: &mut dyn Blocks, inputs: &[f64]) {
-    for (now, input) in inputs.chunks_exact(blocks.width()).enumerate() {
-        if now > 0 {
+/// Goes through all steps again, from nothing before step `first` to where the last of `inputs` is still pending.
+fn march(blocks: &mut dyn Blocks, first: usize, inputs: &[f64]) {
+    for (ahead, input) in inputs.chunks_exact(blocks.width()).enumerate() {
+        let now = first + ahead;
+        if ahead > 0 {
             blocks.work_in(now);
         }
         blocks.write_input(now, input);

@@ -1,20 +1,31 @@
 //! Blocks of one size over the wavenumbers of a lattice, and spectra that grounds share.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::level::{Level, Ring, Tables};
+use super::level::{Level, Ring, Tables, WaveNumbers};
 use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
+use crate::history::pair_classes::KINDS as STRIP_KINDS;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-/// Normal, tangential, coupling.
-pub(super) const KINDS: usize = 3;
+/// Kind that tells what a component of the tractions does to one of the displacements: of two and of three.
+const KIND: [&[&[usize]]; 2] = [&[&[0, 2], &[2, 1]], &[&[0, 4, 5], &[4, 1, 3], &[5, 3, 2]]];
 
-/// Per kind, d = 0 … leaf − 1 times the number of wavenumbers.
-pub(super) type Near = [Vec<f64>; KINDS];
+/// Kinds of an N × N matrix.
+pub(super) fn kinds<const N: usize>() -> [[usize; N]; N] {
+    let rows = KIND[usize::from(N == 3)];
+    std::array::from_fn(|row| std::array::from_fn(|column| rows[row][column]))
+}
+
+/// The kind of a strip that ends.
+pub(super) const COUPLING: usize = 2;
+
+/// Per kind, d = 0 … leaf − 1 times the number of wavenumbers with spectra.
+pub(super) type Near = Vec<Vec<f64>>;
 
 /// Effect of b inputs on the next b outputs, for each wavenumber by itself: one wavenumber's blocks
 /// and spectra fit into cache.
@@ -23,11 +34,12 @@ pub(super) struct WaveLevel {
     pub(super) size: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
-    /// Normal, tangential, coupling: per wavenumber, the b + 1 lower frequencies of 2b. The
-    /// coefficients are real numbers in time, so that the others are conjugates; the coupling's
-    /// stand for i times them. The last is empty where the coupling has died out within smaller
-    /// blocks.
-    spectra: [Vec<Complex<f64>>; KINDS],
+    waves: WaveNumbers,
+    /// Kind by kind: per wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real
+    /// numbers in time, so that the others are conjugates; those of what couples pressure and shear
+    /// stand for i times them. That of a strip's coupling is empty where
+    /// it has died out within smaller blocks.
+    spectra: Vec<Vec<Complex<f64>>>,
 }
 
 /// Which components of the tractions move which.
@@ -45,17 +57,17 @@ impl WaveLevel {
     /// Blocks of `size`, without spectra yet.
     pub(super) fn new(
         size: usize,
-        waves: usize,
-        couples: bool,
+        waves: WaveNumbers,
+        kinds: impl Iterator<Item = bool>,
         planner: &mut FftPlanner<f64>,
     ) -> Self {
-        let length = waves * (size + 1);
-        let spectrum = |length| vec![Complex::default(); length];
+        let spectrum = |has| vec![Complex::default(); if has { waves.own * (size + 1) } else { 0 }];
         Self {
             size,
             forward: planner.plan_fft_forward(2 * size),
             inverse: planner.plan_fft_inverse(2 * size),
-            spectra: [length, length, if couples { length } else { 0 }].map(spectrum),
+            waves,
+            spectra: kinds.map(spectrum).collect(),
         }
     }
 
@@ -112,7 +124,7 @@ impl WaveLevel {
     }
 
     /// Adds what the b inputs before `now` give to the b outputs from there on, in all rows: one
-    /// per wavenumber for the normal components, then as many for the tangential ones.
+    /// per wavenumber for the first component, then as many for each of the others.
     pub(super) fn apply(
         &self,
         rows: &mut [Complex<f64>],
@@ -122,36 +134,60 @@ impl WaveLevel {
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
-        let (size, bins) = (self.size, self.size + 1);
+        let size = self.size;
         // Rows may end before the block does.
         let (before, begin) = (ring.before(now, size), ring.place(now));
         let ahead = begin..stride.min(begin + size);
-        let (normal, tangential) = rows.split_at_mut(rows.len() / 2);
         if part == Part::Even {
             // One component at a time: the largest blocks are the coupling's, or half as many.
             let block = &mut blocks[..2 * size];
-            for (kind, rows) in [normal, tangential].into_iter().enumerate() {
+            for (kind, rows) in rows.chunks_exact_mut(self.waves.all * stride).enumerate() {
                 for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
                     self.take(&row[before.clone()], block, scratch);
-                    multiply(block, &self.spectra[kind][wave * bins..][..bins]);
+                    multiply(block, self.spectrum(kind, wave));
                     self.give(block, &mut row[ahead.clone()], scratch);
                 }
             }
-            return;
+        } else if self.spectra.len() == STRIP_KINDS {
+            self.apply_coupled::<2>(rows, stride, [before, ahead], part, blocks, scratch);
+        } else {
+            self.apply_coupled::<3>(rows, stride, [before, ahead], part, blocks, scratch);
         }
-        let (one, two) = blocks[..4 * size].split_at_mut(2 * size);
-        let rows = normal.chunks_exact_mut(stride).zip(tangential.chunks_exact_mut(stride));
-        for (wave, (normal, tangential)) in rows.enumerate() {
-            let spectrum = |kind: usize| &self.spectra[kind][wave * bins..][..bins];
-            self.take(&normal[before.clone()], one, scratch);
-            self.take(&tangential[before.clone()], two, scratch);
-            if part == Part::All {
-                multiply_all(one, two, [spectrum(0), spectrum(1), spectrum(2)]);
-            } else {
-                exchange(one, two, spectrum(2));
+    }
+
+    fn spectrum(&self, kind: usize, wave: usize) -> &[Complex<f64>] {
+        let bins = self.size + 1;
+        &self.spectra[kind][self.waves.spectrum(wave) * bins..][..bins]
+    }
+
+    /// [`WaveLevel::apply`] of N components at once.
+    fn apply_coupled<const N: usize>(
+        &self,
+        rows: &mut [Complex<f64>],
+        stride: usize,
+        [before, ahead]: [Range<usize>; 2],
+        part: Part,
+        blocks: &mut [Complex<f64>],
+        scratch: &mut [Complex<f64>],
+    ) {
+        let blocks = &mut blocks[..2 * N * self.size];
+        for wave in 0..self.waves.all {
+            let begin = |component: usize| (component * self.waves.all + wave) * stride;
+            for (component, block) in blocks.chunks_exact_mut(2 * self.size).enumerate() {
+                let row = &rows[begin(component)..][..stride];
+                self.take(&row[before.clone()], block, scratch);
             }
-            self.give(one, &mut normal[ahead.clone()], scratch);
-            self.give(two, &mut tangential[ahead.clone()], scratch);
+            if part == Part::All {
+                let spectra = kinds::<N>().map(|row| row.map(|kind| self.spectrum(kind, wave)));
+                multiply_all(blocks, spectra);
+            } else {
+                let (one, two) = blocks.split_at_mut(2 * self.size);
+                exchange(one, two, self.spectrum(COUPLING, wave));
+            }
+            for (component, block) in blocks.chunks_exact_mut(2 * self.size).enumerate() {
+                let row = &mut rows[begin(component)..][..stride];
+                self.give(block, &mut row[ahead.clone()], scratch);
+            }
         }
     }
 
@@ -201,26 +237,53 @@ fn multiply(block: &mut [Complex<f64>], spectrum: &[Complex<f64>]) {
 fn exchange(one: &mut [Complex<f64>], two: &mut [Complex<f64>], coupling: &[Complex<f64>]) {
     let all = coupling.iter().copied().chain(upper(coupling));
     for ((p, s), c) in one.iter_mut().zip(two).zip(all) {
-        let c = Complex::new(-c.im, c.re);
+        let c = times_i(c);
         (*p, *s) = (c * *s, -c * *p);
     }
 }
 
-/// (p, s) ← (g p + i c s, h s − i c p).
-fn multiply_all(one: &mut [Complex<f64>], two: &mut [Complex<f64>], spectra: [&[Complex<f64>]; 3]) {
-    let [normal, tangential, coupling] = spectra;
-    let multiply = |p: &mut Complex<f64>, s: &mut Complex<f64>, [g, h, c]: [Complex<f64>; 3]| {
-        let c = Complex::new(-c.im, c.re);
-        (*p, *s) = (g * *p + c * *s, h * *s - c * *p);
-    };
-    let bins = normal.len();
-    let ((one, one_high), (two, two_high)) = (one.split_at_mut(bins), two.split_at_mut(bins));
-    for k in 0..bins {
-        multiply(&mut one[k], &mut two[k], [normal[k], tangential[k], coupling[k]]);
+fn times_i(value: Complex<f64>) -> Complex<f64> {
+    Complex::new(-value.im, value.re)
+}
+
+/// Blocks of N components, multiplied by a Hermitian matrix: what couples the first with the others is i times the
+/// spectrum in its row, −i times in its column.
+fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Complex<f64>]; N]; N]) {
+    let length = blocks.len() / N;
+    let bins = length / 2 + 1;
+    let mut parts = blocks.chunks_exact_mut(length).map(|block| block.split_at_mut(bins));
+    let mut low: [&mut [Complex<f64>]; N] = std::array::from_fn(|_| Default::default());
+    let mut high: [&mut [Complex<f64>]; N] = std::array::from_fn(|_| Default::default());
+    for ((low, high), part) in low.iter_mut().zip(&mut high).zip(&mut parts) {
+        (*low, *high) = part;
     }
-    let factors = upper(normal).zip(upper(tangential)).zip(upper(coupling));
-    for ((p, s), ((g, h), c)) in one_high.iter_mut().zip(two_high).zip(factors) {
-        multiply(p, s, [g, h, c]);
+    multiply_matrix::<N, false>(low, spectra);
+    multiply_matrix::<N, true>(high, spectra);
+}
+
+/// The lower frequencies, or the upper ones.
+fn multiply_matrix<const N: usize, const UPPER: bool>(
+    mut blocks: [&mut [Complex<f64>]; N],
+    spectra: [[&[Complex<f64>]; N]; N],
+) {
+    let length = blocks[0].len();
+    let mut blocks = blocks.each_mut().map(|block| &mut block[..length]);
+    let spectra = spectra.map(|row| row.map(|spectrum| &spectrum[..length + usize::from(UPPER)]));
+    for place in 0..length {
+        let values: [Complex<f64>; N] = std::array::from_fn(|n| blocks[n][place]);
+        for (n, (block, row)) in blocks.iter_mut().zip(&spectra).enumerate() {
+            let factor = |m: usize| {
+                if UPPER { row[m][length - place].conj() } else { row[m][place] }
+            };
+            block[place] = if n == 0 {
+                let own = factor(0) * values[0];
+                (1..N).fold(own, |sum, m| sum + times_i(factor(m)) * values[m])
+            } else {
+                let own = factor(1) * values[1];
+                let others = (2..N).fold(own, |sum, m| sum + factor(m) * values[m]);
+                others - times_i(factor(0)) * values[0]
+            };
+        }
     }
 }
 

@@ -1,8 +1,6 @@
 //! Blocks over the wavenumbers of a lattice: no pairs of elements are left, only one convolution in
 //! time per wavenumber and kind.
 
-#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
-
 use std::sync::Arc;
 
 use realfft::RealFftPlanner;
@@ -11,19 +9,20 @@ use rustfft::FftPlanner;
 
 use super::coefficients::{Blocks, LEAF};
 use super::lattice::Lattice;
+use super::leaf::Leaf;
 use super::level::Ring;
-use super::wave_level::{KINDS, Near, Part, WaveLevel};
+use super::wave_level::{COUPLING, Near, Part, WaveLevel};
 use crate::error::Result;
 use crate::history::convolution::ConvolutionWeights;
-use crate::linalg::{Simd, WithSimd, vectorized};
+use crate::linalg::vectorized;
 
 /// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
 const PADDING: usize = 4;
 
 /// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.
 ///
-/// Within a leaf, a step's contact vector over B wavenumbers is held as four slices of B: real and
-/// imaginary parts of the normal components, then of the tangential ones.
+/// Within a leaf, a step's contact vector over B wavenumbers is held as two slices of B for each component: real and
+/// imaginary parts.
 pub(super) struct Waves {
     lattice: Lattice,
     /// Steps that are summed directly.
@@ -33,11 +32,13 @@ pub(super) struct Waves {
     near: Arc<Near>,
     levels: Vec<Arc<WaveLevel>>,
     planner: FftPlanner<f64>,
-    /// 2B rows of `stride`: inputs before the present leaf, outputs as far as known from there on.
+    /// B rows of `stride` for each component: inputs before the present leaf, outputs as far as known from there on.
     rows: Vec<Complex<f64>>,
     stride: usize,
     ring: Ring,
     capacity: usize,
+    /// Last lag of a memory that ends.
+    end: Option<usize>,
     /// Inputs of this leaf, and what all earlier leaves give at its outputs.
     inputs: Vec<f64>,
     far: Vec<f64>,
@@ -54,7 +55,7 @@ impl Waves {
         kernel: &dyn ConvolutionWeights,
         leaf: usize,
     ) -> Result<Self> {
-        let size = 4 * lattice.waves();
+        let size = width(&lattice);
         Ok(Self {
             reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
             lattice,
@@ -66,6 +67,7 @@ impl Waves {
             stride: 0,
             ring: Ring::ENDLESS,
             capacity: 0,
+            end: None,
             inputs: vec![0.0; leaf * size],
             far: vec![0.0; leaf * size],
             sum: vec![0.0; size],
@@ -87,11 +89,13 @@ impl Waves {
         [first, end]: [usize; 2],
         near: &mut Option<Arc<Near>>,
     ) -> Result<Vec<Arc<WaveLevel>>> {
-        let waves = self.lattice.waves();
+        let (waves, kinds) = (self.lattice.waves(), self.lattice.kinds());
         let mut levels: Vec<_> = (first..end)
             .map(|number| {
                 let size = self.leaf << number;
-                WaveLevel::new(size, waves, self.couples(size), &mut self.planner)
+                let couples = self.couples(size);
+                let kinds = (0..kinds).map(|kind| kind != COUPLING || couples);
+                WaveLevel::new(size, waves, kinds, &mut self.planner)
             })
             .collect();
         let own = self.fill(kernel, &mut levels, near.is_none())?;
@@ -106,20 +110,19 @@ impl Waves {
         levels: &mut [WaveLevel],
         wanted: bool,
     ) -> Result<Near> {
-        let waves = self.lattice.waves();
+        let (waves, kinds) = (self.lattice.waves().own, self.lattice.kinds());
         let near = wanted.then_some(self.leaf);
-        let mut lags = [near.unwrap_or(0); KINDS];
         // Coefficients wait in the place of the largest spectra that are made of them.
-        for (kind, lags) in lags.iter_mut().enumerate() {
-            if let Some(level) = levels.iter().rfind(|level| level.has(kind)) {
-                *lags = 2 * level.size;
-            }
-        }
-        let mut table: [_; KINDS] = std::array::from_fn(|_| vec![0.0; near.unwrap_or(0) * waves]);
-        let largest: [_; KINDS] =
-            std::array::from_fn(|kind| levels.iter().rposition(|level| level.has(kind)));
-        let coupled = lags[2].min(self.reach + 1);
-        self.lattice.coefficients(kernel, lags[0], coupled, |kind, d, values| {
+        let largest: Vec<_> =
+            (0..kinds).map(|kind| levels.iter().rposition(|level| level.has(kind))).collect();
+        let lags = |kind: usize| {
+            let level = largest[kind].and_then(|number| levels.get(number));
+            level.map_or(near.unwrap_or(0), |level| 2 * level.size)
+        };
+        let (lags, coupled) = (lags(0), lags(COUPLING).min(self.reach.saturating_add(1)));
+        let mut table = vec![vec![0.0; near.unwrap_or(0) * waves]; kinds];
+        let kept = lags.min(self.end.unwrap_or(lags));
+        self.lattice.coefficients(kernel, kept, coupled, |kind, d, values| {
             if near.is_some_and(|leaf| d < leaf) {
                 table[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
             }
@@ -128,9 +131,9 @@ impl Waves {
             }
         })?;
         let mut planner = RealFftPlanner::new();
-        let (mut time, mut real) = (vec![0.0; lags[0]], vec![0.0; lags[0]]);
-        for kind in 0..KINDS {
-            let Some(from) = largest[kind] else { continue };
+        let (mut time, mut real) = (vec![0.0; lags], vec![0.0; lags]);
+        for (kind, largest) in largest.into_iter().enumerate() {
+            let Some(from) = largest else { continue };
             for wave in 0..waves {
                 levels[from].kept(kind, wave, &mut time);
                 for level in levels.iter_mut().filter(|level| level.has(kind)) {
@@ -145,7 +148,8 @@ impl Waves {
 
     /// Moves the leaf that ends before `now` to the rows, works it in, and takes up the next one.
     fn turn(&mut self, now: usize) {
-        let (waves, ring) = (self.lattice.waves(), self.ring);
+        let (waves, ring) = (self.lattice.waves().all, self.ring);
+        let size = width(&self.lattice);
         let before = ring.before(now, self.leaf);
         let stale = ring.stale(now);
         for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
@@ -153,36 +157,50 @@ impl Waves {
                 values[stale.clone()].fill(Complex::default());
             }
             let re = 2 * waves * (row / waves) + row % waves;
-            let inputs = self.inputs.chunks_exact(4 * waves);
+            let inputs = self.inputs.chunks_exact(size);
             for (value, input) in values[before.clone()].iter_mut().zip(inputs) {
                 *value = Complex::new(input[re], input[re + waves]);
             }
         }
         let number = ring.level(now, self.leaf, self.levels.len());
-        let part = if self.levels[number].has(2) { Part::All } else { Part::Even };
+        let part = if self.levels[number].has(COUPLING) { Part::All } else { Part::Even };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
         levels[number].apply(rows, *stride, (ring, now), part, blocks, scratch);
         if part == Part::Even
-            && let Some(level) = levels.iter().rfind(|level| level.has(2))
+            && let Some(level) = levels.iter().rfind(|level| level.has(COUPLING))
         {
             level.apply(rows, *stride, (ring, now), Part::Coupling, blocks, scratch);
         }
         let begin = ring.place(now);
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
             let re = 2 * waves * (row / waves) + row % waves;
-            let far = self.far.chunks_exact_mut(4 * waves);
+            let far = self.far.chunks_exact_mut(size);
             for (value, far) in values[begin..begin + self.leaf].iter().zip(far) {
                 (far[re], far[re + waves]) = (value.re, value.im);
             }
         }
     }
 
+    /// Rows of `stride`, with what they hold.
+    fn widen(&mut self, stride: usize) {
+        let mut rows = vec![Complex::default(); width(&self.lattice) / 2 * stride];
+        if self.stride > 0 {
+            for (new, old) in rows.chunks_exact_mut(stride).zip(self.rows.chunks_exact(self.stride))
+            {
+                new[..self.capacity].copy_from_slice(&old[..self.capacity]);
+            }
+        }
+        (self.rows, self.stride) = (rows, stride);
+    }
+
     /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
     /// they are there, with scratch for their blocks.
     fn take_levels(&mut self, kernel: &dyn ConvolutionWeights, wanted: usize) -> Result<()> {
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
-        kernel.prepare(self.leaf << wanted)?;
-        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let lags = self.leaf << wanted;
+        kernel.prepare(lags.min(self.end.unwrap_or(lags)))?;
+        // Where memory ends, spectra are not those of all lags.
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF && self.end.is_none());
         let elements = kernel.classes().elements();
         let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
             let mut shared = spectra.waves();
@@ -200,7 +218,8 @@ impl Waves {
         let zero = Complex::default();
         if let Some(level) = levels.last() {
             // Where components couple, both are transformed before they are multiplied.
-            let coupled = levels.iter().rfind(|level| level.has(2)).map_or(0, |l| 4 * l.size);
+            let coupled = levels.iter().rfind(|level| level.has(COUPLING));
+            let coupled = coupled.map_or(0, |l| 2 * self.lattice.components() * l.size);
             let length = self.blocks.len().max(coupled).max(2 * level.size);
             self.blocks.resize(length, zero);
             self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
@@ -234,29 +253,20 @@ impl Blocks for Waves {
         let largest = leaves.next_power_of_two();
         // The first request is met exactly; later ones double the memory.
         let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
-        let waves = self.lattice.waves();
         let wanted = largest.ilog2() as usize;
         self.take_levels(kernel, wanted)?;
         if capacity > self.leaf {
-            let stride = capacity + PADDING;
-            let mut rows = vec![Complex::default(); 2 * waves * stride];
-            if self.stride > 0 {
-                let old = self.rows.chunks_exact(self.stride);
-                for (new, old) in rows.chunks_exact_mut(stride).zip(old) {
-                    new[..self.capacity].copy_from_slice(&old[..self.capacity]);
-                }
-            }
-            (self.rows, self.stride) = (rows, stride);
+            self.widen(capacity + PADDING);
         }
         self.capacity = capacity;
         Ok(())
     }
 
     fn bound(&mut self, kernel: &dyn ConvolutionWeights, reach: usize) -> Result<()> {
+        self.end = Some(reach);
         self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1)?;
-        (self.ring, self.stride) = (Ring(2 * reach), 2 * reach + PADDING);
-        self.rows = vec![Complex::default(); 2 * self.lattice.waves() * self.stride];
-        self.capacity = usize::MAX;
+        self.widen(2 * reach + PADDING);
+        (self.ring, self.capacity) = (Ring(2 * reach), usize::MAX);
         Ok(())
     }
 
@@ -267,28 +277,30 @@ impl Blocks for Waves {
     }
 
     fn write(&mut self, now: usize, traction: &[f64]) {
-        let waves = self.lattice.waves();
-        let (normal, tangential) = traction.split_at(traction.len() / 2);
-        let input = &mut self.inputs[now % self.leaf * 4 * waves..][..4 * waves];
-        for (values, part) in
-            [normal, tangential].into_iter().zip(input.chunks_exact_mut(2 * waves))
+        let (waves, size) = (self.lattice.waves().all, width(&self.lattice));
+        let input = &mut self.inputs[now % self.leaf * size..][..size];
+        let components = traction.chunks_exact(traction.len() / self.lattice.components());
+        for (component, (values, part)) in
+            components.zip(input.chunks_exact_mut(2 * waves)).enumerate()
         {
-            self.lattice.forward(values, part.split_at_mut(waves).into());
+            self.lattice.forward(component, values, part.split_at_mut(waves).into());
         }
     }
 
     fn width(&self) -> usize {
-        4 * self.lattice.waves()
+        width(&self.lattice)
     }
 
     fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>) {
-        let waves = self.lattice.waves();
+        let (waves, size) = (self.lattice.waves().all, self.width());
         if step >= worked_in - worked_in % self.leaf {
-            let begin = step % self.leaf * 4 * waves;
-            values.extend_from_slice(&self.inputs[begin..begin + 4 * waves]);
+            let begin = step % self.leaf * size;
+            values.extend_from_slice(&self.inputs[begin..begin + size]);
         } else {
-            let row = |row: usize| self.rows[row * self.stride + step];
-            for of in [0..waves, waves..2 * waves] {
+            let place = self.ring.place(step);
+            let row = |row: usize| self.rows[row * self.stride + place];
+            for component in 0..self.lattice.components() {
+                let of = component * waves..(component + 1) * waves;
                 values.extend(of.clone().map(|k| row(k).re));
                 values.extend(of.map(|k| row(k).im));
             }
@@ -296,10 +308,11 @@ impl Blocks for Waves {
     }
 
     fn traction(&mut self, input: &[f64], traction: &mut [f64]) {
-        let waves = self.lattice.waves();
-        let half = traction.len() / 2;
-        for (values, part) in traction.chunks_exact_mut(half).zip(input.chunks_exact(2 * waves)) {
-            self.lattice.back(part.split_at(waves).into(), 1.0, values);
+        let waves = self.lattice.waves().all;
+        let count = traction.len() / self.lattice.components();
+        let parts = traction.chunks_exact_mut(count).zip(input.chunks_exact(2 * waves));
+        for (component, (values, part)) in parts.enumerate() {
+            self.lattice.back(component, part.split_at(waves).into(), 1.0, values);
         }
     }
 
@@ -314,77 +327,30 @@ impl Blocks for Waves {
     }
 
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
-        let waves = self.lattice.waves();
-        let size = 4 * waves;
+        let (waves, size) = (self.lattice.waves(), width(&self.lattice));
+        let components = self.lattice.components();
         let place = now % self.leaf;
         self.sum.copy_from_slice(&self.far[place * size..(place + 1) * size]);
-        let near = self.near.each_ref().map(Vec::as_slice);
         let (sum, inputs) = (&mut self.sum[..], &self.inputs[..place * size]);
-        vectorized(Leaf { sum, inputs, near, waves, reach: self.reach });
-        let (down, along) = displacement.split_at_mut(displacement.len() / 2);
-        for (values, sum) in [down, along].into_iter().zip(self.sum.chunks_exact(2 * waves)) {
-            self.lattice.inverse(sum.split_at(waves).into(), values);
+        let (near, reach) = (&self.near[..], self.reach);
+        if components == 2 {
+            vectorized(Leaf::<2> { sum, inputs, near, waves, reach });
+        } else {
+            vectorized(Leaf::<3> { sum, inputs, near, waves, reach });
+        }
+        let values = displacement.chunks_exact_mut(displacement.len() / components);
+        for (component, (values, sum)) in
+            values.zip(self.sum.chunks_exact(2 * waves.all)).enumerate()
+        {
+            self.lattice.inverse(component, sum.split_at(waves.all).into(), values);
         }
     }
 }
 
-/// Sum over the inputs of a leaf so far, for its next output.
-struct Leaf<'a> {
-    sum: &'a mut [f64],
-    inputs: &'a [f64],
-    near: [&'a [f64]; KINDS],
-    waves: usize,
-    reach: usize,
+/// Numbers of a step's contact vector over the wavenumbers of a lattice.
+fn width(lattice: &Lattice) -> usize {
+    2 * lattice.components() * lattice.waves().all
 }
 
-impl WithSimd for Leaf<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { sum, inputs, near, waves, reach } = self;
-        let place = inputs.len() / sum.len();
-        for (m, input) in inputs.chunks_exact(sum.len()).enumerate() {
-            let d = place - m;
-            let [normal, tangential, coupling] =
-                near.map(|values| &values[d * waves..(d + 1) * waves]);
-            if d <= reach {
-                add_coupled(sum, input, [normal, tangential, coupling]);
-            } else {
-                add(sum, input, [normal, tangential]);
-            }
-        }
-    }
-}
-
-/// sum ← sum + ĝ · input.
-#[inline(always)]
-fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
-    let waves = coefficients[0].len();
-    let parts = sum.chunks_exact_mut(waves).zip(input.chunks_exact(waves));
-    for (number, (sum, input)) in parts.enumerate() {
-        for ((sum, input), g) in sum.iter_mut().zip(input).zip(coefficients[number / 2]) {
-            *sum += g * input;
-        }
-    }
-}
-
-/// The same with coupling, which is i times a real number and of either sign.
-#[inline(always)]
-fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
-    let waves = coefficients[0].len();
-    let [normal, tangential, coupling] = coefficients.map(|values| &values[..waves]);
-    let (down, along) = sum.split_at_mut(2 * waves);
-    let ((down_re, down_im), (along_re, along_im)) =
-        (down.split_at_mut(waves), along.split_at_mut(waves));
-    let (along_re, along_im) = (&mut along_re[..waves], &mut along_im[..waves]);
-    let part = |k: usize| &input[k * waves..(k + 1) * waves];
-    let [p_re, p_im, s_re, s_im] = [part(0), part(1), part(2), part(3)];
-    for k in 0..waves {
-        let (g, h, c) = (normal[k], tangential[k], coupling[k]);
-        down_re[k] += g * p_re[k] - c * s_im[k];
-        down_im[k] += g * p_im[k] + c * s_re[k];
-        along_re[k] += h * s_re[k] + c * p_im[k];
-        along_im[k] += h * s_im[k] - c * p_re[k];
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@ use super::*;
 use crate::Error;
 use crate::bem::layered::runge_kutta::Stages;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
-use crate::bem::layered::wavenumber::Wavenumbers;
+use crate::bem::layered::wavenumber::{Compliances, Wavenumbers, Workspace};
 use crate::bem::{Grading, Strip};
 use crate::soil::{
     Elastic, GeneralizedMaxwell, KelvinVoigt, Kjartansson, Relaxation, Soil, SoilProfile,
@@ -87,6 +87,7 @@ fn tables_profiles_pass_for_all_steps() {
             check(
                 &quadrature(profile.clone(), &classes, time_step),
                 &classes,
+                std::iter::empty(),
                 &mut Watch::nobody(),
             )
             .unwrap();
@@ -108,8 +109,12 @@ impl Relaxation for Active {
 fn active_damping_is_refused() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let found =
-        check(&quadrature(p1(Active, Elastic), &classes, 0.1), &classes, &mut Watch::nobody());
+    let found = check(
+        &quadrature(p1(Active, Elastic), &classes, 0.1),
+        &classes,
+        std::iter::empty(),
+        &mut Watch::nobody(),
+    );
     assert!(
         matches!(found, Err(Error::Layered(LayeredError::ActiveDamping { layer: 1, value, .. })) if value < 0.0),
         "{found:?}"
@@ -140,7 +145,7 @@ fn the_gate_reports_the_least_eigenvalue() {
     values[0][0] = Complex::real(f64::NAN);
     assert!(margin(&classes, &values).is_nan());
     let strict = Quadrature { tolerance: -0.25, ..quadrature };
-    let found = check(&strict, &classes, &mut Watch::nobody());
+    let found = check(&strict, &classes, std::iter::empty(), &mut Watch::nobody());
     let Err(Error::Layered(LayeredError::NotPassive { margin, allowed, radius, .. })) = found
     else {
         panic!("{found:?}");

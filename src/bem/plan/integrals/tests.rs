@@ -4,8 +4,7 @@ use realfft::num_complex::Complex64;
 
 use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1};
-use crate::bem::layered::{Stages, on_circle};
-use crate::bem::plan::lattice::offset;
+use crate::geometry::offset;
 use crate::soil::Soil;
 
 fn all(
@@ -16,7 +15,8 @@ fn all(
 ) -> (Vec<[Complex; SERIES]>, usize) {
     let mut watch = Watch::nobody();
     let integrals = Integrals::new(lattice, profile, [s], tolerance, &mut watch).unwrap();
-    let (mut work, mut values) = (Workspace::default(), vec![]);
+    let mut work = Workspace::default();
+    let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
     (values, work.evaluations)
 }
@@ -153,123 +153,4 @@ fn mobility_is_passive() {
     }
     println!("least/greatest {least:e}");
     assert!(least > 0.0);
-}
-
-/// Mobilities of convolution quadrature with two stages, Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z).
-struct Quadrature<'a> {
-    integrals: Integrals,
-    profile: &'a SoilProfile,
-    work: Workspace,
-}
-
-const STEP: f64 = 0.2;
-
-impl<'a> Quadrature<'a> {
-    fn new(lattice: &Lattice, profile: &'a SoilProfile) -> Self {
-        // |λ| is at most 6 on the unit disc.
-        let list = [Complex::default(), Complex::real(6.1 / STEP)];
-        let mut watch = Watch::nobody();
-        let integrals = Integrals::new(lattice, profile, list, 1e-11, &mut watch).unwrap();
-        Self { integrals, profile, work: Workspace::default() }
-    }
-
-    fn mobility(&mut self, logarithm: f64, angle: f64) -> Vec<[Complex; SERIES]> {
-        let [z, rest] = on_circle(logarithm, angle);
-        let mut sums = vec![];
-        let mut values = vec![];
-        for node in Stages::Two.nodes(z, rest) {
-            let s = node.lambda.scale(1.0 / STEP);
-            self.integrals.compliance(self.profile, s, &mut self.work, &mut values).unwrap();
-            sums.resize(values.len(), [Complex::default(); SERIES]);
-            for (sum, value) in sums.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
-                *sum += node.weight * *value;
-            }
-        }
-        sums
-    }
-}
-
-/// Convolution weights are those of the table and sum up to statics; (1−z) Ĝ is positive on circles.
-#[test]
-fn weights_of_convolution_quadrature_match_the_table() {
-    const POINTS: usize = 512;
-    let lattice = Lattice { pitch: [0.5; 2], counts: [4, 4] };
-    let table = include_str!("../../../../tests/data/plan/weights_4x4.csv");
-    let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|l| l.split(',').collect()).collect();
-    for rows in rows.chunk_by(|a, b| a[0] == b[0]) {
-        let layered = rows[0][0] == "layer_rock";
-        let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
-        let mut quadrature = Quadrature::new(&lattice, &profile);
-        let mut range = [f64::INFINITY, 0.0_f64];
-        for logarithm in [0.99_f64.ln(), -1e-3] {
-            for point in 0..20 {
-                let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 20.0;
-                let values = quadrature.mobility(logarithm, angle);
-                let (matrix, order) = assembled(&lattice, &values, Complex::real(1.0));
-                let [low, high] = crate::linalg::hermitian_range(&matrix, order).unwrap();
-                range = [range[0].min(low / high), range[1].max(low / high)];
-            }
-        }
-        println!("{} least over greatest: {range:?}", rows[0][0]);
-        assert!(range[0] > 0.0);
-
-        let logarithm = 1e-8_f64.ln() / POINTS as f64;
-        let angle = |point: usize| std::f64::consts::TAU * point as f64 / POINTS as f64;
-        let spectra: Vec<Vec<[Complex; SERIES]>> = (0..=POINTS / 2)
-            .map(|point| {
-                let over = on_circle(logarithm, angle(point))[1].inverse();
-                let values = quadrature.mobility(logarithm, angle(point));
-                values.into_iter().map(|value| value.map(|x| x * over)).collect()
-            })
-            .collect();
-        let weights = |lag: usize| -> Vec<[Complex; SERIES]> {
-            let (n, mut sums) = (lag - 1, vec![[Complex::default(); SERIES]; spectra[0].len()]);
-            for (point, values) in spectra.iter().enumerate() {
-                let twice = if point == 0 || point == POINTS / 2 { 1.0 } else { 2.0 };
-                let size = twice * (-logarithm * n as f64).exp() / POINTS as f64;
-                let turn = Complex::polar(size, -angle(point * n % POINTS));
-                for (sum, value) in sums.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
-                    sum.re += (*value * turn).re;
-                }
-            }
-            sums
-        };
-        let largest = weights(1)[0][1].re;
-        let mut worst = 0.0_f64;
-        for rows in rows.chunk_by(|a, b| a[1] == b[1]) {
-            let weights = weights(rows[0][1].parse().unwrap());
-            for row in rows {
-                let offset = [3, 4].map(|column| row[column].parse::<isize>().unwrap());
-                let place = |at: usize| "zxy".find(row[2].chars().nth(at).unwrap()).unwrap();
-                let found = lattice.block(&weights, offset)[place(0)][place(1)].re;
-                worst = worst.max((found - row[5].parse::<f64>().unwrap()).abs() / largest);
-            }
-        }
-        let (mut sums, mut halfway) = (vec![[0.0; SERIES]; spectra[0].len()], vec![]);
-        for lag in 1..=256 {
-            for (sum, value) in sums.as_flattened_mut().iter_mut().zip(weights(lag).as_flattened())
-            {
-                *sum += value.re;
-            }
-            if lag == 128 {
-                halfway.clone_from(&sums);
-            }
-        }
-        let (still, _) = all(&lattice, &profile, Complex::default(), 1e-11);
-        let rest = |sums: &[[f64; SERIES]], series: std::ops::Range<usize>| {
-            let rows = sums.iter().zip(&still);
-            let errors = rows.flat_map(|(sum, still)| {
-                series.clone().map(move |kind| (sum[kind] - still[kind].re).abs())
-            });
-            errors.fold(0.0, f64::max) / still[0][1].re
-        };
-        let [even, odd] = [0..4, 4..6].map(|series| rest(&sums, series));
-        let before = rest(&halfway, 4..6);
-        println!("{}: lags {worst:.1e}, sum {even:.1e}, {odd:.1e} (128: {before:.1e})", rows[0][0]);
-        assert!(worst < 1e-6, "{worst:e}");
-        let gates = if layered { [5e-5, 5e-5] } else { [1e-7, 2e-5] };
-        assert!(even < gates[0] && odd < gates[1], "{even:e} {odd:e}");
-        // Shear and pressure forget each other like n⁻³.
-        assert!(layered || (2.0..8.0).contains(&(before / odd)), "{before:e} {odd:e}");
-    }
 }

@@ -1,33 +1,33 @@
 //! Cells of equal size in rows and columns, and the offsets between them.
 
-use crate::linalg::Complex;
+use std::ops::Mul;
 
 /// Series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
-pub(super) const SERIES: usize = 6;
+pub(crate) const SERIES: usize = 6;
 
 /// A lattice of cells. Compliances depend on the offset alone, and its signs.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Lattice {
+pub(crate) struct Lattice {
     /// Sides of a cell along x and y, m.
-    pub(super) pitch: [f64; 2],
+    pub(crate) pitch: [f64; 2],
     /// Cells along x and y.
-    pub(super) counts: [usize; 2],
+    pub(crate) counts: [usize; 2],
 }
 
 impl Lattice {
     /// Diagonal of all cells, m.
-    pub(super) fn diagonal(&self) -> f64 {
+    pub(crate) fn diagonal(&self) -> f64 {
         let [a, b] = self.sides();
         a.hypot(b)
     }
 
     /// Sides of all cells together, m.
-    pub(super) fn sides(&self) -> [f64; 2] {
+    pub(crate) fn sides(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.pitch[axis] * self.counts[axis] as f64)
     }
 
     /// Shorter side of a cell, m.
-    pub(super) fn finest(&self) -> f64 {
+    pub(crate) fn finest(&self) -> f64 {
         self.pitch[0].min(self.pitch[1])
     }
 
@@ -37,13 +37,13 @@ impl Lattice {
     }
 
     /// Offsets along x and y that are integrated, with the most columns second if cells are square.
-    pub(super) fn extent(&self) -> [usize; 2] {
+    pub(crate) fn extent(&self) -> [usize; 2] {
         let [i, j] = self.counts;
         if self.is_square() { [i.min(j), i.max(j)] } else { [i, j] }
     }
 
     /// Offsets that stand for all others, both not negative; of square cells those with i ≤ j.
-    pub(super) fn classes(&self) -> Vec<[usize; 2]> {
+    pub(crate) fn classes(&self) -> Vec<[usize; 2]> {
         let [columns, rows] = self.extent();
         let square = self.is_square();
         let all = (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j]));
@@ -61,31 +61,37 @@ impl Lattice {
         (i * rows - i * (i + 1) / 2 + j, exchanged)
     }
 
-    /// 3 × 3 compliances (components: down, along x, along y) of a receiver that is `offset` cells from the source.
-    pub(super) fn block(
-        &self,
-        values: &[[Complex; SERIES]],
-        offset: [isize; 2],
-    ) -> [[Complex; 3]; 3] {
+    /// Class of an offset, and per component of the receiver's displacement (down, along x, along y) and of the source's
+    /// traction the series and its factor: for a receiver that is `offset` cells from the source.
+    pub(crate) fn terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
         let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
-        let [zz, mut xx, mut yy, xy, mut zx, mut zy] = values[class];
-        if exchanged {
-            (xx, yy, zx, zy) = (yy, xx, zy, zx);
-        }
         let [right, away] = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
-        let (xy, zx, zy) = (xy.scale(right * away), zx.scale(right), zy.scale(away));
-        [[zz, zx, zy], [-zx, xx, xy], [-zy, xy, yy]]
+        let [xx, yy, zx, zy] = if exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
+        let (xy, zx, zy) = ((3, right * away), (zx, right), (zy, away));
+        let back = |(series, factor): (usize, f64)| (series, -factor);
+        let terms = [[(0, 1.0), zx, zy], [back(zx), (xx, 1.0), xy], [back(zy), xy, (yy, 1.0)]];
+        (class, terms)
+    }
+
+    /// 3 × 3 values of such a pair, out of those of all classes.
+    pub(crate) fn block<T>(&self, values: &[[T; SERIES]], offset: [isize; 2]) -> [[T; 3]; 3]
+    where
+        T: Copy + Mul<f64, Output = T>,
+    {
+        let (class, terms) = self.terms(offset);
+        terms.map(|row| row.map(|(series, factor)| values[class][series] * factor))
     }
 }
 
 /// Columns and rows from a source to a receiver.
-pub(super) fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
+pub(crate) fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
     [0, 1].map(|axis| receiver[axis].cast_signed() - source[axis].cast_signed())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::Complex;
 
     #[test]
     fn classes_are_numbered_as_listed() {

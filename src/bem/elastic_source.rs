@@ -1,0 +1,102 @@
+//! Elastic or viscoelastic soil as a source of step coefficients.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::layered::{LayeredKernel, Stages, static_compliance};
+use super::plan::{self, LatticeKernel, Plan};
+use super::{PatchKernel, StaticKernel, WeightsSource};
+use crate::error::Result;
+use crate::geometry::ContactElement;
+use crate::history::ConvolutionWeights;
+use crate::soil::{Base, SoilProfile};
+
+/// A profile and how accurately it is stepped.
+#[derive(Debug, Clone)]
+pub(super) struct ElasticSource {
+    pub(super) profile: SoilProfile,
+    /// Cells under mats, in place of strips.
+    pub(super) plan: Option<Plan>,
+    pub(super) stages: Option<Stages>,
+    pub(super) tolerance: f64,
+    pub(super) file: Option<PathBuf>,
+    pub(super) limit: f64,
+}
+
+impl ElasticSource {
+    /// The stages for steps of `time_step` seconds; `None` for the closed form.
+    pub(super) fn stages(&self, time_step: f64) -> Option<Stages> {
+        let by_rule = || Stages::for_profile(&self.profile, time_step);
+        let strips = self.plan.is_none();
+        let closed = strips && self.stages.is_none() && self.profile.is_elastic_half_plane();
+        (!closed).then(|| self.stages.unwrap_or_else(by_rule))
+    }
+
+    /// Step coefficients by convolution quadrature.
+    pub(super) fn layered(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+        stages: Stages,
+    ) -> Result<LayeredKernel> {
+        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
+            .with_stages(stages)
+            .with_tolerance(self.tolerance)?
+            .with_time_limit(self.limit)
+    }
+}
+
+impl WeightsSource for ElasticSource {
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
+        if let Some(plan) = &self.plan {
+            let stages = self.stages(time_step).unwrap_or_default();
+            let (sizes, file) = ([time_step, self.tolerance], self.file.clone());
+            let kernel = LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)?;
+            return Ok(Arc::new(kernel));
+        }
+        match (self.stages(time_step), self.profile.base()) {
+            (None, Base::HalfPlane { soil, .. }) => {
+                Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
+            }
+            (stages, _) => {
+                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
+                Ok(Arc::new(match &self.file {
+                    Some(file) => kernel.with_file(file),
+                    None => kernel,
+                }))
+            }
+        }
+    }
+
+    fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        if let Some(plan) = &self.plan {
+            return plan::static_compliance(&self.profile, plan, self.tolerance, matrix);
+        }
+        match self.profile.base() {
+            Base::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
+                StaticKernel::under(*soil, elements)?.compliance(elements, matrix)
+            }
+            _ => static_compliance(&self.profile, elements, matrix),
+        }
+    }
+
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.profile.surface().map(|soil| soil.shear_wave_speed())
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
+        let mut numbers = vec![stages, self.tolerance, self.limit];
+        // Grounds with a file do not take their kernel from one without.
+        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
+        numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
+        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
+        numbers.extend(self.plan.iter().flat_map(Plan::identity));
+        numbers.extend(self.profile.identity()?);
+        Some(numbers)
+    }
+}

@@ -1,0 +1,140 @@
+//! Weights of cells against a table, statics, and themselves.
+
+use super::*;
+use crate::bem::layered::test_profiles::{gmb, p1};
+use crate::soil::Soil;
+
+const STEP: f64 = 0.2;
+
+fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
+    (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]).collect()
+}
+
+fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKernel {
+    let [columns, rows] = lattice.counts;
+    let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
+    LatticeKernel::new(profile, &plan, [STEP, 1e-10], stages, None).unwrap()
+}
+
+fn half_space() -> SoilProfile {
+    SoilProfile::on_half_plane(Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap())
+}
+
+fn square() -> Lattice {
+    Lattice { pitch: [0.5; 2], counts: [4, 4] }
+}
+
+/// Per class, kind by kind, all lags up to `lags`.
+fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES]> {
+    let all = 0..kernel.classes.count();
+    all.map(|class| {
+        let mut values = [(); SERIES].map(|()| vec![0.0; lags]);
+        let slices = values.each_mut().map(Vec::as_mut_slice);
+        kernel.coefficients_in_plan(class, 1, slices).unwrap();
+        values
+    })
+    .collect()
+}
+
+/// `weights_4x4.csv`: another program. Sums are those of the static compliance; (1−z) Ĝ is positive on circles.
+#[test]
+fn weights_match_the_table_and_sum_up_to_statics() {
+    let table = include_str!("../../../../tests/data/plan/weights_4x4.csv");
+    let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|l| l.split(',').collect()).collect();
+    for rows in rows.chunk_by(|a, b| a[0] == b[0]) {
+        let layered = rows[0][0] == "layer_rock";
+        let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
+        let kernel = kernel(profile.clone(), &square(), Stages::Two);
+        kernel.prepare(256).unwrap();
+        let quadrature = kernel.quadrature(&mut Watch::nobody()).unwrap();
+        let mut work = Workspace::default();
+        let mut values = vec![[Complex::default(); SERIES]; kernel.classes.count()];
+        let mut scratch = values.clone();
+        for point in 0..20 {
+            let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 20.0;
+            quadrature.mobility([-1e-3, angle], &mut work, &mut scratch, &mut values).unwrap();
+            let least = crate::bem::layered::margin(&kernel.classes, &values);
+            assert!(least > 0.0, "{angle} {least:e}");
+        }
+        let found = weights(&kernel, 256);
+        let largest = found[0][1][0];
+        let mut worst = 0.0_f64;
+        for row in rows {
+            let number = |column: usize| row[column].parse::<isize>().unwrap();
+            let place = |at: usize| "zxy".find(row[2].chars().nth(at).unwrap()).unwrap();
+            let lag: Vec<[f64; SERIES]> = found
+                .iter()
+                .map(|kinds| kinds.each_ref().map(|lags| lags[number(1).unsigned_abs() - 1]))
+                .collect();
+            let value = square().block(&lag, [number(3), number(4)])[place(0)][place(1)];
+            worst = worst.max((value - row[5].parse::<f64>().unwrap()).abs() / largest);
+        }
+        let mut still = values.clone();
+        let s = Complex::default();
+        quadrature.integrals.compliance(&profile, s, &mut work, &mut still).unwrap();
+        let rest = |lags: usize, kinds: std::ops::Range<usize>| {
+            let errors = found.iter().zip(&still).flat_map(|(found, still)| {
+                kinds.clone().map(move |kind| {
+                    (found[kind][..lags].iter().sum::<f64>() - still[kind].re).abs()
+                })
+            });
+            errors.fold(0.0, f64::max) / still[0][1].re
+        };
+        let [even, odd, before] = [rest(256, 0..4), rest(256, 4..6), rest(128, 4..6)];
+        println!("{}: lags {worst:.1e}, sum {even:.1e}, {odd:.1e} (128: {before:.1e})", rows[0][0]);
+        assert!(worst < 1e-6, "{worst:e}");
+        let gates = if layered { [5e-5, 5e-5] } else { [1e-7, 2e-5] };
+        assert!(even < gates[0] && odd < gates[1], "{even:e} {odd:e}");
+        // Shear and pressure forget each other like n⁻³.
+        assert!(layered || (2.0..8.0).contains(&(before / odd)), "{before:e} {odd:e}");
+    }
+}
+
+/// Cells of a larger lattice, in another order of blocks, oblong, and with three stages.
+#[test]
+fn weights_depend_on_the_offset_alone() {
+    for stages in [Stages::Two, Stages::Three] {
+        let oblong = |counts| Lattice { pitch: [0.5, 0.4], counts };
+        let small = kernel(p1(gmb(5), gmb(1)), &oblong([2, 3]), stages);
+        let large = kernel(p1(gmb(5), gmb(1)), &oblong([4, 3]), stages);
+        large.prepare(200).unwrap();
+        let [one, two] = [weights(&small, 100), weights(&large, 200)];
+        let largest = one[0][1][0];
+        let mut worst = 0.0_f64;
+        for (class, offset) in small.lattice.classes().into_iter().enumerate() {
+            let other = large.lattice.classes().iter().position(|it| *it == offset).unwrap();
+            for (one, two) in
+                one[class].iter().flatten().zip(two[other].iter().flat_map(|lags| &lags[..100]))
+            {
+                worst = worst.max((one - two).abs() / largest);
+            }
+        }
+        println!("{stages:?} {worst:e}");
+        assert!(0.0 < worst && worst < 1e-8, "{worst:e}");
+    }
+}
+
+/// More cells than the gate takes at once: some of them, each once.
+#[test]
+fn gates_take_some_of_many_cells() {
+    let all = cells([30, 20]);
+    let mut some = scattered(&all);
+    assert_eq!(some.len(), SOME_CELLS);
+    assert!(some.iter().all(|cell| all.contains(cell)));
+    some.sort_unstable();
+    some.dedup();
+    assert_eq!(some.len(), SOME_CELLS);
+}
+
+#[test]
+fn bad_requests_are_told() {
+    let kernel = kernel(half_space(), &square(), Stages::Two);
+    assert!(matches!(
+        kernel.coefficients(0, 1, [&mut [], &mut [], &mut []]),
+        Err(Error::Scene { .. })
+    ));
+    let mut none = [(); SERIES].map(|()| vec![]);
+    let outcome = kernel.coefficients_in_plan(99, 1, none.each_mut().map(Vec::as_mut_slice));
+    assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
+    assert!(matches!(kernel.prepare(1 << 30), Err(Error::Memory(_))));
+}

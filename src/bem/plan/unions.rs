@@ -1,0 +1,141 @@
+//! Contact elements that are rectangles of cells.
+//!
+//! Tractions of an element are those of all its cells, and its displacement is their mean: with the incidence P of cells
+//! and elements, integrals over elements are PᵀFP, which keeps them passive.
+
+use crate::error::{Error, Result, memory, same_length};
+use crate::geometry::SPACE;
+
+/// Cells of each element.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::bem) struct Unions {
+    /// Element of each cell.
+    owners: Vec<usize>,
+    /// Cells of each element.
+    sizes: Vec<f64>,
+    /// A contact vector of cells.
+    cells: Vec<f64>,
+}
+
+impl Unions {
+    /// Element of each cell of a lattice if columns and rows are taken together by so many: elements in the order of
+    /// their first cells.
+    ///
+    /// # Errors
+    /// As for [`Plan::with_unions`](super::Plan::with_unions).
+    pub(super) fn owners(
+        counts: [usize; 2],
+        cells: &[[usize; 2]],
+        [along, across]: [&[usize]; 2],
+    ) -> Result<Vec<usize>> {
+        let mut lines = [vec![], vec![]];
+        for ((sizes, count), lines) in [along, across].into_iter().zip(counts).zip(&mut lines) {
+            let found = sizes.iter().sum();
+            if found != count {
+                return Err(Error::Size { quantity: "cells in unions", found, needed: count });
+            }
+            lines.extend(sizes.iter().enumerate().flat_map(|(n, size)| vec![n; *size]));
+        }
+        let mut on = vec![false; counts[0] * counts[1]];
+        for [i, j] in cells {
+            on[j * counts[0] + i] = true;
+        }
+        let block = |[i, j]: [usize; 2]| lines[1][j] * along.len() + lines[0][i];
+        let mut numbers = vec![None; along.len() * across.len()];
+        let mut owners = vec![];
+        for cell in cells {
+            let count = numbers.iter().flatten().count();
+            owners.push(*numbers[block(*cell)].get_or_insert(count));
+        }
+        for (place, is_on) in on.iter().enumerate() {
+            let cell = [place % counts[0], place / counts[0]];
+            let union = numbers[block(cell)];
+            if !is_on && union.is_some() {
+                let quantity = "cells of the mat in a union with others";
+                let value = owners.iter().filter(|owner| Some(**owner) == union).count() as f64;
+                return Err(Error::Input {
+                    quantity,
+                    value,
+                    needed: "all of its rectangle, or none",
+                });
+            }
+            for (axis, step) in [1, counts[0]].into_iter().enumerate().filter(|_| *is_on) {
+                let ends = [cell[axis] == 0, cell[axis] + 1 == counts[axis]];
+                let outer = ends[0] || ends[1] || !on[place - step] || !on[place + step];
+                let wide = [along, across][axis][lines[axis][cell[axis]]];
+                if outer && wide != 1 {
+                    let quantity = "width of an outermost union, cells";
+                    return Err(Error::Input { quantity, value: wide as f64, needed: "1" });
+                }
+            }
+        }
+        Ok(owners)
+    }
+
+    /// Unions by the element of each cell.
+    pub(super) fn new(owners: &[usize]) -> Self {
+        let mut sizes = vec![0.0; owners.iter().max().map_or(0, |last| last + 1)];
+        for owner in owners {
+            sizes[*owner] += 1.0;
+        }
+        Self { cells: vec![0.0; SPACE * owners.len()], owners: owners.to_vec(), sizes }
+    }
+
+    /// Calls `find` with a contact vector of cells to be filled, and overwrites that of elements.
+    pub(in crate::bem) fn gather(
+        &mut self,
+        elements: &mut [f64],
+        find: impl FnOnce(&mut [f64]) -> Result<()>,
+    ) -> Result<()> {
+        let Self { owners, sizes, cells } = self;
+        same_length("displacement of the history", elements.len(), SPACE * sizes.len())?;
+        find(cells)?;
+        elements.fill(0.0);
+        let parts = elements.chunks_exact_mut(sizes.len()).zip(cells.chunks_exact(owners.len()));
+        for (elements, cells) in parts {
+            for (owner, value) in owners.iter().zip(cells) {
+                elements[*owner] += value / sizes[*owner];
+            }
+        }
+        Ok(())
+    }
+
+    /// Tractions of the cells; missing ones are zero.
+    pub(in crate::bem) fn spread(&mut self, elements: &[f64]) -> &[f64] {
+        let parts = self.cells.chunks_exact_mut(self.owners.len());
+        for (component, cells) in parts.enumerate() {
+            for (owner, value) in self.owners.iter().zip(cells) {
+                let place = component * self.sizes.len() + owner;
+                *value = elements.get(place).copied().unwrap_or(0.0);
+            }
+        }
+        &self.cells
+    }
+
+    /// Calls `find` with the compliance of cells to be filled, and overwrites that of elements.
+    pub(in crate::bem) fn reduce(
+        &self,
+        matrix: &mut [f64],
+        find: impl FnOnce(&mut [f64]) -> Result<()>,
+    ) -> Result<()> {
+        let [width, size] = [self.owners.len(), self.sizes.len()].map(|count| SPACE * count);
+        same_length("compliance of elements", matrix.len(), size * size)?;
+        let bytes = 8.0 * (width as f64).powi(2);
+        memory::check("cells of a mat", self.owners.len() as f64, bytes)?;
+        let mut cells = vec![0.0; width * width];
+        find(&mut cells)?;
+        matrix.fill(0.0);
+        let place = |n: usize| {
+            let [component, cell] = [n / self.owners.len(), n % self.owners.len()];
+            component * self.sizes.len() + self.owners[cell]
+        };
+        for (row, values) in cells.chunks_exact(width).enumerate() {
+            let to = place(row);
+            let share = 1.0 / self.sizes[to % self.sizes.len()];
+            for (column, value) in values.iter().enumerate() {
+                matrix[to * size + place(column)] += share * value;
+            }
+        }
+        Ok(())
+    }
+}

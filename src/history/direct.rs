@@ -1,0 +1,164 @@
+//! The history as the sum that it is: exact, O(N) per step.
+
+use std::sync::Arc;
+
+use super::convolution::{
+    ConvolutionHistory, ConvolutionWeights, ExactHistory, all_kinds, check_inputs,
+};
+use crate::error::{Result, same_length};
+use crate::linalg::dot;
+
+/// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
+const CHUNK: usize = 512;
+
+/// Steps ahead that a hint prepares for, at most; beyond, memory grows as it goes.
+pub(crate) const RESERVED_STEPS: usize = 100_000;
+
+/// Direct summation of the history: the oracle for all others.
+///
+/// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
+/// each contribution is one contiguous dot product.
+pub struct DirectHistory {
+    kernel: Arc<dyn ConvolutionWeights>,
+    /// Lags for which coefficients are stored; grows by doubling.
+    capacity: usize,
+    /// Of each kind, class by class: the coefficient of lag n at the length less n. The coupling only
+    /// as long as it is not zero.
+    kinds: Vec<Vec<Vec<f64>>>,
+    /// Per contact component: its value at every step.
+    traction: Vec<Vec<f64>>,
+    steps: usize,
+}
+
+short_debug! {
+    DirectHistory; self; elements: self.kernel.classes().elements().len(), steps: self.steps
+}
+
+impl DirectHistory {
+    /// History of `kernel`, empty.
+    pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
+        let classes = kernel.classes();
+        let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
+        let traction = vec![Vec::new(); classes.layout().len()];
+        Self { kernel, capacity: 0, kinds, traction, steps: 0 }
+    }
+
+    /// Makes lags up to `lags` available.
+    fn grow(&mut self, lags: usize) -> Result<()> {
+        let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
+        let own = self.kernel.classes().layout().components();
+        let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
+        self.kernel.prepare(new)?;
+        for class in 0..self.kernel.classes().count() {
+            let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
+            let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
+            all_kinds(&*self.kernel, class, old + 1, &mut values)?;
+            for (kind, (stored, lags)) in self.kinds.iter_mut().zip(&lags).enumerate() {
+                if kind < own {
+                    prepend_reversed(&mut stored[class], lags);
+                } else if last > stored[class].len() {
+                    let kept = last - old.min(last);
+                    prepend_reversed(&mut stored[class], &lags[..kept]);
+                }
+            }
+        }
+        self.capacity = new;
+        Ok(())
+    }
+}
+
+/// Puts `next` (lags following those stored) in front of `stored`, reversed.
+fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
+    let mut grown = Vec::with_capacity(stored.len() + next.len());
+    grown.extend(next.iter().rev());
+    grown.extend_from_slice(stored);
+    *stored = grown;
+}
+
+impl ConvolutionHistory for DirectHistory {
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn memory(&self) -> usize {
+        let coefficients: usize = self.kinds.iter().flatten().map(Vec::capacity).sum();
+        let traction: usize = self.traction.iter().map(Vec::capacity).sum();
+        (coefficients + traction) * size_of::<f64>()
+    }
+
+    /// Prepares for 100 000 further steps at most: a larger hint may stand for a run without end.
+    fn reserve(&mut self, steps: usize) -> Result<()> {
+        let steps = steps.min(self.steps.saturating_add(RESERVED_STEPS));
+        if steps >= self.capacity {
+            self.grow(steps.saturating_add(1))?;
+        }
+        for component in &mut self.traction {
+            component.reserve(steps.saturating_sub(component.len()));
+        }
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        let classes = self.kernel.classes();
+        let layout = classes.layout();
+        same_length("displacement of the history", displacement.len(), layout.len())?;
+        displacement.fill(0.0);
+        let past = self.steps;
+        if past == 0 {
+            return Ok(());
+        }
+        if past + 1 > self.capacity {
+            self.grow(past + 1)?;
+        }
+        // Input m (from 0) is seen with lag past + 1 − m.
+        for begin in (0..past).step_by(CHUNK) {
+            let end = (begin + CHUNK).min(past);
+            self.kernel.classes().each(|[receiver, source], pair, terms| {
+                for term in terms {
+                    let factor = term.factor * pair.scale;
+                    let lags = &self.kinds[term.kind][pair.class];
+                    let first = (past + 1).saturating_sub(lags.len()).max(begin);
+                    if first < end && factor != 0.0 {
+                        let seen = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
+                        let [to, from] = term.components;
+                        let traction = &self.traction[layout.place(from, source)];
+                        displacement[layout.place(to, receiver)] +=
+                            factor * dot(&lags[seen], &traction[first..end]);
+                    }
+                }
+            });
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, traction: &[f64]) {
+        for (i, stored) in self.traction.iter_mut().enumerate() {
+            stored.push(traction.get(i).copied().unwrap_or(0.0));
+        }
+        self.steps += 1;
+    }
+
+    /// All tractions, step by step.
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        let size = self.traction.len();
+        check_inputs(steps, size, values)?;
+        for row in &mut self.traction {
+            row.clear();
+        }
+        self.steps = 0;
+        values.chunks_exact(size).for_each(|traction| self.push(traction));
+        Ok(())
+    }
+}
+
+impl ExactHistory for DirectHistory {
+    fn traction(&mut self, step: usize, traction: &mut [f64]) {
+        for (value, component) in traction.iter_mut().zip(&self.traction) {
+            *value = component[step];
+        }
+    }
+}

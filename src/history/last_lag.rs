@@ -1,0 +1,77 @@
+//! Where a kernel in plan may end: the soil forgets.
+
+use super::convolution::ConvolutionWeights;
+use crate::error::Result;
+use crate::geometry::SERIES;
+
+/// Shortest memory, lags.
+const SHORTEST: usize = 64;
+/// What comes after the lags M + 1 … 2M, over these: coupling falls like n⁻³, all else faster.
+const BEYOND: f64 = 1.0 / 3.0;
+
+/// Memory of a kernel that forgets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LastLag {
+    /// Last lag that counts, a power of two.
+    pub(super) lag: usize,
+    /// Most displacement of any element by all lags beyond, under tractions of at most 1 Pa, m/Pa.
+    pub(super) rest: f64,
+}
+
+impl LastLag {
+    /// The least power of two beyond which all coefficients together are less than `tolerance` of all; `None` if that is
+    /// not seen in the lags up to `most`. It depends on nothing else, so that it is the same however far is looked.
+    pub(super) fn of(
+        kernel: &dyn ConvolutionWeights,
+        tolerance: f64,
+        most: usize,
+    ) -> Result<Option<Self>> {
+        let Some((lattice, _)) = kernel.classes().plan() else { return Ok(None) };
+        let area = lattice.pitch[0] * lattice.pitch[1];
+        let offsets =
+            || (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
+        // Per class and kind, Σ |G|.
+        let mut all = vec![[0.0; SERIES]; kernel.classes().count()];
+        let mut lags = [(); SERIES].map(|()| vec![0.0; SHORTEST]);
+        let mut done = 0;
+        let mut lag = SHORTEST;
+        while lag <= most / 2 {
+            kernel.prepare(2 * lag)?;
+            let mut late = vec![[0.0; SERIES]; all.len()];
+            for begin in (done..2 * lag).step_by(SHORTEST) {
+                let sums = if begin < lag { &mut all } else { &mut late };
+                for (class, sums) in sums.iter_mut().enumerate() {
+                    let values = lags.each_mut().map(Vec::as_mut_slice);
+                    kernel.coefficients_in_plan(class, begin + 1, values)?;
+                    for (sum, lags) in sums.iter_mut().zip(&lags) {
+                        *sum += lags.iter().map(|value| value.abs()).sum::<f64>();
+                    }
+                }
+            }
+            // The largest sum over a row of the matrix of a component's displacements.
+            let rows = |sums: &[[f64; SERIES]]| {
+                let mut rows = [0.0; 3];
+                for offset in offsets() {
+                    let images: f64 =
+                        offset.map(|n| if n == 0 { 1.0 } else { 2.0 }).iter().product();
+                    for (row, values) in
+                        rows.iter_mut().zip(lattice.block(sums, offset.map(usize::cast_signed)))
+                    {
+                        *row += images * values.map(f64::abs).iter().sum::<f64>();
+                    }
+                }
+                rows.into_iter().fold(0.0, f64::max)
+            };
+            let rest = (1.0 + BEYOND) * rows(&late);
+            for (all, late) in all.as_flattened_mut().iter_mut().zip(late.as_flattened()) {
+                *all += late;
+            }
+            if rest <= tolerance * rows(&all) {
+                return Ok(Some(Self { lag, rest: rest / area }));
+            }
+            done = 2 * lag;
+            lag *= 2;
+        }
+        Ok(None)
+    }
+}

@@ -1,0 +1,259 @@
+//! GOAL: a ground in plan marches: step compliance, history, statics, memory that ends, checkpoints, limits.
+//! SCENE: cells of squares, oblong ones and an L on a half-space and on a damped layer over rock.
+//! REFERENCE: direct sums; static compliance as the sum of all lags; rigid mats by another solution.
+
+use std::sync::Arc;
+
+use basemat::bem::layered::{Stages, StripContact};
+use basemat::bem::plan::{Plan, impedances_in_plan};
+use basemat::bem::{ElasticGround, Ground};
+use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
+use basemat::soil::SoilProfile;
+use basemat::{Error, Soil};
+use basemat_problems::profiles::{gmb, p1};
+use basemat_problems::random::Random;
+
+fn half_space() -> SoilProfile {
+    Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap().into()
+}
+
+fn l_shape() -> Plan {
+    let mask = "##..##..########".chars().map(|c| c == '#').collect::<Vec<_>>();
+    Plan::masked([-1.0; 2], [0.5; 2], 4, &mask).unwrap()
+}
+
+/// History at each step under random tractions of `seed`.
+fn marched(ground: &mut ElasticGround, steps: usize, seed: u64) -> Vec<Vec<f64>> {
+    let size = 3 * ground.elements().len();
+    let mut random = Random(seed);
+    let step = |_| {
+        let mut values = vec![0.0; size];
+        ground.history(&mut values).unwrap();
+        ground.commit(&(0..size).map(|_| random.within(-1.0, 1.0)).collect::<Vec<_>>());
+        values
+    };
+    (0..steps).map(step).collect()
+}
+
+fn largest_difference(one: &[Vec<f64>], two: &[Vec<f64>]) -> f64 {
+    let largest = two.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let pairs = one.iter().flatten().zip(two.iter().flatten());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
+}
+
+/// Transforms along the surface and in time are the direct sum; on a square, oblong cells and an L, both stages.
+#[test]
+fn histories_are_the_direct_sum() {
+    let plans = [
+        Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap(),
+        Plan::rectangle(-1.5..1.5, -1.0..1.0, 3).unwrap().without_overhang().unwrap(),
+        l_shape(),
+    ];
+    for (plan, stages) in plans.into_iter().zip([Stages::Two, Stages::Three, Stages::Two]) {
+        let ground = || {
+            ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan.clone()).unwrap().with_stages(stages)
+        };
+        let mut direct =
+            ground().with_own_history(|kernel: Arc<_>| Box::new(DirectHistory::new(kernel)));
+        let mut fast = ground();
+        for ground in [&mut direct, &mut fast] {
+            assert_eq!(ground.directions(), 3);
+            ground.prepare(0.2).unwrap();
+        }
+        let [wanted, found] = [&mut direct, &mut fast].map(|ground| marched(ground, 100, 1));
+        let error = largest_difference(&found, &wanted);
+        println!("{} cells: {error:e}", plan.count());
+        assert!(error < 1e-13, "{error:e}");
+    }
+}
+
+/// Rigid mats by the static compliance, which is what tractions held for ever give; Betti's symmetry.
+#[test]
+fn step_compliance_and_history_add_up_to_statics() {
+    for profile in [half_space(), p1(gmb(5), gmb(1))] {
+        let plan = l_shape();
+        let mut ground = ElasticGround::in_plan(profile.clone(), plan.clone()).unwrap();
+        ground.prepare(0.4).unwrap();
+        let size = 3 * plan.count();
+        let [mut step, mut still] = [vec![0.0; size * size], vec![0.0; size * size]];
+        ground.step_compliance(&mut step).unwrap();
+        ground.static_compliance(&mut still).unwrap();
+        let mut random = Random(2);
+        let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
+        let times = |matrix: &[f64]| -> Vec<f64> {
+            let row = |row: &[f64]| row.iter().zip(&traction).map(|(a, b)| a * b).sum();
+            matrix.chunks_exact(size).map(row).collect()
+        };
+        for _ in 0..400 {
+            ground.commit(&traction);
+        }
+        let mut found = vec![0.0; size];
+        ground.history(&mut found).unwrap();
+        found.iter_mut().zip(times(&step)).for_each(|(found, own)| *found += own);
+        let error = largest_difference(&[found], &[times(&still)]);
+        println!("{error:e}");
+        assert!(error < 2e-4, "{error:e}");
+        for matrix in [&step, &still] {
+            let pairs = (0..size * size).map(|n| [n, n % size * size + n / size]);
+            assert!(pairs.into_iter().all(|[a, b]| (matrix[a] - matrix[b]).abs() < 1e-14));
+        }
+        // A rigid settlement.
+        let found = impedances_in_plan(&profile, &plan, &[0.0], StripContact::Bonded).unwrap()[0];
+        let area = plan.pitch()[0] * plan.pitch()[1];
+        let mut sum = 0.0;
+        let solved = solve(&still, |place| if place < plan.count() { 1.0 } else { 0.0 });
+        solved[..plan.count()].iter().for_each(|traction| sum += area * traction);
+        assert!((sum / found.matrix[2][2].re - 1.0).abs() < 1e-8, "{sum} {found:?}");
+    }
+}
+
+/// A x = b by Gauss' elimination, A symmetric and positive.
+fn solve(matrix: &[f64], right: impl Fn(usize) -> f64) -> Vec<f64> {
+    let size = matrix.len().isqrt();
+    let (mut a, mut x) = (matrix.to_vec(), (0..size).map(right).collect::<Vec<_>>());
+    for pivot in 0..size {
+        for row in pivot + 1..size {
+            let factor = a[row * size + pivot] / a[pivot * size + pivot];
+            for column in pivot..size {
+                a[row * size + column] -= factor * a[pivot * size + column];
+            }
+            x[row] -= factor * x[pivot];
+        }
+    }
+    for row in (0..size).rev() {
+        let sum: f64 = (row + 1..size).map(|column| a[row * size + column] * x[column]).sum();
+        x[row] = (x[row] - sum) / a[row * size + row];
+    }
+    x
+}
+
+/// With a coarse tolerance memory ends; what is left out is less than the bound says, and more than nothing.
+#[test]
+fn what_memory_forgets_is_bounded() {
+    let options = HistoryOptions { tolerance: Some(3e-3), ..HistoryOptions::default() };
+    let ground = || ElasticGround::in_plan(half_space(), l_shape()).unwrap();
+    let mut whole = ground().with_history(HistoryMethod::RelaxedFft).unwrap();
+    let mut ended = ground().with_history(options).unwrap();
+    let mut late = ground().with_history(options).unwrap();
+    let steps = 700;
+    for (ground, steps) in [(&mut whole, steps), (&mut ended, steps), (&mut late, 1)] {
+        ground.prepare(0.2).unwrap();
+        ground.expect_steps(steps, None).unwrap();
+    }
+    let [wanted, found, grown] = [&mut whole, &mut ended, &mut late].map(|g| marched(g, steps, 3));
+    let bound = ended.increment_error_bound();
+    let worst = (1..steps).map(|step| {
+        let change = |all: &[Vec<f64>]| -> Vec<f64> {
+            all[step].iter().zip(&all[step - 1]).map(|(now, before)| now - before).collect()
+        };
+        let pairs = change(&wanted).into_iter().zip(change(&found));
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    });
+    let worst = worst.fold(0.0, f64::max);
+    println!("{worst:e} of {bound:e}");
+    assert!(1e-3 * bound < worst && worst < bound, "{worst:e} {bound:e}");
+    assert_eq!(whole.increment_error_bound(), 0.0);
+    // However far was looked.
+    assert_eq!(grown, found);
+    let saved = ended.save().unwrap();
+    // No more than the memory.
+    assert!(saved.len() < 520 * 400, "{}", saved.len());
+    let mut other = ground().with_history(options).unwrap();
+    other.prepare(0.2).unwrap();
+    other.expect_steps(steps, None).unwrap();
+    other.restore(steps, &saved).unwrap();
+    let [one, two] = [&mut ended, &mut other].map(|ground| marched(ground, 300, 4));
+    assert_eq!(one, two);
+    assert!(other.restore(steps, &saved[1..]).is_err());
+}
+
+/// Beyond the memory allowed, and for what strips alone have, there are errors that say so.
+#[test]
+fn limits_are_told_beforehand() {
+    let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, 8).unwrap();
+    let small = HistoryOptions { memory: 1 << 20, ..HistoryOptions::default() };
+    let mut ground = ElasticGround::in_plan(half_space(), plan.clone()).unwrap();
+    ground = ground.with_history(small).unwrap();
+    ground.prepare(0.1).unwrap();
+    let outcome = ground.expect_steps(50_000, None);
+    assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
+    let ground = ElasticGround::in_plan(half_space(), plan).unwrap();
+    let outcome = ground.impedances(&[1.0], StripContact::Bonded);
+    assert!(matches!(outcome, Err(Error::Scene { .. })), "{outcome:?}");
+}
+
+/// Elements of several cells are what tractions equal over these cells, and means over them, make of the cells' ground.
+#[test]
+fn unions_are_sums_of_cells() {
+    let plan = Plan::rectangle(-1.0..1.0, -1.5..1.5, 5).unwrap();
+    let [columns, rows] = [[1, 3, 1].as_slice(), &[1, 2, 2, 1, 1]];
+    let joined = plan.clone().with_unions(columns, rows).unwrap();
+    let [mut cells, mut unions] =
+        [plan.clone(), joined].map(|plan| ElasticGround::in_plan(half_space(), plan).unwrap());
+    let places = |sizes: &[usize]| -> Vec<usize> {
+        sizes.iter().enumerate().flat_map(|(place, size)| vec![place; *size]).collect()
+    };
+    let [x, y] = [columns, rows].map(places);
+    let owner = |cell: usize| y[cell / 5] * 3 + x[cell % 5];
+    let (count, size) = (plan.count(), unions.elements().len());
+    assert_eq!((count, size), (35, 15));
+    let sizes: Vec<usize> =
+        (0..size).map(|own| (0..count).filter(|cell| owner(*cell) == own).count()).collect();
+    let area = plan.pitch()[0] * plan.pitch()[1];
+    for (element, number) in unions.elements().iter().zip(0..) {
+        let [front, back] = unions.depth(number);
+        let found = element.length() * (back - front);
+        assert!((found / area - sizes[number] as f64).abs() < 1e-12);
+    }
+    let mut random = Random(6);
+    for ground in [&mut cells, &mut unions] {
+        ground.prepare(0.2).unwrap();
+    }
+    let (mut found, mut wanted) = (vec![0.0; 3 * size], vec![0.0; 3 * count]);
+    let means = |wanted: &[f64]| {
+        let mut means = vec![0.0; 3 * size];
+        for (place, value) in wanted.iter().enumerate() {
+            let own = owner(place % count);
+            means[place / count * size + own] += value / sizes[own] as f64;
+        }
+        means
+    };
+    let mut traction = vec![0.0; 3 * size];
+    let of_cell = |traction: &[f64]| -> Vec<f64> {
+        (0..3 * count).map(|n| traction[n / count * size + owner(n % count)]).collect()
+    };
+    for _ in 0..40 {
+        traction.fill_with(|| random.within(-1.0, 1.0));
+        unions.history(&mut found).unwrap();
+        cells.history(&mut wanted).unwrap();
+        let error = largest_difference(&[found.clone()], &[means(&wanted)]);
+        assert!(wanted[0] == 0.0 || error < 1e-13, "{error:e}");
+        unions.commit(&traction);
+        cells.commit(&of_cell(&traction));
+    }
+    let times = |matrix: &[f64], traction: &[f64]| -> Vec<f64> {
+        let row = |row: &[f64]| row.iter().zip(traction).map(|(a, b)| a * b).sum();
+        matrix.chunks_exact(traction.len()).map(row).collect()
+    };
+    for still in [false, true] {
+        let [own, all] = [(&unions, 3 * size), (&cells, 3 * count)].map(|(ground, size)| {
+            let mut matrix = vec![0.0; size * size];
+            if still {
+                ground.static_compliance(&mut matrix).unwrap();
+            } else {
+                ground.step_compliance(&mut matrix).unwrap();
+            }
+            matrix
+        });
+        let wanted = means(&times(&all, &of_cell(&traction)));
+        assert!(largest_difference(&[times(&own, &traction)], &[wanted]) < 1e-13);
+    }
+    for (columns, rows) in
+        [(&[1, 4][..], rows), (&[2, 2, 1], rows), (&[1, 3], rows), (columns, &[1, 2, 2, 2])]
+    {
+        assert!(plan.clone().with_unions(columns, rows).is_err(), "{columns:?} {rows:?}");
+    }
+    // A corner that is not there.
+    assert!(l_shape().with_unions(&[1, 2, 1], &[1, 1, 1, 1]).is_err());
+    assert!(l_shape().with_unions(&[1, 1, 1, 1], &[1, 1, 1, 1]).is_ok());
+}
