@@ -56,6 +56,41 @@ impl fmt::Display for Progress {
 /// })?;
 /// # Ok::<(), Error>(())
 /// ```
+///
+/// Before a run, for the weights that it would compute unseen:
+///
+/// ```
+/// use std::ops::ControlFlow::{Break, Continue};
+///
+/// use basemat::bem::ElasticGround;
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::soil::SoilProfile;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Error, Simulation, Soil};
+///
+/// let rock = Soil::from_shear_wave_speed(500.0, 0.3, 2200.0)?;
+/// let clay = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+/// let profile = SoilProfile::on_half_plane(rock).with_layer(clay, 6.0)?;
+/// let block = RigidBlock::new(4.0, 6.0, 2000.0)?;
+/// let mut simulation = Simulation::builder(0.02)
+///     .ground(ElasticGround::under(profile, &block, 4)?)
+///     .structure(block)
+///     .interface(Coulomb::new(0.4)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// // A key pressed half way: nothing has changed, and the weights that are there stay.
+/// let stopped = simulation.precompute(300, &mut |progress| {
+///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }
+/// });
+/// assert!(matches!(stopped, Err(Error::Stopped(_))));
+/// simulation.precompute(300, &mut |progress| {
+///     eprint!("\r{progress}");
+///     Continue(())
+/// })?;
+/// simulation.run(300, |_| ())?; // Waits for no weights.
+/// # Ok::<(), Error>(())
+/// ```
 pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 
 /// The observer of a call, if it has one, and what it has heard last.

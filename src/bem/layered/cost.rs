@@ -29,7 +29,8 @@ const PRODUCT: f64 = 0.25;
 const WIDE: f64 = 2500.0;
 const POINT: f64 = 170.0;
 
-/// One sample more for so many: errors of the integrals keep panels from being resolved that look so. Measured (`cost/tests.rs`).
+/// One sample more for so many: errors of the integrals keep panels from being resolved that look so. Measured
+/// (`cost/tests.rs`).
 const MISJUDGED: usize = 5;
 /// Samples of each eigenvalue that are looked at.
 const LOOKED_AT: usize = 16;
