@@ -25,7 +25,7 @@ fn march(profile: SoilProfile, time_step: f64, every: usize) -> [Vec<f64>; 2] {
     assert_eq!(ground.elements().len(), 64);
     let simulation = Simulation::builder(time_step).structure(cube).ground(ground);
     let mut simulation = simulation.interface(Bonded).motion(Ricker).build().unwrap();
-    let steps = (40.0 / time_step).round() as usize;
+    let steps = simulation.steps_for(40.0);
     let mut found = [vec![], vec![]];
     let mut count = 0;
     let run = simulation.run(steps, |state| {

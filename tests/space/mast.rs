@@ -39,7 +39,9 @@ impl Structure for Mast {
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.0.mass(matrix)?;
         // It rises with the body.
-        [2, 6, 7].into_iter().for_each(|i| matrix.add(i, i, MASS));
+        for i in [2, 6, 7] {
+            matrix.add(i, i, MASS);
+        }
         Ok(())
     }
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {

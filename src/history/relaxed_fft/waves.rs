@@ -9,7 +9,7 @@ use rustfft::FftPlanner;
 
 use super::coefficients::{Blocks, LEAF};
 use super::lattice::Lattice;
-use super::leaf::Leaf;
+use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::Ring;
 use super::wave_level::{COUPLING, Near, Part, WaveLevel};
 use crate::error::Result;
@@ -332,11 +332,11 @@ impl Blocks for Waves {
         let place = now % self.leaf;
         self.sum.copy_from_slice(&self.far[place * size..(place + 1) * size]);
         let (sum, inputs) = (&mut self.sum[..], &self.inputs[..place * size]);
-        let (near, reach) = (&self.near[..], self.reach);
-        if components == 2 {
-            vectorized(Leaf::<2> { sum, inputs, near, waves, reach });
+        if let [normal, tangential, coupling] = &self.near[..] {
+            let near = [&normal[..], tangential, coupling];
+            vectorized(StripLeaf { sum, inputs, near, waves: waves.all, reach: self.reach });
         } else {
-            vectorized(Leaf::<3> { sum, inputs, near, waves, reach });
+            vectorized(PlanLeaf { sum, inputs, near: &self.near, waves });
         }
         let values = displacement.chunks_exact_mut(displacement.len() / components);
         for (component, (values, sum)) in
