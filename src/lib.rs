@@ -122,7 +122,7 @@
 //! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
 //! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any step coefficients |
 //! | [`bem::layered`] | step coefficients of layered ground, impedances of strips on it |
-//! | [`bem::plan`] | rigid mats in three dimensions: impedances |
+//! | [`bem::plan`] | mats in three dimensions: cells of a ground, impedances |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::SoilColumn`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |

@@ -18,9 +18,7 @@ mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
 #[cfg(feature = "io")]
-pub use input_file::MatrixFileError;
-#[cfg(feature = "io")]
-pub use input_file::MeshFileError;
+pub use input_file::{MatrixFileError, MeshFileError};
 pub use layered::{KernelFileError, LayeredError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use memory::{
@@ -96,7 +94,7 @@ pub enum Error {
         reason: std::io::ErrorKind,
     },
     /// A name that nothing has.
-    #[error("there is no {quantity} called '{name}', {}", names(.known))]
+    #[error("there is no {quantity} called '{name}'{}", names(.known))]
     Name {
         /// Item looked for.
         quantity: &'static str,
@@ -380,25 +378,19 @@ pub enum Error {
 
 impl Error {
     /// [`Error::Name`] for a name that none of `known` is.
-    pub(crate) fn no_name(
+    pub(crate) fn no_name<T: Into<String>>(
         quantity: &'static str,
         name: &str,
-        known: impl Iterator<Item = impl Into<String>>,
+        known: impl Iterator<Item = T>,
     ) -> Self {
-        Self::Name { quantity, name: name.to_owned(), known: known.map(Into::into).collect() }
+        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
     }
 }
 
-/// Most names that the text of an error lists.
-const LISTED: usize = 12;
-
-/// The names that there are, as many as can be listed.
+/// The first twelve of the names that there are.
 fn names(known: &[String]) -> String {
-    if known.is_empty() {
-        return "there are none".into();
-    }
-    let more = if known.len() > LISTED { ", …" } else { "" };
-    format!("only {}{more}", known[..known.len().min(LISTED)].join(", "))
+    let listed = known[..known.len().min(12)].join(", ");
+    if known.is_empty() { listed } else { format!(", only {listed}") }
 }
 
 /// A line of a file, or the file as a whole.
