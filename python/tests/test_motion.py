@@ -191,7 +191,7 @@ def test_functions_of_both_directions_and_their_mistakes() -> None:
             **sampled,
         },
         "time step of the record is 0": {"acceleration": shaking, "time_step": 0, "duration": 1.0},
-        "acceleration of the record is NaN": {"acceleration": lambda t: np.nan, **sampled},
+        "acceleration of the record is not finite: entry 0 is NaN": {"acceleration": lambda t: np.nan, **sampled},
     }.items():
         with pytest.raises(bm.InputError, match=text.strip()):
             bm.free_field(**arguments)

@@ -192,7 +192,7 @@ def test_an_observer_says_yes_or_no(rocking) -> None:
         rocking().run(5, observe=lambda state: "on")
     with pytest.raises(bm.InputError, match="observe must be a function"):
         rocking().run(5, observe=3)
-    with pytest.raises(bm.InputError, match="element: index 8 must be below 8"):
+    with pytest.raises(bm.InputError, match="element is 8, but must be below 8"):
         rocking().state.state_variables(8)
 
 
