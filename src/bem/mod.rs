@@ -58,7 +58,8 @@ pub trait Ground: Any + Send {
     /// The elements, from left to right, not overlapping; of a ground in plan their sides along x, in any order.
     fn elements(&self) -> &[ContactElement];
 
-    /// Directions in which elements move: two in the plane (the default), three in plan.
+    /// Directions in which elements move: two in the plane (the default), three in plan. Forces, moments and energies
+    /// are then those of the whole body, in N, N m and J, although columns of files are called per metre.
     fn directions(&self) -> usize {
         PLANE
     }

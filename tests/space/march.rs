@@ -254,3 +254,14 @@ fn an_eccentric_weight_tilts_the_body_about_both_axes() {
     assert!((own.moment_across + weight * y).abs() < 1e-8 * weight);
     assert!((own.base_moment + weight * x).abs() < 1e-8 * weight);
 }
+
+/// A page in plan is of the whole body, not of a metre of it.
+#[test]
+fn pages_are_of_the_whole_body() {
+    let mut simulation = scene(CUBOID, Waves { quarters: 0 }, BED, 2e-3).unwrap();
+    let run = simulation.run(20, |_| {}).unwrap();
+    let page = run.to_string();
+    let weight = 9.80665e-3 * CUBOID.mass();
+    assert!(page.contains(&format!("Weight on the base: {weight:.1} kN\n")), "{page}");
+    assert!(run.in_plan && !page.contains("kN/m") && !page.contains("kJ/m"), "{page}");
+}

@@ -42,7 +42,8 @@ impl Fallbacks {
 /// Summary of a run: peaks with their times, envelopes, uplift, slip, energies, warnings. Printed,
 /// a page for a report.
 ///
-/// Quantities are named and signed as in [`State`]: forces per metre of thickness, on the soil.
+/// Quantities are named and signed as in [`State`]: forces per metre of thickness (in plan, of the whole body), on the
+/// soil.
 /// The state from which the run begins counts as its steps do.
 ///
 /// With the feature `serde` it is written with all its fields, [numbers](crate#settings-and-results-in-serdes-formats)
@@ -89,6 +90,8 @@ pub struct Run {
     /// Wall time, observers included; zero where there is no clock (WebAssembly).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
     pub wall: Duration,
+    /// Whether it is of a ground in plan: forces and energies are those of the whole body.
+    pub in_plan: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
@@ -137,6 +140,7 @@ impl Run {
             fallbacks: Fallbacks::default(),
             warnings: Vec::new(),
             wall: Duration::ZERO,
+            in_plan: elements.is_plan(),
             elements: elements.to_vec(),
             sequence: Sequence::new(state),
             resolution,

@@ -17,7 +17,7 @@ impl fmt::Display for Run {
         writeln!(f, "Run of {steps} steps from t = {start:.3} s to {end:.3} s")?;
         let weight = self.whole.static_normal_force;
         if weight > 0.0 {
-            writeln!(f, "Weight on the base: {:.1} kN/m", 1e-3 * weight)?;
+            writeln!(f, "Weight on the base: {:.1} {}", 1e-3 * weight, self.unit("kN/m"))?;
         }
         writeln!(f, "\n{}", self.peaks().text())?;
         if self.foundations.len() > 1 {
@@ -48,6 +48,11 @@ impl fmt::Display for Run {
 }
 
 impl Run {
+    /// A unit per metre of thickness, which in plan is that of the whole body.
+    fn unit<'a>(&self, unit: &'a str) -> &'a str {
+        unit.strip_suffix("/m").filter(|_| self.in_plan).unwrap_or(unit)
+    }
+
     fn peaks(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let row = |name: &str, unit: &str, factor: f64, extremes: &Extremes| {
@@ -58,7 +63,7 @@ impl Run {
         };
         let whole = Quantity::shown(Place::Page).map(|quantity| {
             let (factor, unit) = quantity.printed();
-            row(quantity.name(), unit, factor, &self.whole.extremes(quantity))
+            row(quantity.name(), self.unit(unit), factor, &self.whole.extremes(quantity))
         });
         let mut rows: Vec<_> = whole.collect();
         rows.extend(self.probes.iter().map(|probe| {
@@ -197,8 +202,9 @@ impl Run {
             Some(shares) => {
                 writeln!(
                     f,
-                    "\nEnergy: input {:.4} kJ/m, of which",
-                    1e-3 * self.energy_balance.input
+                    "\nEnergy: input {:.4} {}, of which",
+                    1e-3 * self.energy_balance.input,
+                    self.unit("kJ/m")
                 )?;
                 for (name, share) in shares {
                     // Not those that would print as nothing.
@@ -207,7 +213,10 @@ impl Run {
                     }
                 }
             }
-            None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.energy_balance.input)?,
+            None => {
+                let input = 1e-3 * self.energy_balance.input;
+                writeln!(f, "\nEnergy: input {input:.4} {}", self.unit("kJ/m"))?;
+            }
         }
         write!(
             f,
@@ -216,7 +225,8 @@ impl Run {
         )?;
         if self.history_error_bound() > 0.0 {
             let bound = number(1e-3 * self.history_error_bound());
-            write!(f, "\n  soil within {bound} kJ/m (approximate history)")?;
+            let unit = self.unit("kJ/m");
+            write!(f, "\n  soil within {bound} {unit} (approximate history)")?;
         }
         Ok(())
     }
