@@ -198,24 +198,14 @@ impl Run {
         if self.energy_balance.is_left_out() {
             return write!(f, "\n{}", self.energy_balance);
         }
-        match self.energy_balance.shares() {
-            Some(shares) => {
-                writeln!(
-                    f,
-                    "\nEnergy: input {:.4} {}, of which",
-                    1e-3 * self.energy_balance.input,
-                    self.unit("kJ/m")
-                )?;
-                for (name, share) in shares {
-                    // Not those that would print as nothing.
-                    if share.abs() >= 5e-5 {
-                        writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * share)?;
-                    }
-                }
-            }
-            None => {
-                let input = 1e-3 * self.energy_balance.input;
-                writeln!(f, "\nEnergy: input {input:.4} {}", self.unit("kJ/m"))?;
+        let (input, unit) = (1e-3 * self.energy_balance.input, self.unit("kJ/m"));
+        let shares = self.energy_balance.shares();
+        let ending = if shares.is_some() { ", of which" } else { "" };
+        writeln!(f, "\nEnergy: input {input:.4} {unit}{ending}")?;
+        for (name, share) in shares.into_iter().flatten() {
+            // Not those that would print as nothing.
+            if share.abs() >= 5e-5 {
+                writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * share)?;
             }
         }
         write!(
@@ -225,7 +215,6 @@ impl Run {
         )?;
         if self.history_error_bound() > 0.0 {
             let bound = number(1e-3 * self.history_error_bound());
-            let unit = self.unit("kJ/m");
             write!(f, "\n  soil within {bound} {unit} (approximate history)")?;
         }
         Ok(())
