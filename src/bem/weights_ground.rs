@@ -191,10 +191,7 @@ impl WeightsGround {
     /// or have no length.
     pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
-        let (options, shared) = (HistoryOptions::default(), SharedKernels::default());
-        let source = Box::new(source);
-        let (depths, unions, own_history, prepared) = (None, None, None, None);
-        Ok(Self { source, elements, depths, unions, options, own_history, shared, prepared })
+        Ok(Self { depths: None, ..Self::in_plan(source, elements, Vec::new(), None) })
     }
 
     /// The same for elements in plan, whose source knows where they are.

@@ -160,7 +160,8 @@ impl Patch {
     /// The middle `[x, y]` between the farthest ends of all, m.
     pub(crate) fn center(&self) -> [f64; 2] {
         let along = self.elements.iter().map(|element| [element.left, element.right]);
-        [middle(along), middle(self.depths.iter().copied())]
+        [far_ends(along), far_ends(self.depths.iter().copied())]
+            .map(|[least, most]| 0.5 * (least + most))
     }
 
     /// Midpoint of an element `[x, y]`, m.
@@ -170,12 +171,10 @@ impl Patch {
     }
 }
 
-/// The middle between the least and the greatest of all ends.
-fn middle(ends: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let far = [f64::INFINITY, f64::NEG_INFINITY];
-    let [least, most] =
-        ends.fold(far, |[least, most], [low, high]| [least.min(low), most.max(high)]);
-    0.5 * (least + most)
+/// The least and the greatest of all ends.
+pub(crate) fn far_ends(ends: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    ends.fold(none, |[least, most], [low, high]| [least.min(low), most.max(high)])
 }
 
 impl std::ops::Deref for Patch {

@@ -6,7 +6,7 @@ use crate::geometry::SERIES;
 
 /// Shortest memory, lags.
 const SHORTEST: usize = 64;
-/// What comes after the lags M + 1 … 2M, over these: coupling falls like n⁻³, all else faster.
+/// Sum of the lags beyond 2M, relative to that of the lags M + 1 … 2M: coupling falls like n⁻³, all else faster.
 const BEYOND: f64 = 1.0 / 3.0;
 
 /// Memory of a kernel that forgets.

@@ -9,6 +9,7 @@ use basemat::bem::{Grading, Strip};
 use basemat::history::ConvolutionWeights;
 use basemat::soil::{Elastic, SoilProfile};
 
+use basemat_problems::dense::solve;
 use basemat_problems::profiles::{gmb, p1, p3};
 
 const STEPS: usize = 256;
@@ -41,27 +42,6 @@ fn matrices(kernel: &LayeredKernel) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn solve(matrix: &[f64], right: &[f64]) -> Vec<f64> {
-    let n = right.len();
-    let (mut a, mut x) = (matrix.to_vec(), right.to_vec());
-    for k in 0..n {
-        for i in k + 1..n {
-            let factor = a[i * n + k] / a[k * n + k];
-            for j in k..n {
-                a[i * n + j] -= factor * a[k * n + j];
-            }
-            x[i] -= factor * x[k];
-        }
-    }
-    for k in (0..n).rev() {
-        for j in k + 1..n {
-            x[k] -= a[k * n + j] * x[j];
-        }
-        x[k] /= a[k * n + k];
-    }
-    x
-}
-
 /// Least work over what ten steps of noise gave: −½ G¹⁻¹(h − s) takes out the most in each step.
 fn least_work(matrices: &[Vec<f64>]) -> f64 {
     let n = matrices[0].len().isqrt();
@@ -86,7 +66,7 @@ fn least_work(matrices: &[Vec<f64>]) -> f64 {
         } else {
             let change: Vec<f64> =
                 history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
-            solve(&matrices[0], &change)
+            solve(&matrices[0].chunks_exact(n).map(<[_]>::to_vec).collect(), &change)
         };
         let mut now = history;
         for (row, s) in matrices[0].chunks_exact(n).zip(&mut now) {

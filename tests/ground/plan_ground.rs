@@ -10,6 +10,7 @@ use basemat::bem::{ElasticGround, Ground};
 use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
 use basemat::{Error, Soil};
+use basemat_problems::dense::solve;
 use basemat_problems::profiles::{gmb, p1};
 use basemat_problems::random::Random;
 
@@ -101,30 +102,11 @@ fn step_compliance_and_history_add_up_to_statics() {
         let found = impedances_in_plan(&profile, &plan, &[0.0], StripContact::Bonded).unwrap()[0];
         let area = plan.pitch()[0] * plan.pitch()[1];
         let mut sum = 0.0;
-        let solved = solve(&still, |place| if place < plan.count() { 1.0 } else { 0.0 });
+        let settled: Vec<_> = (0..size).map(|n| f64::from(n < plan.count())).collect();
+        let solved = solve(&still.chunks_exact(size).map(<[_]>::to_vec).collect(), &settled);
         solved[..plan.count()].iter().for_each(|traction| sum += area * traction);
         assert!((sum / found.matrix[2][2].re - 1.0).abs() < 1e-8, "{sum} {found:?}");
     }
-}
-
-/// A x = b by Gauss' elimination, A symmetric and positive.
-fn solve(matrix: &[f64], right: impl Fn(usize) -> f64) -> Vec<f64> {
-    let size = matrix.len().isqrt();
-    let (mut a, mut x) = (matrix.to_vec(), (0..size).map(right).collect::<Vec<_>>());
-    for pivot in 0..size {
-        for row in pivot + 1..size {
-            let factor = a[row * size + pivot] / a[pivot * size + pivot];
-            for column in pivot..size {
-                a[row * size + column] -= factor * a[pivot * size + column];
-            }
-            x[row] -= factor * x[pivot];
-        }
-    }
-    for row in (0..size).rev() {
-        let sum: f64 = (row + 1..size).map(|column| a[row * size + column] * x[column]).sum();
-        x[row] = (x[row] - sum) / a[row * size + row];
-    }
-    x
 }
 
 /// With a coarse tolerance memory ends; what is left out is less than the bound says, and more than nothing.

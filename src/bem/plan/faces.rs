@@ -14,7 +14,7 @@ pub(crate) struct Face {
 }
 
 /// Twice the area to the left of the line from a to b that p spans with it.
-fn side([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
+pub(crate) fn side([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 

@@ -132,7 +132,7 @@ impl LatticeKernel {
         self.stages.count() * Block::circle(number, self.tolerance).points()
     }
 
-    /// Error unless the blocks up to the last of `missing` may be in memory.
+    /// Error unless the blocks up to number `last` may be in memory.
     fn fits(&self, last: usize) -> Result<()> {
         let points = Block::circle(last, self.tolerance).points() as f64;
         let own = 8.0 * Block::last(last) as f64 + size_of::<Complex>() as f64 * points;

@@ -7,6 +7,7 @@
 
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
+use crate::geometry::far_ends;
 use crate::interface::ContactState;
 
 /// Elements of a foundation, with what they carry.
@@ -62,8 +63,7 @@ pub(super) fn against_overturning(footing: Footing<'_>) -> f64 {
     let axes = if footing.shear_across.is_empty() { 0..1 } else { 0..2 };
     let about = |axis: usize| {
         let ends = (0..footing.elements.len()).map(|e| footing.ends(e, axis));
-        let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let [low, high] = ends.fold(none, |far, own| [far[0].min(own[0]), far[1].max(own[1])]);
+        let [low, high] = far_ends(ends);
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         let (mut normal, mut moment) = (0.0, 0.0);
         for (e, (area, state)) in footing.areas().enumerate() {

@@ -1,6 +1,6 @@
 //! Faces of a base in plan, and the mean of its displacement over a contact element.
 
-use crate::bem::plan::faces::Face;
+use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result};
 use crate::geometry::Patch;
 use crate::structure::FaceNode;
@@ -48,7 +48,7 @@ impl<'a> Faces<'a> {
     fn has_area(&self, triangle: &[usize]) -> bool {
         let corners = self.corners(triangle);
         let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
-        spanned([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
+        side([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
     }
 
     /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points. A point outside all faces continues the
@@ -95,11 +95,6 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// Twice the area to the left of the line from a to b that p spans with it.
-fn spanned([a, b]: [Point; 2], p: Point) -> f64 {
-    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-}
-
 fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -107,8 +102,8 @@ fn distance(a: Point, b: Point) -> f64 {
 /// Distance of a point from a convex polygon; zero within.
 fn outside(corners: &[Point], p: Point) -> f64 {
     let edges = || (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
-    let sides = || edges().map(|edge| spanned(edge, p));
-    if sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0) {
+    let areas = || edges().map(|edge| side(edge, p));
+    if areas().all(|area| area >= 0.0) || areas().all(|area| area <= 0.0) {
         return 0.0;
     }
     let from = |[a, b]: [Point; 2]| {
@@ -125,8 +120,8 @@ fn outside(corners: &[Point], p: Point) -> f64 {
 /// continued beyond; `None` where that is not possible.
 fn shares(corners: &[Point], p: Point) -> Option<Vec<f64>> {
     if let [a, b, c] = *corners {
-        let all = spanned([a, b], c);
-        let [one, two] = [spanned([b, c], p) / all, spanned([c, a], p) / all];
+        let all = side([a, b], c);
+        let [one, two] = [side([b, c], p) / all, side([c, a], p) / all];
         return Some(vec![one, two, 1.0 - one - two]);
     }
     let [a, b, c, d] = *corners else { return None };

@@ -195,15 +195,11 @@ impl Lattice {
                 }
             }
             self.across[0].process_with_scratch(&mut self.spectra, &mut self.scratch);
-            let own = across / 2 + 1;
             let rows = re.chunks_exact_mut(columns).zip(im.chunks_exact_mut(columns));
             for (row, (re, im)) in rows.enumerate() {
-                // Images (kx, −ky), from the first on.
-                let (image, place) =
-                    if row < own { (false, row) } else { (true, across - (row - own + 1)) };
+                let (place, sign) = place_across(row, across, component);
                 for (column, (re, im)) in re.iter_mut().zip(im).enumerate() {
                     let value = self.spectra[column * across + place];
-                    let sign = if image && component == 2 { -1.0 } else { 1.0 };
                     (*re, *im) = (sign * value.re, sign * value.im);
                 }
             }
@@ -231,15 +227,12 @@ impl Lattice {
     ) {
         let [length, across] = self.lengths;
         let columns = self.spectrum.len();
-        let own = across / 2 + 1;
         if across > 1 {
             for (row, (re, im)) in
                 re.chunks_exact(columns).zip(im.chunks_exact(columns)).enumerate()
             {
-                let (image, place) =
-                    if row < own { (false, row) } else { (true, across - (row - own + 1)) };
+                let (place, sign) = place_across(row, across, component);
                 for (column, (re, im)) in re.iter().zip(im).enumerate() {
-                    let sign = if image && component == 2 { -1.0 } else { 1.0 };
                     self.spectra[column * across + place] = Complex::new(sign * re, sign * im);
                 }
             }
@@ -320,4 +313,14 @@ impl Lattice {
         }
         Ok(())
     }
+}
+
+/// Place of a row of wavenumbers among the S along y, and the sign of a component there: after those with spectra come
+/// their images (kx, −ky), from the first on.
+fn place_across(row: usize, across: usize, component: usize) -> (usize, f64) {
+    let own = across / 2 + 1;
+    if row < own {
+        return (row, 1.0);
+    }
+    (across - (row - own + 1), if component == SPACE - 1 { -1.0 } else { 1.0 })
 }
