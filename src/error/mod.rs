@@ -22,7 +22,8 @@ pub use input_file::{MatrixFileError, MeshFileError};
 pub use layered::{KernelFileError, LayeredError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use memory::{
-    all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
+    all_finite, damping_ratio, finite, names, not_finite, not_negative, positive, same_length,
+    write_file,
 };
 pub use part::{LawError, ReducedError};
 pub use plan::PlanError;
@@ -381,23 +382,6 @@ impl std::fmt::Debug for Error {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Display::fmt(self, f)
     }
-}
-
-impl Error {
-    /// [`Error::Name`] for a name that none of `known` is.
-    pub(crate) fn no_name<T: Into<String>>(
-        quantity: &'static str,
-        name: &str,
-        known: impl Iterator<Item = T>,
-    ) -> Self {
-        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
-    }
-}
-
-/// The first twelve of the names that there are.
-fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(12)].join(", ");
-    if known.is_empty() { listed } else { format!(", only {listed}") }
 }
 
 /// A line of a file, or the file as a whole.
