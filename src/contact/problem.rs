@@ -354,7 +354,7 @@ impl ContactSolver {
                 + condition.shear * (input.static_traction[t] + self.traction[t]);
             self.rhs.push(scale * (condition.value - known));
         }
-        self.factor.solve(&mut self.rhs);
+        self.factor.solve_small(&mut self.rhs);
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
             self.traction[i] = *value;
         }
