@@ -60,6 +60,11 @@ pub struct FaceNode {
 }
 
 impl FaceNode {
+    /// A point `[x, y]` (m) with degrees of freedom of its own: displacements along x, along y and up.
+    pub fn free([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
+        Self { x, y, horizontal: along.into(), across: across.into(), vertical: up.into() }
+    }
+
     /// A point `[x, y]` (m) of a rigid flat base with degrees of freedom at `center`: displacements along x, along y
     /// and up, and rotations about the same axes by the right-hand rule.
     pub fn rigid([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
@@ -72,6 +77,13 @@ impl FaceNode {
             across: [(across, 1.0), (about_z, dx)].into(),
             vertical: [(up, 1.0), (about_x, dy), (about_y, -dx)].into(),
         }
+    }
+
+    /// The face of a rigid flat base with these corners (m from `center`), degrees of freedom as for
+    /// [`FaceNode::rigid`].
+    pub fn rigid_base(corners: &[[f64; 2]], center: [f64; 2], dofs: [usize; 6]) -> Vec<Self> {
+        let corner = |[x, y]: &[f64; 2]| Self::rigid([center[0] + x, center[1] + y], center, dofs);
+        corners.iter().map(corner).collect()
     }
 
     /// Displacements to the right, upwards and away; a node of the plane has none of the last.

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::{Basis, Recovery};
 use crate::error::{Error, Result, damping_ratio, memory};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{SYMMETRIC, check_attached, numbers};
+use crate::structure::detached::{MASSLESS, SYMMETRIC, check_attached, numbers};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 
@@ -143,7 +143,7 @@ impl CraigBampton {
         }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
-            damping: basis.congruence(&damping),
+            damping: without_rounding(basis.congruence(&damping), &basis, &damping),
             stiffness: basis.congruence(&stiffness),
             contact: contact.collect(),
             faces,
@@ -296,6 +296,22 @@ impl ReducedModel {
         }
         Ok(self)
     }
+}
+
+/// The reduced damping matrix with zeros for motions that nothing damps, rigid ones as a rule: what cancellation leaves
+/// of them has no sign, and may be large beside the damping of modes, whose unit is another.
+fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -> Vec<f64> {
+    let order = basis.order();
+    for (i, motion) in basis.rows().enumerate() {
+        let terms = full.entries().map(|(row, column, c)| (motion[row] * c * motion[column]).abs());
+        if reduced[i * (order + 1)] <= MASSLESS * terms.sum::<f64>() {
+            for j in 0..order {
+                reduced[i * order + j] = 0.0;
+                reduced[j * order + i] = 0.0;
+            }
+        }
+    }
+    reduced
 }
 
 /// Adds a dense row-major matrix, zeros left out.
