@@ -9,3 +9,4 @@ mod march;
 mod mast;
 mod refused;
 mod springs;
+mod warnings;
