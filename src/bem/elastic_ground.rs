@@ -15,7 +15,7 @@ use crate::geometry::{ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Soil, SoilProfile};
-use crate::structure::{FaceNode, Structure};
+use crate::structure::Structure;
 
 /// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
 /// its surface.
@@ -150,15 +150,10 @@ impl ElasticGround {
         structure: &dyn Structure,
         count: usize,
     ) -> Result<Self> {
-        let faces = structure.contact_faces();
-        if faces.is_empty() {
-            return Self::new(profile, Strip::under(structure, count, Grading::Cosine)?);
+        match Plan::of_base(structure, count)? {
+            Some(plan) => Self::in_plan(profile, plan),
+            None => Self::new(profile, Strip::under(structure, count, Grading::Cosine)?),
         }
-        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
-        Self::in_plan(
-            profile,
-            Plan::on_faces(&faces.iter().map(corners).collect::<Vec<_>>(), count)?,
-        )
     }
 
     fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {

@@ -1,5 +1,7 @@
 //! LU factors of dense matrices, real and complex.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+
 use super::SparseFactor;
 use super::product::{Simd, WithSimd, add_row, vectorized};
 use crate::linalg::SparseMatrix;

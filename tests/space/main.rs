@@ -8,4 +8,6 @@ mod equations;
 mod march;
 mod mast;
 mod refused;
+mod springs;
 mod storeys;
+mod warnings;
