@@ -280,8 +280,9 @@ fn check_start(start: &PreviousContacts, count: usize, memory_ends: &[usize]) ->
 }
 
 fn check_element(start: &PreviousContact<'_>) -> Result<()> {
-    let ContactState { gap, slip, pressure, shear } = start.state;
-    check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])
+    check_finite("state of an element", &start.state.jump())?;
+    check_finite("state of an element", &start.state.traction())?;
+    check_finite("state of an element", &[start.slip_rate])
 }
 
 fn check_finite(quantity: &'static str, values: &[f64]) -> Result<()> {

@@ -150,8 +150,6 @@ pub(crate) struct ContactSolver {
     pub(crate) traction: Vec<f64>,
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
-    /// In plan: slip and total shear traction along y of the last trial, per element.
-    pub(crate) across: [Vec<f64>; 2],
     jump: Vec<f64>,
     /// A law that returned a number that is not finite since this was taken last.
     pub(super) fault: Option<LawError>,
@@ -174,7 +172,6 @@ impl ContactSolver {
             dofs: Vec::with_capacity(size),
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
-            across: [(); 2].map(|()| vec![0.0; size - PLANE * count]),
             jump: vec![0.0; size],
             fault: None,
             factorings: 0,
@@ -364,20 +361,12 @@ impl ContactSolver {
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
         self.jump.copy_from_slice(input.free_jump);
         input.delassus.multiply_add(&self.traction, &mut self.jump);
-        for (e, state) in self.states.iter_mut().enumerate() {
-            let [n, t] = self.layout.places(e);
-            *state = ContactState {
-                gap: self.jump[n],
-                slip: -self.jump[t],
-                pressure: input.static_traction[n] + self.traction[n],
-                shear: input.static_traction[t] + self.traction[t],
-            };
-        }
-        let [slip, shear] = &mut self.across;
-        for (e, (slip, shear)) in slip.iter_mut().zip(shear).enumerate() {
-            let across = self.layout.place(PLANE, e);
-            *slip = -self.jump[across];
-            *shear = input.static_traction[across] + self.traction[across];
+        let (layout, plan) = (self.layout, self.is_plan());
+        let Self { jump, traction, states, .. } = self;
+        for (e, state) in states.iter_mut().enumerate() {
+            let total = |i: usize| input.static_traction[i] + traction[i];
+            let place = |component| layout.place(component, e);
+            *state = ContactState::from_components(|k| jump[place(k)], |k| total(place(k)), plan);
         }
     }
 

@@ -315,16 +315,7 @@ fn numbers<'a>(
     books: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
-    let State {
-        motion,
-        contact,
-        start,
-        free_field,
-        free_field_across,
-        slip_across,
-        shear_across,
-        ..
-    } = state;
+    let State { motion, contact, start, free_field, free_field_across, .. } = state;
     for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
         all.extend(values.iter_mut());
     }
@@ -336,13 +327,15 @@ fn numbers<'a>(
             all.extend(values.iter_mut().take(directions));
         }
     }
-    for ContactState { gap, slip, pressure, shear } in contact {
+    let mut across = Vec::new();
+    for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in contact {
         all.extend([gap, slip, pressure, shear]);
+        across.extend([slip_across, shear_across]);
     }
     all.extend(start.slip_rates_mut());
     if directions == SPACE {
         all.push(free_field_across);
-        all.extend(slip_across.iter_mut().chain(shear_across));
+        all.extend(across);
     }
     all.extend(books.into_iter().flat_map(|books| books.numbers(directions)));
     all

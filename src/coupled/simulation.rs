@@ -67,7 +67,9 @@ impl Simulation {
             state.energy_balance = books.energy_balance;
         }
         state.advance(scene, forcing, increment);
-        ground.commit(&increment.traction);
+        increment.spread.copy_from_slice(&increment.traction);
+        scene.elements.spread_inside(&mut increment.spread);
+        ground.commit(&increment.spread);
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&increment.seen);
         }

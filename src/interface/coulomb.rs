@@ -331,7 +331,7 @@ mod tests {
         let start = start(Mode::Stick);
         let state = ContactState { pressure: 2.0, shear: 0.99, ..Default::default() };
         assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Stick);
-        let state = ContactState { pressure: 2.0, shear: 1.0, slip: 0.1, gap: 0.0 };
+        let state = ContactState { pressure: 2.0, shear: 1.0, slip: 0.1, ..Default::default() };
         assert_eq!(law.next_mode(Mode::SlipRight, &start, &state, TOLERANCE), Mode::SlipRight);
         let state = ContactState { gap: 0.1, ..Default::default() };
         assert_eq!(law.next_mode(Mode::Open, &start, &state, TOLERANCE), Mode::Open);
@@ -342,7 +342,8 @@ mod tests {
         let law = Coulomb::new(0.5).unwrap();
         let start = start(Mode::Stick);
         let next = |mode, gap, slip, pressure, shear| {
-            law.next_mode(mode, &start, &ContactState { gap, slip, pressure, shear }, TOLERANCE)
+            let state = ContactState { gap, slip, pressure, shear, ..Default::default() };
+            law.next_mode(mode, &start, &state, TOLERANCE)
         };
         assert_eq!(next(Mode::Stick, 0.0, 0.0, -1.0, 0.0), Mode::Open);
         assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, 0.6), Mode::SlipRight);

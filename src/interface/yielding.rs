@@ -94,7 +94,15 @@ impl InterfaceLaw for Yielding {
             // Its slip modes have no pressure.
             &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open, Mode::Yield]
         } else {
-            &Mode::ALL
+            &[
+                Mode::Stick,
+                Mode::SlipLeft,
+                Mode::SlipRight,
+                Mode::Open,
+                Mode::Yield,
+                Mode::YieldLeft,
+                Mode::YieldRight,
+            ]
         }
     }
 

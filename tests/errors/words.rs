@@ -54,11 +54,14 @@ fn choices_are_read_as_they_are_shown() {
     use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use GravityStage::{Frictional, Frictionless, Unloaded};
-    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
+    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
     use SearchMethod::{ActiveSet, GaussSeidel, Path};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
-    check("contact mode", &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
+    check(
+        "contact mode",
+        &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight, Mode::Slip, YieldSlip],
+    );
     let histories = [
         HistoryMethod::Direct,
         HistoryMethod::RelaxedFft,

@@ -240,6 +240,7 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
     ground.step_compliance(&mut operator)?;
+    elements.refer_inside(&mut operator);
     all_finite(NAME, &operator)?;
     let area = |i: usize| areas[layout.origin(i)[1]];
     let scale: Vec<f64> = (0..size)

@@ -152,9 +152,6 @@ impl LinearStep {
         (increment.trials, increment.method) = (trials, method);
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);
-        for (own, new) in increment.across.iter_mut().zip(&contact.across) {
-            own.copy_from_slice(new);
-        }
         Ok(())
     }
 }

@@ -170,6 +170,11 @@ impl Ground for Double {
         [CORRECT, element as f64]
     }
 
+    fn fraction_inside(&self, element: usize) -> f64 {
+        self.0.asked("fraction_inside");
+        1.0 / element as f64
+    }
+
     fn prepare(&mut self, _: f64) -> Result<()> {
         self.0.asked("prepare");
         Err(refusal())
