@@ -3,16 +3,18 @@
 //! A [`Simulation`](crate::Simulation) solves it in every step. Codes with an integrator of their own
 //! take a [`Ground`](crate::bem::Ground) and a [`ContactProblem`].
 
+mod cone;
 mod delassus;
 mod element;
+mod method;
 mod path;
 mod problem;
 mod search;
 
 pub(crate) use delassus::Delassus;
+pub use method::{ContactSearch, SearchMethod};
 pub(crate) use problem::{ContactInput, ContactSolver};
 pub(crate) use search::ModeSearch;
-pub use search::{ContactSearch, SearchMethod};
 
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::geometry::{ContactLayout, PLANE};
@@ -20,17 +22,6 @@ use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
 };
 use crate::linalg::largest;
-
-words_with_numbers! {
-    /// One of its words, or an [`Error::Word`](crate::Error::Word).
-    ///
-    /// ```
-    /// use basemat::contact::ContactSearch;
-    /// assert_eq!("flow_chart(50)".parse(), Ok(ContactSearch::FlowChart { iterations: 50 }));
-    /// assert!("flow_chart(0.5)".parse::<ContactSearch>().is_err());
-    /// ```
-    ContactSearch, "contact search", { Robust = "robust"; FlowChart { iterations } = "flow_chart" }
-}
 
 // The contact problem for codes with a time integrator of their own.
 
@@ -168,7 +159,7 @@ impl ContactProblem {
             laws,
             static_traction: vec![0.0; layout.len()],
             solver: ContactSolver::new(layout),
-            search: ModeSearch::new(count, ContactSearch::default()),
+            search: ModeSearch::new(layout, &[], ContactSearch::default()),
             modes: vec![Mode::Stick; count],
             steps: 0,
         })

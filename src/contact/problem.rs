@@ -155,18 +155,22 @@ pub(crate) struct ContactSolver {
     pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
     pub(crate) factorings: usize,
+    /// Number of operators W before this one.
+    pub(super) generation: usize,
 }
 
 impl ContactSolver {
     pub(crate) fn new(layout: ContactLayout) -> Self {
         let (size, count) = (layout.len(), layout.elements());
+        // In plan the search has a system of its own.
+        let system = if layout.components() == PLANE { size } else { 0 };
         Self {
             layout,
             conditions: vec![[Condition::default(); 2]; count],
             factored: vec![[Condition::default(); 2]; count],
-            factor: DenseFactor::with_capacity(size),
+            factor: DenseFactor::with_capacity(system),
             valid: false,
-            matrix: Vec::with_capacity(layout.square()),
+            matrix: Vec::with_capacity(system * system),
             rhs: Vec::with_capacity(size),
             rows: Vec::with_capacity(size),
             dofs: Vec::with_capacity(size),
@@ -175,6 +179,7 @@ impl ContactSolver {
             jump: vec![0.0; size],
             fault: None,
             factorings: 0,
+            generation: 0,
         }
     }
 
@@ -186,6 +191,7 @@ impl ContactSolver {
     /// Forgets the factors: to be called when W has changed.
     pub(crate) fn invalidate(&mut self) {
         self.valid = false;
+        self.generation += 1;
     }
 
     /// Condition of the system with every element in its law's mode of rest; infinite if singular.
@@ -237,9 +243,6 @@ impl ContactSolver {
         let same = |a: &Condition, b: &Condition| {
             (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
         };
-        if self.is_plan() {
-            return self.bonded(input);
-        }
         let unchanged = self.valid
             && self
                 .conditions
@@ -251,21 +254,6 @@ impl ContactSolver {
             return false;
         }
         self.solve(input);
-        self.evaluate(input);
-        self.traction.iter().all(|t| t.is_finite())
-    }
-
-    /// Solves for a base in plan, which is bonded: no jump is left.
-    fn bonded(&mut self, input: &ContactInput<'_>) -> bool {
-        if !self.valid {
-            self.factorings += 1;
-            self.valid = self.factor.factor(input.delassus, self.layout.len());
-        }
-        if !self.valid {
-            return false;
-        }
-        self.traction.iter_mut().zip(input.free_jump).for_each(|(t, jump)| *t = -jump);
-        self.factor.solve(&mut self.traction);
         self.evaluate(input);
         self.traction.iter().all(|t| t.is_finite())
     }

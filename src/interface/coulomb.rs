@@ -1,6 +1,6 @@
 //! Hard unilateral contact with Coulomb friction, constant or variable.
 
-use super::{Condition, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance};
+use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 use crate::error::{Error, Result, not_negative};
 
 /// On what the contact conditions of a closed element act.
@@ -206,6 +206,17 @@ impl InterfaceLaw for Coulomb {
         }
     }
 
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        let tension = self.strength(start);
+        Ok(Limits {
+            friction: self.friction,
+            attraction: tension,
+            tension,
+            gap_offset: self.closed_gap(start).unwrap_or(f64::NEG_INFINITY),
+            ..Limits::default()
+        })
+    }
+
     /// That of the law; what a tensile strength adds is left out.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
@@ -312,6 +323,10 @@ impl InterfaceLaw for VariableFriction {
 
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
         Coulomb::new(self.at(start).friction()).map(|_| ())
+    }
+
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        self.at(start).limits(start)
     }
 }
 

@@ -6,18 +6,20 @@
 
 mod cohesive;
 mod coulomb;
+mod limits;
 mod previous_contact;
 mod thin_layer;
 mod yielding;
 
 pub use cohesive::{Bonded, Cohesive};
 pub use coulomb::{Coulomb, UnilateralCondition, VariableFriction};
+pub use limits::Limits;
 pub(crate) use previous_contact::memory_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use yielding::Yielding;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -93,6 +95,15 @@ impl Mode {
             Mode::SlipLeft => Mode::YieldLeft,
             Mode::SlipRight => Mode::YieldRight,
             Mode::Slip => Mode::YieldSlip,
+            mode => mode,
+        }
+    }
+
+    /// The same mode on a ground in plan, where slip has any direction.
+    pub(crate) fn in_plan(self) -> Self {
+        match self {
+            Mode::SlipLeft | Mode::SlipRight => Mode::Slip,
+            Mode::YieldLeft | Mode::YieldRight => Mode::YieldSlip,
             mode => mode,
         }
     }
@@ -407,6 +418,21 @@ pub trait InterfaceLaw: Send {
     /// [`Error::part`](crate::Error::part).
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
+    }
+
+    /// Limits of the tractions of an element on a ground in plan, in the step after `start`: modes and conditions are for
+    /// the plane. The direction of slip is mechanics there, along the shear traction, and the law says how far tractions
+    /// go. Asked once per attempted step.
+    ///
+    /// The default is an error that names the law: it is one of the plane alone.
+    ///
+    /// # Errors
+    /// If the law has none for this element, as [`Error::Scene`](crate::Error::Scene),
+    /// [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part).
+    fn limits(&self, _start: &PreviousContact) -> Result<Limits> {
+        let quantity = std::any::type_name::<Self>();
+        let quantity = quantity.rsplit("::").next().unwrap_or(quantity);
+        Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
     /// This law without friction and adhesion, for setting the structure down on the ground; hard

@@ -55,7 +55,7 @@ fn choices_are_read_as_they_are_shown() {
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use GravityStage::{Frictional, Frictionless, Unloaded};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
-    use SearchMethod::{ActiveSet, GaussSeidel, Path};
+    use SearchMethod::{ActiveSet, GaussSeidel, Newton, Path, Proximal};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
     check(
@@ -71,7 +71,7 @@ fn choices_are_read_as_they_are_shown() {
     check("history", &histories);
     check("grading", &[Grading::Uniform, Grading::Cosine]);
     check("gravity stage", &[Frictionless, Frictional, Unloaded]);
-    check("search method", &[ActiveSet, GaussSeidel, Path]);
+    check("search method", &[ActiveSet, GaussSeidel, Path, Newton, Proximal]);
     check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
     check("friction limit", &[Total, Lagged, Static, Dynamic]);
     check("sense of slip", &[Inelastic, Velocity, LastVelocity]);

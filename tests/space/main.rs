@@ -8,3 +8,4 @@ mod equations;
 mod march;
 mod mast;
 mod refused;
+mod uplift;

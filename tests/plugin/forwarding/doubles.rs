@@ -6,7 +6,8 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
 use basemat::history::{ConvolutionHistory, HistoryChoice};
 use basemat::interface::{
-    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
+    Tolerance,
 };
 use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
@@ -112,6 +113,11 @@ impl InterfaceLaw for Double {
     fn friction_coefficient(&self) -> Option<f64> {
         self.0.asked("friction_coefficient");
         Some(CORRECT)
+    }
+
+    fn limits(&self, _: &PreviousContact) -> Result<Limits> {
+        self.0.asked("limits");
+        Ok(Limits { tension: CORRECT, ..Limits::default() })
     }
 
     fn bond_overload(&self, _: &PreviousContact, _: &ContactState) -> Option<f64> {

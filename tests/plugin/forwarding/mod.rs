@@ -58,6 +58,7 @@ fn boxed_laws() {
         assert_eq!(part.friction_coefficient(), Some(CORRECT));
         assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
         assert_eq!(part.check_start(&start), Err(doubles::refusal()));
+        assert_eq!(part.limits(&start).unwrap().tension, CORRECT);
         assert_eq!(part.frictionless().modes(), [Mode::SlipRight]);
     }
     let log = Log::default();
