@@ -10,4 +10,5 @@ mod mast;
 mod refused;
 mod springs;
 mod storeys;
+mod uplift;
 mod warnings;
