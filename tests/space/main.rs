@@ -8,4 +8,5 @@ mod equations;
 mod march;
 mod mast;
 mod refused;
+mod sliding;
 mod uplift;

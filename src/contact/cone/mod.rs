@@ -16,6 +16,8 @@ mod newton;
 mod problem;
 mod proximal;
 mod sweeps;
+#[cfg(test)]
+mod tests;
 
 use super::method::SearchMethod;
 use super::problem::{ContactInput, ContactSolver};
@@ -95,7 +97,11 @@ impl Cone {
         let layout = ContactLayout::new(SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
             let [_, e] = layout.origin(i);
-            *traction = self.problem.r[i] / self.areas[e] - input.static_traction[i];
+            // To the last bit, where nothing is left.
+            *traction = match self.problem.force(i) {
+                0.0 => -input.static_traction[i],
+                _ => self.problem.change[i] / self.areas[e],
+            };
         }
         StepError::check_finite("contact traction", &solver.traction)?;
         solver.evaluate(input);
@@ -203,7 +209,7 @@ impl Cone {
         for (e, area) in self.areas.iter().enumerate() {
             let traction = input.start.state(e).traction();
             for (i, traction) in self.problem.places(e).into_iter().zip(traction) {
-                self.problem.r[i] = area * traction;
+                self.problem.set(i, area * traction);
             }
         }
     }
@@ -261,7 +267,7 @@ impl Cone {
         let tolerance = problem.tolerance();
         let missed = |e: &usize| !(problem.miss(*e) <= tolerance);
         let elements = (0..problem.count).filter(missed).collect();
-        let scale = largest(&problem.r).max(problem.scale).max(f64::MIN_POSITIVE);
+        let scale = problem.largest().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }
     }
 }
@@ -282,8 +288,8 @@ fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMe
             return (all, Some(SearchMethod::Newton));
         }
         // From forces that are none.
-        if problem.r.iter().any(|r| !r.is_finite()) {
-            problem.r.fill(0.0);
+        if problem.change.iter().any(|change| !change.is_finite()) {
+            problem.change.fill(0.0);
         }
     }
     (all, None)

@@ -119,7 +119,7 @@ impl Newton {
             } else {
                 Normal::Closed
             };
-            let pressing = if ahead { bounds.press(p) } else { problem.r[e] };
+            let pressing = if ahead { bounds.press(p) } else { problem.force(e) };
             let radius = bounds.radius(pressing);
             let size = x.hypot(y);
             let tangential = if radius == 0.0 && (normal == Normal::Open || bounds.friction == 0.0)
@@ -153,7 +153,7 @@ impl Newton {
         self.balance(problem);
         self.factor.solve(&mut self.rhs);
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
-            problem.r[i] = *value;
+            problem.change[i] = *value;
         }
         self.rhs.iter().all(|value| value.is_finite())
     }
@@ -172,9 +172,9 @@ impl Newton {
                     _ => None,
                 };
                 match fixed {
-                    Some(value) => problem.r[i] = value,
+                    Some(value) => problem.set(i, value),
                     None => {
-                        problem.r[i] = 0.0;
+                        problem.change[i] = 0.0;
                         self.dofs.push(i);
                     }
                 }
@@ -232,13 +232,15 @@ impl Newton {
             let scale = problem.rho[e][component.min(1)];
             self.rhs.push(match (component, self.statuses[e].tangential) {
                 (0, _) => scale * (bounds.offset - self.known[i]),
-                (1, Tangential::Slip { slope, .. }) => {
-                    // Of a p that is known; of an unknown one it is zero here.
-                    let force = slope * (problem.r[n] + bounds.attraction) + bounds.strength;
-                    force / slope.max(1.0)
+                (1, Tangential::Slip { direction, slope, .. }) => {
+                    // Forces as they are without changes, and p where it is known.
+                    let along = direction[0] * problem.anchor[x] + direction[1] * problem.anchor[y];
+                    let radius = slope * (problem.force(n) + bounds.attraction) + bounds.strength;
+                    (radius - along) / slope.max(1.0)
                 }
                 (2, Tangential::Slip { direction: [c, s], turn, .. }) => {
-                    -turn * tangential * (c * self.known[y] - s * self.known[x])
+                    let across = |values: &[f64]| c * values[y] - s * values[x];
+                    (turn - 1.0) * across(&problem.anchor) - turn * tangential * across(&self.known)
                 }
                 _ => -scale * self.known[i],
             });

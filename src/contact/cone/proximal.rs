@@ -38,7 +38,7 @@ impl Proximal {
             let added = share * mean;
             for i in 0..size {
                 problem.w[i * (size + 1)] = self.diagonal[i] + added;
-                problem.q[i] = self.q[i] - added * (problem.r[i] - problem.anchor[i]);
+                problem.q[i] = self.q[i] - added * problem.change[i];
             }
             problem.find_scales();
             let solved = solve(problem);
