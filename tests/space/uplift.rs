@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use basemat::bem::layered::Stages;
-use basemat::bem::{ElasticGround, Ground, SharedKernels};
+use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::interface::{Coulomb, Mode};
 use basemat::motion::FreeField;
 use basemat::structure::RigidBody;

@@ -3,7 +3,8 @@
 //! 1. Where nothing slid in the step before, its statuses are tried, with factors made once while they stay.
 //! 2. Sweeps over the elements, from the forces of the step before.
 //! 3. Newton's method, and both again from where it has led.
-//! 4. The proximal point method around both.
+//! 4. Newton's method from other forces, with parts of its steps.
+//! 5. The proximal point method around all of them.
 //!
 //! W is symmetric and positive definite, so that a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); by small
 //! friction there is one. The shear of a sliding element lies on its disc against the slip of the same solution: its
@@ -33,6 +34,12 @@ use proximal::Proximal;
 const SWEEPS: usize = 60;
 /// Rounds of sweeps and Newton's method, alone and within the proximal method.
 const ROUNDS: usize = 12;
+/// Friction coefficient that stands for an infinite one: an element that opens under shear needs a pressure, however
+/// small, until it is open.
+const GRIP: f64 = 100.0;
+/// Attempts of Newton's method with parts of steps, alone and within the proximal method.
+const ATTEMPTS: u64 = 60;
+const FEW_ATTEMPTS: u64 = 4;
 /// Gap of a bond that is gone, relative to the largest displacement.
 const GONE: f64 = 1e-12;
 
@@ -48,6 +55,8 @@ pub(super) struct Cone {
     generation: Option<usize>,
     /// Elements whose bonds have gone in this step.
     broken: Vec<bool>,
+    /// Forces that a search begins with.
+    start: Vec<f64>,
 }
 
 impl Cone {
@@ -62,6 +71,7 @@ impl Cone {
             layers: vec![[0.0; 2]; count],
             generation: None,
             broken: vec![false; count],
+            start: vec![0.0; 3 * count],
         }
     }
 
@@ -216,17 +226,28 @@ impl Cone {
 
     /// One method after the other: iterations, and the last that was needed.
     fn search(&mut self) -> (usize, Option<SearchMethod>) {
-        let Self { problem, newton, proximal, .. } = self;
-        let (iterations, found) = rounds(problem, newton);
+        let Self { problem, newton, proximal, start, .. } = self;
+        start.copy_from_slice(&problem.change);
+        let (mut all, found) = rounds(problem, newton);
         if found.is_some() {
-            return (iterations, found);
+            return (all, found);
         }
-        let mut all = iterations;
+        let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+        problem.change.copy_from_slice(start);
         let found = proximal.solve(problem, |problem| {
             newton.forget();
+            start.copy_from_slice(&problem.change);
             let (iterations, found) = rounds(problem, newton);
             all += iterations;
-            found.is_some()
+            found.is_some() || {
+                let (iterations, found) = newton.wander(problem, start, FEW_ATTEMPTS);
+                all += iterations;
+                found
+            }
         });
         newton.forget();
         (all, found.then_some(SearchMethod::Proximal))
@@ -306,7 +327,7 @@ fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> 
 /// The same of an area, m².
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
-        friction: limits.friction,
+        friction: limits.friction.min(GRIP),
         attraction: limits.attraction * area,
         strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],

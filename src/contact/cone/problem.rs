@@ -13,9 +13,6 @@
 
 use crate::linalg::dense_multiply_add;
 
-/// Friction coefficient that stands for an infinite one: an element that opens under shear needs a pressure, however
-/// small, until it is open.
-const GRIP: f64 = 1e3;
 /// Residual of a solution, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
 
@@ -50,13 +47,8 @@ impl Bounds {
         if self.bonded {
             f64::INFINITY
         } else {
-            self.slope() * (p + self.attraction).max(0.0) + self.strength
+            self.friction * (p + self.attraction).max(0.0) + self.strength
         }
-    }
-
-    /// Growth of the radius with p.
-    pub(super) fn slope(&self) -> f64 {
-        self.friction.min(GRIP)
     }
 
     /// Whether the element bears tension, or shear without pressure.
