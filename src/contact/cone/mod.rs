@@ -93,7 +93,8 @@ impl Cone {
         if !(tried && self.problem.is_solved()) {
             self.begin(input);
             loop {
-                let (iterations, found) = self.search();
+                let Self { problem, newton, proximal, start, .. } = self;
+                let (iterations, found) = search(problem, newton, proximal, start);
                 trials += iterations;
                 let Some(found) = found else { return Err(self.failure(trials)) };
                 method = method.max(found);
@@ -224,35 +225,6 @@ impl Cone {
         }
     }
 
-    /// One method after the other: iterations, and the last that was needed.
-    fn search(&mut self) -> (usize, Option<SearchMethod>) {
-        let Self { problem, newton, proximal, start, .. } = self;
-        start.copy_from_slice(&problem.change);
-        let (mut all, found) = rounds(problem, newton);
-        if found.is_some() {
-            return (all, found);
-        }
-        let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
-        all += iterations;
-        if found {
-            return (all, Some(SearchMethod::Newton));
-        }
-        problem.change.copy_from_slice(start);
-        let found = proximal.solve(problem, |problem| {
-            newton.forget();
-            start.copy_from_slice(&problem.change);
-            let (iterations, found) = rounds(problem, newton);
-            all += iterations;
-            found.is_some() || {
-                let (iterations, found) = newton.wander(problem, start, FEW_ATTEMPTS);
-                all += iterations;
-                found
-            }
-        });
-        newton.forget();
-        (all, found.then_some(SearchMethod::Proximal))
-    }
-
     /// Takes the bonds of elements that have opened; whether there were any.
     fn break_bonds(&mut self, gone: f64) -> bool {
         let mut any = false;
@@ -291,6 +263,39 @@ impl Cone {
         let scale = problem.largest().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }
     }
+}
+
+/// One method after the other, `start` being scratch: iterations, and the last that was needed.
+fn search(
+    problem: &mut Problem,
+    newton: &mut Newton,
+    proximal: &mut Proximal,
+    start: &mut [f64],
+) -> (usize, Option<SearchMethod>) {
+    start.copy_from_slice(&problem.change);
+    let (mut all, found) = rounds(problem, newton);
+    if found.is_some() {
+        return (all, found);
+    }
+    let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
+    all += iterations;
+    if found {
+        return (all, Some(SearchMethod::Newton));
+    }
+    problem.change.copy_from_slice(start);
+    let found = proximal.solve(problem, |problem| {
+        newton.forget();
+        start.copy_from_slice(&problem.change);
+        let (iterations, found) = rounds(problem, newton);
+        all += iterations;
+        found.is_some() || {
+            let (iterations, found) = newton.wander(problem, start, FEW_ATTEMPTS);
+            all += iterations;
+            found
+        }
+    });
+    newton.forget();
+    (all, found.then_some(SearchMethod::Proximal))
 }
 
 /// Sweeps and Newton's method in turn: iterations, and the last that was needed.
