@@ -10,7 +10,7 @@ use basemat::structure::RigidBody;
 use basemat::{Error, Simulation, Soil, StepError};
 use basemat_problems::random::Random;
 
-const SCENES: usize = 60;
+const SCENES: usize = 40;
 const STEPS: usize = 60;
 
 /// Sines in three directions, at rest at t = 0.

@@ -98,7 +98,7 @@ fn a_slice_lifts_and_slides_as_the_block_of_the_plane() {
         assert!(open > 0 || name == "smooth", "{name} opens");
         assert!(slides > 0 || name == "uplift only", "{name} slides");
         assert!((yields > 0) == (name == "yielding"), "{name} yields");
-        let tolerance = if name == "uplift only" { 1e-2 } else { 1e-7 };
+        let tolerance = if name == "uplift only" { 2e-3 } else { 1e-7 };
         for (error, largest) in errors.iter().zip(largest) {
             assert!(*error <= tolerance * largest.max(1e-6), "{name}: {errors:?} of {largest:?}");
         }

@@ -36,9 +36,12 @@ const SWEEPS: usize = 60;
 const ROUNDS: usize = 12;
 /// Friction coefficient that stands for an infinite one: an element that opens under shear needs a pressure, however
 /// small, until it is open.
+const ENDLESS: f64 = 1e4;
+/// The same in steps that are not solved with it, nor with others above this.
 const GRIP: f64 = 100.0;
-/// Attempts of Newton's method with parts of steps, alone and within the proximal method.
+/// Attempts of Newton's method with parts of steps: alone, with endless friction, and within the proximal method.
 const ATTEMPTS: u64 = 60;
+const SOME_ATTEMPTS: u64 = 12;
 const FEW_ATTEMPTS: u64 = 4;
 /// Gap of a bond that is gone, relative to the largest displacement.
 const GONE: f64 = 1e-12;
@@ -277,6 +280,20 @@ fn search(
     if found.is_some() {
         return (all, found);
     }
+    if problem.bounds.iter().any(|bounds| bounds.friction > GRIP) {
+        let (iterations, found) = newton.wander(problem, start, SOME_ATTEMPTS);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+        problem.bounds.iter_mut().for_each(|bounds| bounds.friction = bounds.friction.min(GRIP));
+        problem.change.copy_from_slice(start);
+        let (iterations, found) = rounds(problem, newton);
+        all += iterations;
+        if found.is_some() {
+            return (all, found);
+        }
+    }
     let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
     all += iterations;
     if found {
@@ -332,7 +349,7 @@ fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> 
 /// The same of an area, m².
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
-        friction: limits.friction.min(GRIP),
+        friction: limits.friction.min(ENDLESS),
         attraction: limits.attraction * area,
         strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],
