@@ -88,7 +88,9 @@ impl Cone {
     ) -> Result<(usize, SearchMethod), StepError> {
         self.take(solver.generation, input)?;
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
-        modes.iter_mut().for_each(|mode| *mode = mode.in_plan());
+        for mode in modes.iter_mut() {
+            *mode = mode.in_plan();
+        }
         let tried = self.repeat(modes);
         if tried {
             trials += 1;
@@ -261,7 +263,7 @@ impl Cone {
         let problem = &mut self.problem;
         let residual = problem.residual();
         let tolerance = problem.tolerance();
-        let missed = |e: &usize| !(problem.miss(*e) <= tolerance);
+        let missed = |e: &usize| problem.miss(*e) > tolerance || problem.miss(*e).is_nan();
         let elements = (0..problem.count).filter(missed).collect();
         let scale = problem.largest().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }

@@ -250,12 +250,11 @@ impl Newton {
                     (1 | 2, _, Tangential::Free) => Some(0.0),
                     _ => None,
                 };
-                match fixed {
-                    Some(value) => problem.set(i, value),
-                    None => {
-                        problem.change[i] = 0.0;
-                        self.dofs.push(i);
-                    }
+                if let Some(value) = fixed {
+                    problem.set(i, value);
+                } else {
+                    problem.change[i] = 0.0;
+                    self.dofs.push(i);
                 }
             }
         }

@@ -36,6 +36,9 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
     problem
 }
 
+/// Angles from which a direction is looked for.
+const GRID: usize = 24;
+
 /// What an element may be: open, closed or at its cap; sticking or sliding in a direction.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
@@ -108,10 +111,14 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
         let dot = |i: usize| problem.row(i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
         (0..r.len()).map(|i| problem.q[i] + dot(i)).collect()
     };
-    for set in 0..choices.len().pow(u32::try_from(count).unwrap()) {
-        let kinds: Vec<_> = (0..count)
-            .map(|e| choices[set / choices.len().pow(e as u32) % choices.len()])
-            .collect();
+    for set in 0..(0..count).fold(1, |all, _| all * choices.len()) {
+        let mut rest = set;
+        let mut next = || {
+            let kind = choices[rest % choices.len()];
+            rest /= choices.len();
+            kind
+        };
+        let kinds: Vec<_> = (0..count).map(|_| next()).collect();
         let sliding: Vec<_> = (0..count).filter(|e| kinds[*e].1).collect();
         let capless = |e: usize| problem.bounds[e].interval[1] == f64::INFINITY;
         if (0..count).any(|e| kinds[e].0 == Kind::Capped && capless(e)) {
@@ -128,8 +135,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
             Some((miss.collect(), r))
         };
         // From a grid of angles by Newton's method with differences.
-        const GRID: usize = 24;
-        for start in 0..GRID.pow(sliding.len() as u32) {
+        for start in 0..sliding.iter().fold(1, |all, _| all * GRID) {
             let mut angles = vec![0.0; count];
             let mut rest = start;
             for &e in &sliding {
@@ -209,7 +215,7 @@ fn each_method_finds_one_of_all_solutions() {
         let mut problem = problem(&mut random, count, friction);
         let solutions = all_solutions(&problem);
         several += usize::from(solutions.len() > 1);
-        assert!(solve(&mut problem) == !solutions.is_empty(), "case {case}: {}", solutions.len());
+        assert_ne!(solve(&mut problem), solutions.is_empty(), "case {case}: {}", solutions.len());
         none += usize::from(solutions.is_empty());
         if solutions.is_empty() {
             continue;
