@@ -1,5 +1,5 @@
 //! GOAL: bases in plan march in three directions, on any ground that has three: bonded, lifting off, sliding.
-//! SCENE: rigid bodies on independent springs and dashpots under each cell.
+//! SCENE: rigid bodies on independent springs and dashpots under each cell, and on elastic ground.
 //! REFERENCE: equations of motion integrated here, Newton's law, the same body in the plane, symmetry.
 
 mod cells;
