@@ -10,7 +10,7 @@ use basemat::interface::{
 };
 use basemat::motion::{FreeField, Triaxial, el_centro_1940};
 use basemat::structure::{RigidBlock, RigidBody};
-use basemat::{Error, Result, Simulation, Soil, StepError};
+use basemat::{Error, Result, Simulation, Soil, StabilityError, StepError};
 
 use super::cells::{BED, Bed, Cells, Waves};
 
@@ -301,7 +301,27 @@ fn loads_at_the_start_are_carried_by_friction() {
     }
     let run = simulation.run(100, |_| {}).unwrap();
     assert!(run.whole.largest_slip.magnitude() < 1e-12 && run.energy_error < 1e-9);
-    assert!(build(0.6).is_err(), "more than friction");
+    // More than friction.
+    let Error::Stability(cause) = build(0.6).unwrap_err() else { panic!("another error") };
+    let StabilityError::Sliding { ratio, .. } = *cause else { panic!("{cause}") };
+    assert!((ratio - 1.2).abs() < 1e-9, "{ratio}");
+}
+
+/// A moment about either axis whose resultant passes beside the base.
+#[test]
+fn moments_overturn_about_either_axis() {
+    let weight = 9.80665 * 2000.0 * CUBE.iter().product::<f64>();
+    for (dof, sign) in [(3, 1.0), (3, -1.0), (4, 1.0)] {
+        let built = Simulation::builder(4e-3)
+            .structure(RigidBody::cuboid(CUBE, 2000.0).unwrap())
+            .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
+            .interface(Coulomb::new(0.5).unwrap())
+            .load(Load::new(dof, move |_| 3.6 * sign * weight))
+            .build();
+        let Error::Stability(cause) = built.unwrap_err() else { panic!("another error") };
+        let StabilityError::Overturning { ratio, .. } = *cause else { panic!("{cause}") };
+        assert!((ratio - 1.2).abs() < 1e-9, "{ratio}");
+    }
 }
 
 /// A wave that runs across the mat.
