@@ -1,5 +1,5 @@
-//! GOAL: bonded bases in plan march in three directions, on any ground that has three.
-//! SCENE: rigid bodies on independent springs and dashpots under each cell.
+//! GOAL: bases in plan march in three directions, on any ground that has three: bonded, lifting off, sliding.
+//! SCENE: rigid bodies on independent springs and dashpots under each cell, and on elastic ground.
 //! REFERENCE: equations of motion integrated here, Newton's law, the same body in the plane, symmetry.
 
 mod cells;
@@ -7,7 +7,9 @@ mod elastic;
 mod equations;
 mod march;
 mod mast;
+mod random;
 mod refused;
+mod sliding;
 mod springs;
 mod storeys;
 mod uplift;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use basemat::bem::ElasticGround;
 use basemat::bem::layered::Stages;
-use basemat::interface::Coulomb;
+use basemat::bem::{ElasticGround, SharedKernels};
+use basemat::interface::{Coulomb, Mode};
 use basemat::motion::FreeField;
 use basemat::structure::RigidBody;
 use basemat::{Simulation, Soil};
@@ -79,21 +79,37 @@ fn a_block_that_lifts_and_slides_follows_the_table() {
     let numbers = |line: &str| line.split(',').map(|number| number.parse().unwrap()).collect();
     let rows: Vec<Vec<f64>> = table.lines().skip(1).map(numbers).collect();
     assert_eq!(rows.len(), 300);
-    for (cells, gates) in [
-        (16, [1e-5; 8]),
-        (8, [2e-2, 1e-2, 1e-2, 1e-2, 1e-2, 2e-2, 3e-2, 1e-2]),
-    ] {
+    for (cells, gates) in
+        [(16, [1e-5; 9]), (8, [2e-2, 1e-2, 1e-2, 1e-2, 1e-2, 2e-2, 3e-2, 1e-2, 1e-2])]
+    {
         let mut simulation = block(cells, Shake);
-        let (mut errors, mut sizes) = ([0.0; 8], [0.0; 8]);
+        let area = |e: usize| {
+            let ground = simulation.ground();
+            let [front, back] = ground.depth(e);
+            ground.elements()[e].length() * (back - front) * ground.fraction_inside(e)
+        };
+        let areas: Vec<f64> = (0..cells * cells).map(area).collect();
+        assert!((areas.iter().sum::<f64>() - 4.0).abs() < 1e-12, "the mat's own area");
+        let (mut errors, mut sizes) = ([0.0; 9], [0.0; 9]);
         let (mut row, mut iterations) = (rows.iter(), 0);
-        let mut worst = 0.0_f64;
+        let (mut worst, mut least, mut friction) = (0.0_f64, 0.0_f64, 0.0);
+        let mut before = simulation.state().contact.clone();
         let run = simulation.run(300, |state| {
             let u = state.absolute_displacement();
             let energy = &state.energy_balance;
-            let found =
-                [-u[2], u[0], -u[1], u[3], -u[4], -u[5], state.uplifted_fraction, energy.soil];
+            for ((own, last), area) in state.contact.iter().zip(&before).zip(&areas) {
+                let along = own.shear * (own.slip - last.slip);
+                let work = area * (along + own.shear_across * (own.slip_across - last.slip_across));
+                friction += work;
+                least = least.min(work);
+            }
+            before.copy_from_slice(&state.contact);
+            let open = state.modes.iter().filter(|mode| **mode == Mode::Open).count();
+            let open = open as f64 / areas.len() as f64;
+            assert!((open - state.uplifted_fraction).abs() < 0.05);
+            let found = [-u[2], u[0], -u[1], u[3], -u[4], -u[5], open, energy.soil, friction];
             let wanted = &row.next().unwrap()[1..];
-            for k in 0..8 {
+            for k in 0..9 {
                 errors[k] += (found[k] - wanted[k]).powi(2);
                 sizes[k] += wanted[k].powi(2);
             }
@@ -101,9 +117,10 @@ fn a_block_that_lifts_and_slides_follows_the_table() {
             worst = worst.max(energy.residual());
         });
         let run = run.unwrap();
-        let errors: [f64; 8] = std::array::from_fn(|k| f64::sqrt(errors[k] / sizes[k]));
+        let errors: [f64; 9] = std::array::from_fn(|k| f64::sqrt(errors[k] / sizes[k]));
         println!("{cells}: {errors:?}, {iterations} iterations, {:?}", run.fallbacks);
         assert!(worst < 1e-9, "{worst:e}");
+        assert!(least > -1e-10 * friction, "{least:e} of {friction:e}");
         for (error, gate) in errors.iter().zip(gates) {
             assert!(*error < gate, "{cells}: {errors:?}");
         }
@@ -140,4 +157,58 @@ fn diagonals_are_alike() {
         let across = largest(&along, k);
         assert!(across < 1e-12 * size, "{name}: {across:e} of {size:e}");
     }
+}
+
+/// Sines along x, y and upwards that never end.
+struct Sines;
+
+impl FreeField for Sines {
+    fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
+        unreachable!("a ground in plan asks for three directions")
+    }
+
+    fn displacement_at(&self, _: [f64; 2], time: f64) -> [f64; 3] {
+        let sine = |share: f64, frequency: f64, phase: f64| {
+            let angle = 2.0 * PI * frequency * time;
+            share * GRAVITY / (2.0 * PI * frequency).powi(2) * ((angle + phase).sin() - phase.sin())
+        };
+        [sine(1.2, 0.06, 0.3), sine(-0.9, 0.047, 1.1), sine(0.4, 0.09, 0.7)]
+    }
+}
+
+/// Three steps, three masses, three coefficients of friction: W from well conditioned to hardly so.
+#[test]
+fn hard_steps_are_solved() {
+    let kernels = SharedKernels::default();
+    let mut all = (0, 0);
+    for crossed in [0.4, 1.9, 7.8] {
+        for mass in [16.0, 1.0, 0.2] {
+            for friction in [0.3, 1.0, 3.0] {
+                let body = RigidBody::cuboid([2.0, 2.0, 4.0], mass / 16.0).unwrap();
+                let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+                let ground = ElasticGround::under(soil, &body, 8).unwrap();
+                let mut simulation = Simulation::builder(crossed * 2.0 / (8.0 - 0.21))
+                    .structure(body)
+                    .ground(ground.with_stages(Stages::Two).with_shared_kernels(&kernels))
+                    .interface(Coulomb::new(friction).unwrap())
+                    .motion(Sines)
+                    .gravity(GRAVITY)
+                    .expected_steps(120)
+                    .build()
+                    .unwrap();
+                let run = simulation.run(120, |_| {}).unwrap();
+                println!(
+                    "{crossed} {mass} {friction}: {:.1} iterations, {:?}, energy {:.1e}, open {:.2}, slip {:.1e}",
+                    run.trials as f64 / 120.0,
+                    run.fallbacks,
+                    run.energy_error,
+                    run.whole.uplifted_fraction.magnitude(),
+                    run.whole.largest_slip.magnitude(),
+                );
+                assert!(run.energy_error < 1e-9, "{}", run.energy_error);
+                all = (all.0 + run.trials, all.1 + run.steps);
+            }
+        }
+    }
+    assert!(all.0 < 40 * all.1, "{all:?}");
 }

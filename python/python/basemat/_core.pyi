@@ -19,7 +19,7 @@ MODES: list[_Mode]
 STANDARD_GRAVITY: float
 """9.80665 m/s²."""
 
-_Mode: TypeAlias = Literal["stick", "slip left", "slip right", "open", "yield", "yield left", "yield right"]
+_Mode: TypeAlias = Literal["stick", "slip left", "slip right", "open", "yield", "yield left", "yield right", "slip", "yield slip"]
 _History: TypeAlias = Literal["auto", "direct", "relaxed fft", "exponentials"]
 _Grading: TypeAlias = Literal["cosine", "uniform"]
 _StripContact: TypeAlias = Literal["bonded", "relaxed"]
@@ -1503,8 +1503,8 @@ class State:
     def trials(self) -> int:
         """Number of linear solves that the search for contact modes needed."""
     @property
-    def method(self) -> Literal["active set", "gauss-seidel", "path"]:
-        """Method that found the modes: "active set", "gauss-seidel" or "path"."""
+    def method(self) -> Literal["active set", "gauss-seidel", "path", "newton", "proximal"]:
+        """Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal"."""
     @property
     def displacement(self) -> NDArray[np.float64]:
         """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
@@ -2157,7 +2157,7 @@ class Condition:
 @final
 class ContactState:
     """Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
-    (positive in compression) and ``shear`` (Pa); 0 by default.
+    (positive in compression) and ``shear`` (Pa); in plan ``slip_across`` and ``shear_across`` along y; 0 by default.
     """
 
     @property
@@ -2172,8 +2172,21 @@ class ContactState:
     @property
     def shear(self) -> float:
         """Shear traction of the structure on the soil, Pa; positive to the right."""
+    @property
+    def slip_across(self) -> float:
+        """In plan: slip along y, m."""
+    @property
+    def shear_across(self) -> float:
+        """In plan: shear traction along y, Pa."""
     def __new__(
-        cls, *, gap: float = 0.0, slip: float = 0.0, pressure: float = 0.0, shear: float = 0.0
+        cls,
+        *,
+        gap: float = 0.0,
+        slip: float = 0.0,
+        pressure: float = 0.0,
+        shear: float = 0.0,
+        slip_across: float = 0.0,
+        shear_across: float = 0.0,
     ) -> Self: ...
 
 @final

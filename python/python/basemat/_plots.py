@@ -8,7 +8,7 @@ import numpy as np
 
 from ._core import MODES, Impedances, Run, SoilProfile, Spectrum
 
-_COLORS = ("#d9d9d9", "#fdae6b", "#e6550d", "#3182bd", "#74c476", "#31a354", "#006d2c")
+_COLORS = ("#d9d9d9", "#fdae6b", "#e6550d", "#3182bd", "#74c476", "#31a354", "#006d2c", "#e6550d", "#006d2c")
 """Of the modes, in their order."""
 
 

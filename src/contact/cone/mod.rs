@@ -3,7 +3,8 @@
 //! 1. Where nothing slid in the step before, its statuses are tried, with factors made once while they stay.
 //! 2. Sweeps over the elements, from the forces of the step before.
 //! 3. Newton's method, and both again from where it has led.
-//! 4. The proximal point method around both.
+//! 4. Newton's method from other forces, with parts of its steps.
+//! 5. The proximal point method around all of them.
 //!
 //! W is symmetric and positive definite, so that a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); by small
 //! friction there is one. The shear of a sliding element lies on its disc against the slip of the same solution: its
@@ -16,6 +17,8 @@ mod newton;
 mod problem;
 mod proximal;
 mod sweeps;
+#[cfg(test)]
+mod tests;
 
 use super::method::SearchMethod;
 use super::problem::{ContactInput, ContactSolver};
@@ -31,6 +34,15 @@ use proximal::Proximal;
 const SWEEPS: usize = 60;
 /// Rounds of sweeps and Newton's method, alone and within the proximal method.
 const ROUNDS: usize = 12;
+/// Friction coefficient that stands for an infinite one: an element that opens under shear needs a pressure, however
+/// small, until it is open.
+const ENDLESS: f64 = 1e4;
+/// The same in steps that are not solved with it, nor with others above this.
+const GRIP: f64 = 100.0;
+/// Attempts of Newton's method with parts of steps: alone, with endless friction, and within the proximal method.
+const ATTEMPTS: u64 = 60;
+const SOME_ATTEMPTS: u64 = 12;
+const FEW_ATTEMPTS: u64 = 4;
 /// Gap of a bond that is gone, relative to the largest displacement.
 const GONE: f64 = 1e-12;
 
@@ -46,6 +58,8 @@ pub(super) struct Cone {
     generation: Option<usize>,
     /// Elements whose bonds have gone in this step.
     broken: Vec<bool>,
+    /// Forces that a search begins with.
+    start: Vec<f64>,
 }
 
 impl Cone {
@@ -60,6 +74,7 @@ impl Cone {
             layers: vec![[0.0; 2]; count],
             generation: None,
             broken: vec![false; count],
+            start: vec![0.0; 3 * count],
         }
     }
 
@@ -73,7 +88,9 @@ impl Cone {
     ) -> Result<(usize, SearchMethod), StepError> {
         self.take(solver.generation, input)?;
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
-        modes.iter_mut().for_each(|mode| *mode = mode.in_plan());
+        for mode in modes.iter_mut() {
+            *mode = mode.in_plan();
+        }
         let tried = self.repeat(modes);
         if tried {
             trials += 1;
@@ -81,7 +98,8 @@ impl Cone {
         if !(tried && self.problem.is_solved()) {
             self.begin(input);
             loop {
-                let (iterations, found) = self.search();
+                let Self { problem, newton, proximal, start, .. } = self;
+                let (iterations, found) = search(problem, newton, proximal, start);
                 trials += iterations;
                 let Some(found) = found else { return Err(self.failure(trials)) };
                 method = method.max(found);
@@ -95,7 +113,11 @@ impl Cone {
         let layout = ContactLayout::new(SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
             let [_, e] = layout.origin(i);
-            *traction = self.problem.r[i] / self.areas[e] - input.static_traction[i];
+            // To the last bit, where nothing is left.
+            *traction = match self.problem.force(i) {
+                0.0 => -input.static_traction[i],
+                _ => self.problem.change[i] / self.areas[e],
+            };
         }
         StepError::check_finite("contact traction", &solver.traction)?;
         solver.evaluate(input);
@@ -203,27 +225,9 @@ impl Cone {
         for (e, area) in self.areas.iter().enumerate() {
             let traction = input.start.state(e).traction();
             for (i, traction) in self.problem.places(e).into_iter().zip(traction) {
-                self.problem.r[i] = area * traction;
+                self.problem.set(i, area * traction);
             }
         }
-    }
-
-    /// One method after the other: iterations, and the last that was needed.
-    fn search(&mut self) -> (usize, Option<SearchMethod>) {
-        let Self { problem, newton, proximal, .. } = self;
-        let (iterations, found) = rounds(problem, newton);
-        if found.is_some() {
-            return (iterations, found);
-        }
-        let mut all = iterations;
-        let found = proximal.solve(problem, |problem| {
-            newton.forget();
-            let (iterations, found) = rounds(problem, newton);
-            all += iterations;
-            found.is_some()
-        });
-        newton.forget();
-        (all, found.then_some(SearchMethod::Proximal))
     }
 
     /// Takes the bonds of elements that have opened; whether there were any.
@@ -259,11 +263,58 @@ impl Cone {
         let problem = &mut self.problem;
         let residual = problem.residual();
         let tolerance = problem.tolerance();
-        let missed = |e: &usize| !(problem.miss(*e) <= tolerance);
+        let missed = |e: &usize| problem.miss(*e) > tolerance || problem.miss(*e).is_nan();
         let elements = (0..problem.count).filter(missed).collect();
-        let scale = largest(&problem.r).max(problem.scale).max(f64::MIN_POSITIVE);
+        let scale = problem.largest().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }
     }
+}
+
+/// One method after the other, `start` being scratch: iterations, and the last that was needed.
+fn search(
+    problem: &mut Problem,
+    newton: &mut Newton,
+    proximal: &mut Proximal,
+    start: &mut [f64],
+) -> (usize, Option<SearchMethod>) {
+    start.copy_from_slice(&problem.change);
+    let (mut all, found) = rounds(problem, newton);
+    if found.is_some() {
+        return (all, found);
+    }
+    if problem.bounds.iter().any(|bounds| bounds.friction > GRIP) {
+        let (iterations, found) = newton.wander(problem, start, SOME_ATTEMPTS);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+        problem.bounds.iter_mut().for_each(|bounds| bounds.friction = bounds.friction.min(GRIP));
+        problem.change.copy_from_slice(start);
+        let (iterations, found) = rounds(problem, newton);
+        all += iterations;
+        if found.is_some() {
+            return (all, found);
+        }
+    }
+    let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
+    all += iterations;
+    if found {
+        return (all, Some(SearchMethod::Newton));
+    }
+    problem.change.copy_from_slice(start);
+    let found = proximal.solve(problem, |problem| {
+        newton.forget();
+        start.copy_from_slice(&problem.change);
+        let (iterations, found) = rounds(problem, newton);
+        all += iterations;
+        found.is_some() || {
+            let (iterations, found) = newton.wander(problem, start, FEW_ATTEMPTS);
+            all += iterations;
+            found
+        }
+    });
+    newton.forget();
+    (all, found.then_some(SearchMethod::Proximal))
 }
 
 /// Sweeps and Newton's method in turn: iterations, and the last that was needed.
@@ -282,8 +333,8 @@ fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMe
             return (all, Some(SearchMethod::Newton));
         }
         // From forces that are none.
-        if problem.r.iter().any(|r| !r.is_finite()) {
-            problem.r.fill(0.0);
+        if problem.change.iter().any(|change| !change.is_finite()) {
+            problem.change.fill(0.0);
         }
     }
     (all, None)
@@ -300,7 +351,7 @@ fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> 
 /// The same of an area, m².
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
-        friction: limits.friction,
+        friction: limits.friction.min(ENDLESS),
         attraction: limits.attraction * area,
         strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],

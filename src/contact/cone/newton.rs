@@ -15,6 +15,9 @@ use crate::linalg::DenseFactor;
 
 /// Iterations.
 const ITERATIONS: usize = 15;
+/// Iterations with parts of steps, and the least part.
+const WANDERED: usize = 60;
+const LEAST: f64 = 0.2;
 
 /// What an element does by its trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +51,16 @@ pub(super) enum Tangential {
 }
 
 impl Status {
+    /// What it is without its numbers.
+    fn kind(&self) -> (Normal, u8) {
+        let tangential = match self.tangential {
+            Tangential::Free => 0,
+            Tangential::Stick => 1,
+            Tangential::Slip { .. } => 2,
+        };
+        (self.normal, tangential)
+    }
+
     /// Closed without slip.
     pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
     /// Without any force.
@@ -66,6 +79,9 @@ pub(super) struct Newton {
     /// Statuses whose factors are held, if they are: without slip.
     held: Vec<Status>,
     is_held: bool,
+    /// Kinds of the statuses and changes of force, an iteration before.
+    kinds: Vec<(Normal, u8)>,
+    before: Vec<f64>,
 }
 
 impl Newton {
@@ -80,6 +96,8 @@ impl Newton {
             factor: DenseFactor::with_capacity(size),
             held: vec![Status::STICK; count],
             is_held: false,
+            kinds: Vec::with_capacity(count),
+            before: vec![0.0; size],
         }
     }
 
@@ -103,6 +121,67 @@ impl Newton {
         (ITERATIONS, problem.is_solved())
     }
 
+    /// Makes so many attempts, from `start`, from nothing, and from where all elements stick. Until the statuses stay,
+    /// each element takes a part of its own of every step: iterates that come back in a circle do not.
+    pub(super) fn wander(
+        &mut self,
+        problem: &mut Problem,
+        start: &[f64],
+        attempts: u64,
+    ) -> (usize, bool) {
+        let mut all = 0;
+        for attempt in 0..attempts {
+            match attempt % 3 {
+                0 => problem.change.copy_from_slice(start),
+                1 => (0..problem.size()).for_each(|i| problem.set(i, 0.0)),
+                _ => {
+                    self.statuses.fill(Status::STICK);
+                    self.step(problem);
+                }
+            }
+            let (iterations, found) = self.attempt(problem, attempt);
+            all += iterations;
+            if found {
+                return (all, true);
+            }
+        }
+        (all, false)
+    }
+
+    /// One attempt, by its number.
+    fn attempt(&mut self, problem: &mut Problem, number: u64) -> (usize, bool) {
+        let mut state = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+        self.kinds.clear();
+        for iteration in 0..WANDERED {
+            if problem.is_solved() {
+                return (iteration, true);
+            }
+            self.before.copy_from_slice(&problem.change);
+            self.classify(problem, number % 2 == 1);
+            let stays = self.kinds.iter().copied().eq(self.statuses.iter().map(Status::kind));
+            self.kinds.clear();
+            self.kinds.extend(self.statuses.iter().map(Status::kind));
+            if !self.step(problem) {
+                return (iteration + 1, false);
+            }
+            if stays {
+                continue;
+            }
+            for e in 0..problem.count {
+                // A generator of Marsaglia's (2003).
+                state ^= state << 13;
+                state ^= state >> 7;
+                state ^= state << 17;
+                let part = LEAST + (1.0 - LEAST) * (state >> 11) as f64 / (1_u64 << 53) as f64;
+                for i in problem.places(e) {
+                    let (old, new) = (self.before[i], problem.change[i]);
+                    problem.change[i] = old + part * (new - old);
+                }
+            }
+        }
+        (WANDERED, problem.is_solved())
+    }
+
     /// Statuses by the trials of the present r and y.
     pub(super) fn classify(&mut self, problem: &Problem, ahead: bool) {
         for (e, status) in self.statuses.iter_mut().enumerate() {
@@ -119,7 +198,7 @@ impl Newton {
             } else {
                 Normal::Closed
             };
-            let pressing = if ahead { bounds.press(p) } else { problem.r[e] };
+            let pressing = if ahead { bounds.press(p) } else { problem.force(e) };
             let radius = bounds.radius(pressing);
             let size = x.hypot(y);
             let tangential = if radius == 0.0 && (normal == Normal::Open || bounds.friction == 0.0)
@@ -128,7 +207,7 @@ impl Newton {
             } else if size <= radius {
                 Tangential::Stick
             } else {
-                let slope = if pressing + bounds.attraction > 0.0 { bounds.slope() } else { 0.0 };
+                let slope = if pressing + bounds.attraction > 0.0 { bounds.friction } else { 0.0 };
                 Tangential::Slip { direction: [x / size, y / size], turn: radius / size, slope }
             };
             *status = Status { normal, tangential };
@@ -153,7 +232,7 @@ impl Newton {
         self.balance(problem);
         self.factor.solve(&mut self.rhs);
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
-            problem.r[i] = *value;
+            problem.change[i] = *value;
         }
         self.rhs.iter().all(|value| value.is_finite())
     }
@@ -171,12 +250,11 @@ impl Newton {
                     (1 | 2, _, Tangential::Free) => Some(0.0),
                     _ => None,
                 };
-                match fixed {
-                    Some(value) => problem.r[i] = value,
-                    None => {
-                        problem.r[i] = 0.0;
-                        self.dofs.push(i);
-                    }
+                if let Some(value) = fixed {
+                    problem.set(i, value);
+                } else {
+                    problem.change[i] = 0.0;
+                    self.dofs.push(i);
                 }
             }
         }
@@ -232,13 +310,15 @@ impl Newton {
             let scale = problem.rho[e][component.min(1)];
             self.rhs.push(match (component, self.statuses[e].tangential) {
                 (0, _) => scale * (bounds.offset - self.known[i]),
-                (1, Tangential::Slip { slope, .. }) => {
-                    // Of a p that is known; of an unknown one it is zero here.
-                    let force = slope * (problem.r[n] + bounds.attraction) + bounds.strength;
-                    force / slope.max(1.0)
+                (1, Tangential::Slip { direction, slope, .. }) => {
+                    // Forces as they are without changes, and p where it is known.
+                    let along = direction[0] * problem.anchor[x] + direction[1] * problem.anchor[y];
+                    let radius = slope * (problem.force(n) + bounds.attraction) + bounds.strength;
+                    (radius - along) / slope.max(1.0)
                 }
                 (2, Tangential::Slip { direction: [c, s], turn, .. }) => {
-                    -turn * tangential * (c * self.known[y] - s * self.known[x])
+                    let across = |values: &[f64]| c * values[y] - s * values[x];
+                    (turn - 1.0) * across(&problem.anchor) - turn * tangential * across(&self.known)
                 }
                 _ => -scale * self.known[i],
             });

@@ -11,11 +11,8 @@
 //! offset of a closed gap, then t on the disc. That is Signorini's and Coulomb's law at the level of displacements, with
 //! elastic layers in W's diagonal.
 
-use crate::linalg::{dense_multiply_add, largest};
+use crate::linalg::dense_multiply_add;
 
-/// Friction coefficient that stands for an infinite one: an element that opens under shear needs a pressure, however
-/// small, until it is open.
-const GRIP: f64 = 1e3;
 /// Residual of a solution, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
 
@@ -50,13 +47,8 @@ impl Bounds {
         if self.bonded {
             f64::INFINITY
         } else {
-            self.slope() * (p + self.attraction).max(0.0) + self.strength
+            self.friction * (p + self.attraction).max(0.0) + self.strength
         }
-    }
-
-    /// Growth of the radius with p.
-    pub(super) fn slope(&self) -> f64 {
-        self.friction.min(GRIP)
     }
 
     /// Whether the element bears tension, or shear without pressure.
@@ -94,14 +86,14 @@ pub(super) struct Problem {
     /// r₀.
     pub(super) anchor: Vec<f64>,
     pub(super) bounds: Vec<Bounds>,
-    pub(super) r: Vec<f64>,
+    /// r − r₀, which does not lose a small change of a large force.
+    pub(super) change: Vec<f64>,
     pub(super) y: Vec<f64>,
     /// ρ of each element: normal, tangential.
     pub(super) rho: Vec<[f64; 2]>,
     /// Force to which the residual is relative beside r, N, and the least residual that can be told.
     pub(super) scale: f64,
     pub(super) finest: f64,
-    difference: Vec<f64>,
 }
 
 impl Problem {
@@ -113,12 +105,11 @@ impl Problem {
             q: zero(),
             anchor: zero(),
             bounds: vec![Bounds::NONE; count],
-            r: zero(),
+            change: zero(),
             y: zero(),
             rho: vec![[0.0; 2]; count],
             scale: 0.0,
             finest: 0.0,
-            difference: zero(),
         }
     }
 
@@ -152,21 +143,18 @@ impl Problem {
 
     /// y of the present r.
     pub(super) fn respond(&mut self) {
-        let Self { w, q, anchor, r, y, difference, .. } = self;
-        for ((d, r), anchor) in difference.iter_mut().zip(&*r).zip(&*anchor) {
-            *d = r - anchor;
-        }
+        let Self { w, q, change, y, .. } = self;
         y.copy_from_slice(q);
-        dense_multiply_add(w, 1.0, difference, y);
+        dense_multiply_add(w, 1.0, change, y);
     }
 
     /// p and t before they are projected.
     pub(super) fn trial(&self, e: usize) -> [f64; 3] {
         let ([n, x, y], [normal, tangential]) = (self.places(e), self.rho[e]);
         [
-            self.r[n] - normal * (self.y[n] - self.bounds[e].offset),
-            self.r[x] - tangential * self.y[x],
-            self.r[y] - tangential * self.y[y],
+            self.force(n) - normal * (self.y[n] - self.bounds[e].offset),
+            self.force(x) - tangential * self.y[x],
+            self.force(y) - tangential * self.y[y],
         ]
     }
 
@@ -176,7 +164,7 @@ impl Problem {
         let [n, x, y] = self.places(e);
         let p = bounds.press(p);
         let [tx, ty] = bounds.shear(p, [tx, ty]);
-        let parts = [p - self.r[n], tx - self.r[x], ty - self.r[y]];
+        let parts = [p - self.force(n), tx - self.force(x), ty - self.force(y)];
         // A sum of magnitudes does not lose NaN.
         parts.iter().map(|part| part.abs()).sum()
     }
@@ -188,9 +176,24 @@ impl Problem {
         (0..self.count).map(|e| self.miss(e)).fold(0.0, larger)
     }
 
+    /// Component of r.
+    pub(super) fn force(&self, i: usize) -> f64 {
+        self.anchor[i] + self.change[i]
+    }
+
+    /// Sets a component of r.
+    pub(super) fn set(&mut self, i: usize, force: f64) {
+        self.change[i] = force - self.anchor[i];
+    }
+
+    /// Force to which residuals are relative, N.
+    pub(super) fn largest(&self) -> f64 {
+        (0..self.size()).fold(self.scale, |most, i| most.max(self.force(i).abs()))
+    }
+
     /// Residual at which r is a solution, N.
     pub(super) fn tolerance(&self) -> f64 {
-        (TOLERANCE * largest(&self.r).max(self.scale)).max(self.finest)
+        (TOLERANCE * self.largest()).max(self.finest)
     }
 
     /// Whether the present r is a solution.

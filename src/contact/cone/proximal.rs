@@ -13,11 +13,14 @@ const ITERATIONS: usize = 60;
 pub(super) struct Proximal {
     q: Vec<f64>,
     diagonal: Vec<f64>,
+    /// The last iterate.
+    center: Vec<f64>,
 }
 
 impl Proximal {
     pub(super) fn new(count: usize) -> Self {
-        Self { q: vec![0.0; 3 * count], diagonal: vec![0.0; 3 * count] }
+        let zero = || vec![0.0; 3 * count];
+        Self { q: zero(), diagonal: zero(), center: zero() }
     }
 
     /// Finds the solution of `problem` by `solve`, which solves one that is changed; whether it did.
@@ -28,6 +31,7 @@ impl Proximal {
     ) -> bool {
         let size = problem.size();
         self.q.copy_from_slice(&problem.q);
+        self.center.copy_from_slice(&problem.change);
         for i in 0..size {
             self.diagonal[i] = problem.w[i * (size + 1)];
         }
@@ -38,7 +42,7 @@ impl Proximal {
             let added = share * mean;
             for i in 0..size {
                 problem.w[i * (size + 1)] = self.diagonal[i] + added;
-                problem.q[i] = self.q[i] - added * (problem.r[i] - problem.anchor[i]);
+                problem.q[i] = self.q[i] - added * self.center[i];
             }
             problem.find_scales();
             let solved = solve(problem);
@@ -47,9 +51,15 @@ impl Proximal {
             }
             problem.q.copy_from_slice(&self.q);
             problem.find_scales();
-            share *= if solved { 0.5 } else { 3.0 };
+            if !solved {
+                problem.change.copy_from_slice(&self.center);
+                share *= 3.0;
+                continue;
+            }
+            self.center.copy_from_slice(&problem.change);
+            share *= 0.5;
             found = problem.is_solved();
-            if found || !share.is_finite() {
+            if found {
                 break;
             }
         }

@@ -43,7 +43,7 @@ impl Problem {
         let places = self.places(e);
         let bounds = self.bounds[e];
         let [normal, tangential] = self.rho[e];
-        let start = places.map(|i| self.r[i]);
+        let start = places.map(|i| self.force(i));
         let (mut r, mut y) = (start, places.map(|i| self.y[i]));
         let mut block = None;
         for _ in 0..LOCAL {
@@ -74,7 +74,7 @@ impl Problem {
                 // W is symmetric: its rows are its columns.
                 let size = self.size();
                 transposed_multiply_add(&self.w[i * size..][..size], 1.0, &[moved], &mut self.y);
-                self.r[i] = r[k];
+                self.set(i, r[k]);
             }
             change += moved.abs();
         }

@@ -72,17 +72,15 @@ impl StaticState {
 
     /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+        let is_plan = self.traction.len() > PLANE * self.modes.len();
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
             let known = law_of(laws, e).modes();
-            let opens = known.contains(mode) && !mode.is_closed();
-            if opens {
+            if known.contains(mode) && !mode.is_closed() {
                 *mode
+            } else if is_plan {
+                known[0].in_plan()
             } else {
-                if self.traction.len() > PLANE * self.modes.len() {
-                    known[0].in_plan()
-                } else {
-                    known[0]
-                }
+                known[0]
             }
         });
         modes.collect()

@@ -172,7 +172,7 @@ impl Parts {
         let gravity = given.static_gravity();
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         if elements.is_plan() {
-            check_limits(&given.laws, given.search, time_step)?;
+            check_limits(&given)?;
         }
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let dofs = structure.dofs();
@@ -224,12 +224,9 @@ fn check_motion(given: &Given, dofs: usize) -> Result<()> {
 /// each of the contact elements, `tractions` numbers, twice while they are computed.
 fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     matrix::check_order("degrees of freedom of the structure", dofs)?;
-    let responses = 16.0 * dofs as f64 * tractions as f64;
-    Ok(memory::check(
-        "degrees of freedom of the structure on its contact elements",
-        dofs as f64,
-        responses,
-    )?)
+    let (responses, dofs) = (16.0 * dofs as f64 * tractions as f64, dofs as f64);
+    let quantity = "degrees of freedom of the structure on its contact elements";
+    Ok(memory::check(quantity, dofs, responses)?)
 }
 
 /// The ground's instantaneous operator: with rows weighted by the elements' areas, its symmetric part
@@ -289,24 +286,19 @@ fn check_laws(
 }
 
 /// Refuses laws without limits on a ground in plan, and the search of the plane.
-fn check_limits(
-    laws: &[Box<dyn InterfaceLaw>],
-    search: ContactSearch,
-    time_step: f64,
-) -> Result<()> {
-    if search != ContactSearch::Robust {
+fn check_limits(given: &Given) -> Result<()> {
+    if given.search != ContactSearch::Robust {
         let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
         return Err(Error::Scene { quantity: "contact search", needed });
     }
-    let start = PreviousContact::new(ContactState::default(), Mode::Stick, time_step);
-    for law in laws {
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, given.time_step);
+    given.laws.iter().try_for_each(|law| {
         let mut memory = vec![0.0; law.state_variables()];
         if !memory.is_empty() {
             law.initial_state_variables(&start, &mut memory);
         }
-        law.limits(&start.with_memory(&memory))?;
-    }
-    Ok(())
+        law.limits(&start.with_memory(&memory)).map(|_| ())
+    })
 }
 
 /// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one

@@ -158,7 +158,7 @@ quantities! {
         |base| base.pick(base.state.mean_slip, |own| own.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.contact().iter().fold(0.0, |largest, own| own.slip.abs().max(largest));
+        |base| base.contact().iter().fold(0.0, |largest, own| own.slip.hypot(own.slip_across).max(largest));
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.pick(base.state.base_rotation, |own| own.base_rotation);

@@ -339,14 +339,11 @@ mod tests {
     use crate::structure::{ContactNode, on_line};
 
     fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
-        let depths = vec![[0.0, 1.0]; elements.len()];
+        let count = elements.len();
+        let (depths, inside) = (vec![[0.0, 1.0]; count], vec![1.0; count]);
         let nodes = on_line(nodes);
         check_base_nodes(&nodes, dofs)?;
-        Base::on_line(
-            nodes,
-            &[],
-            &Patch::new(PLANE, elements.to_vec(), depths, vec![1.0; elements.len()])?,
-        )
+        Base::on_line(nodes, &[], &Patch::new(PLANE, elements.to_vec(), depths, inside)?)
     }
 
     #[test]

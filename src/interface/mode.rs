@@ -1,0 +1,99 @@
+//! Modes of an element: what it does in a step.
+
+/// Contact mode of an element during a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Mode {
+    /// Closed, no slip (and the only mode of a bonded element).
+    Stick,
+    /// Closed; the structure slides to the left over the soil.
+    SlipLeft,
+    /// Closed; the structure slides to the right over the soil.
+    SlipRight,
+    /// Uplifted: no traction.
+    Open,
+    /// Closed, no slip; the soil yields under the pressure ([`Yielding`](super::Yielding)).
+    Yield,
+    /// The same; the structure slides to the left.
+    YieldLeft,
+    /// The same; the structure slides to the right.
+    YieldRight,
+    /// In plan: closed; the structure slides over the soil in the direction of the shear traction on it.
+    Slip,
+    /// In plan: the same; the soil yields under the pressure.
+    YieldSlip,
+}
+
+words! { Mode, "contact mode", {
+    Stick = "stick",
+    SlipLeft = "slip_left",
+    SlipRight = "slip_right",
+    Open = "open",
+    Yield = "yield",
+    YieldLeft = "yield_left",
+    YieldRight = "yield_right",
+    Slip = "slip",
+    YieldSlip = "yield_slip",
+} }
+
+impl Mode {
+    /// Whether the element is closed.
+    pub fn is_closed(self) -> bool {
+        self != Mode::Open
+    }
+
+    /// Whether the element slides.
+    pub fn is_slip(self) -> bool {
+        matches!(self.elastic(), Mode::SlipLeft | Mode::SlipRight | Mode::Slip)
+    }
+
+    /// Whether the soil under the element yields.
+    pub(crate) fn is_yield(self) -> bool {
+        matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight | Mode::YieldSlip)
+    }
+
+    /// The same mode on soil that does not yield.
+    #[must_use]
+    pub(crate) fn elastic(self) -> Self {
+        match self {
+            Mode::Yield => Mode::Stick,
+            Mode::YieldLeft => Mode::SlipLeft,
+            Mode::YieldRight => Mode::SlipRight,
+            Mode::YieldSlip => Mode::Slip,
+            mode => mode,
+        }
+    }
+
+    /// The same mode on soil that yields; an open element stays open.
+    #[must_use]
+    pub(crate) fn yielding(self) -> Self {
+        match self {
+            Mode::Stick => Mode::Yield,
+            Mode::SlipLeft => Mode::YieldLeft,
+            Mode::SlipRight => Mode::YieldRight,
+            Mode::Slip => Mode::YieldSlip,
+            mode => mode,
+        }
+    }
+
+    /// The same mode on a ground in plan, where slip has any direction.
+    pub(crate) fn in_plan(self) -> Self {
+        match self {
+            Mode::SlipLeft | Mode::SlipRight => Mode::Slip,
+            Mode::YieldLeft | Mode::YieldRight => Mode::YieldSlip,
+            mode => mode,
+        }
+    }
+
+    /// The modes of contact with uplift and Coulomb friction.
+    pub(super) fn with_friction(friction: f64) -> &'static [Self] {
+        if friction == 0.0 {
+            // Either slip mode says the same when there is no friction: one is enough.
+            &[Self::SlipRight, Self::Open]
+        } else {
+            &[Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open]
+        }
+    }
+}
