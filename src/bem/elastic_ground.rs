@@ -8,7 +8,7 @@ use super::layered::{
     Cost, LIMIT, Stages, StripContact, StripImpedance, TOLERANCE, check_limit, check_tolerance,
     rigid_strip_impedances, rigid_strip_impedances_observed,
 };
-use super::plan::Plan;
+use super::plan::{Plan, gate_sample};
 use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
 use crate::error::{Error, Observer, Result, positive};
 use crate::geometry::{ContactElement, check_count, check_order};
@@ -335,6 +335,10 @@ impl Ground for ElasticGround {
 
     fn soils(&self) -> Vec<Soil> {
         self.profile().soils().map(|(soil, _)| soil).collect()
+    }
+
+    fn sampled_cells(&self) -> Option<[usize; 2]> {
+        self.source.plan.as_ref().and_then(gate_sample)
     }
 
     fn history_choice(&self) -> Option<HistoryChoice> {

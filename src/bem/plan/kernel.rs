@@ -22,6 +22,11 @@ const SOME_CELLS: usize = 256;
 const REACH_POINTS: usize = 256;
 const REACH_MARGIN: f64 = 1.02;
 
+/// Cells of a plan that pass the gate, and all, if these are too many.
+pub(in crate::bem) fn gate_sample(plan: &Plan) -> Option<[usize; 2]> {
+    (plan.count() > ALL_CELLS).then_some([SOME_CELLS, plan.count()])
+}
+
 /// Overwrites `matrix` (3Q × 3Q, row-major, m/Pa) with the mean static displacements of the cells of a plan.
 pub(in crate::bem) fn static_compliance(
     profile: &SoilProfile,

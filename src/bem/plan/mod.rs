@@ -30,5 +30,5 @@ mod unions;
 
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};
-pub(super) use kernel::{LatticeKernel, static_compliance};
+pub(super) use kernel::{LatticeKernel, gate_sample, static_compliance};
 pub(super) use unions::Unions;
