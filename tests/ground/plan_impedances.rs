@@ -53,9 +53,10 @@ fn static_rectangles_match_the_table() {
     // Rocking about the longer axis is worst, and the more so the smaller ν is: shear at welded edges oscillates. Extrapolated
     // values of the table are low themselves, by 0.04 % (ν = 1/3) to 0.11 % (ν = 0) of the square's rocking, as 48 cells
     // tell. L/b = 4 is of coarser cells there.
-    let all = [(8, [4e-3, 1.13e-2, 7e-3, 1.1e-2]), (12, [2.5e-3, 6e-3, 3.3e-3, 5e-3])];
+    let all =
+        [(8, [4e-3, 1.13e-2, 4.5e-3, 7e-3, 1.1e-2]), (12, [2.5e-3, 6e-3, 2.5e-3, 3.3e-3, 5e-3])];
     for (cells, gates) in all {
-        let mut worst = [0.0_f64; 4];
+        let mut worst = [0.0_f64; 5];
         for group in rows.chunk_by(|a, b| a[..2] == b[..2]) {
             let (length, poisson) = (number(group[0][0]), number(group[0][1]));
             let plan = Plan::rectangle(-length..length, -1.0..1.0, cells).unwrap();
@@ -65,28 +66,19 @@ fn static_rectangles_match_the_table() {
             for row in group {
                 for (found, wanted) in found.iter().zip(&row[3..]) {
                     let error = (component(found, row[2]).re / number(wanted) - 1.0).abs();
-                    let place = match (length == 4.0, row[2].starts_with('R')) {
-                        (true, _) => 3,
-                        (_, true) => {
-                            if poisson == 0.0 {
-                                1
-                            } else {
-                                2
-                            }
-                        }
-                        _ => 0,
+                    let place = match (length, poisson, row[2].starts_with('R')) {
+                        (4.0, ..) => 4,
+                        (_, _, false) => 0,
+                        (_, 0.0, _) => 1,
+                        (1.0, ..) => 2,
+                        _ => 3,
                     };
                     worst[place] = worst[place].max(error);
-                    // A square has two thirds of it.
-                    assert!(
-                        place != 2 || length > 1.0 || error < 0.68 * gates[2],
-                        "{row:?} {error}"
-                    );
                 }
             }
         }
         println!(
-            "{cells} cells: {worst:.5?} (translations and torsion, rocking ν = 0, ν > 0, L/b = 4)"
+            "{cells} cells: {worst:.5?} (translations, rocking of ν = 0, squares, others, L/b = 4)"
         );
         assert!(worst.iter().zip(gates).all(|(worst, gate)| *worst < gate), "{worst:?}");
     }
