@@ -239,3 +239,31 @@ fn unions_are_sums_of_cells() {
     assert!(l_shape().with_unions(&[1, 2, 1], &[1, 1, 1, 1]).is_err());
     assert!(l_shape().with_unions(&[1, 1, 1, 1], &[1, 1, 1, 1]).is_ok());
 }
+
+/// Without a tolerance memory ends where coefficients are lost in their errors, in a long run on layers.
+#[test]
+fn memory_ends_by_itself() {
+    let steps = 5000;
+    let ground = |tolerance| {
+        let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), l_shape()).unwrap();
+        let mut ground = ground.with_tolerance(tolerance).unwrap();
+        ground.prepare(0.4).unwrap();
+        ground.expect_steps(steps, None).unwrap();
+        ground
+    };
+    let mut ended = ground(1e-10);
+    let found = marched(&mut ended, steps, 7);
+    let bound = ended.increment_error_bound();
+    let choice = ended.history_choice().unwrap();
+    assert!((5e-7..2e-6).contains(&choice.error_bound), "{choice}");
+    let kept = ended.save().unwrap().len() / (3 * 12);
+    assert!(bound > 0.0 && kept < steps - 2000, "{bound:e} {kept}");
+    // Coefficients a hundred times as good, all of them; random tractions cancel, their bound does not.
+    let mut whole = ground(1e-13).with_history(HistoryMethod::RelaxedFft).unwrap();
+    whole.prepare(0.4).unwrap();
+    let wanted = marched(&mut whole, steps, 7);
+    let pairs = found.iter().flatten().zip(wanted.iter().flatten());
+    let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("{error:e} of {bound:e}, {choice}");
+    assert!(0.0 < error && error < bound, "{error:e} {bound:e}");
+}
