@@ -217,7 +217,7 @@ impl ElasticGround {
     }
 
     /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
-    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form, and for cells in plan, of which it is not known.
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
     /// ```
     /// use basemat::Soil;
@@ -237,11 +237,13 @@ impl ElasticGround {
     /// As for [`LayeredKernel::cost`](super::layered::LayeredKernel::cost); [`Error::Input`](crate::Error::Input) for a bad time step.
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
-        let stages = self.source.stages(time_step).filter(|_| self.source.plan.is_none());
-        let Some(stages) = stages else { return Ok(Cost::default()) };
-        let kernel = self.source.layered(self.elements(), time_step, stages)?;
         // Convolutions take lags by powers of two.
-        kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
+        let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX);
+        if let Some(plan) = &self.source.plan {
+            return self.source.in_plan(plan, time_step)?.cost(lags);
+        }
+        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
+        self.source.layered(self.elements(), time_step, stages)?.cost(lags)
     }
 
     /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):

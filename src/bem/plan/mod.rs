@@ -13,11 +13,12 @@
 //! | sh | surface compliance across the wavenumber |
 //! | angular_means, static_cells, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
-//! | kernel | step coefficients by convolution quadrature |
+//! | kernel, cost | step coefficients by convolution quadrature; what they cost |
 //! | sectors, impedance | rigid mats at one frequency |
 
 mod angular_means;
 mod cells;
+mod cost;
 pub(crate) mod faces;
 mod form_table;
 mod impedance;
