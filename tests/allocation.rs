@@ -7,13 +7,17 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use basemat::Simulation;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::{HistoryMethod, HistoryOptions};
-use basemat::interface::{Bonded, Yielding};
+use basemat::interface::{Bonded, Cohesive, InterfaceLaw, Yielding};
+use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::Recorder;
-use basemat::structure::{NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets};
+use basemat::structure::{
+    NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, Triplets,
+};
 
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::needed_from;
@@ -101,6 +105,16 @@ fn allocations(builder: SimulationBuilder) -> (usize, usize) {
     (COUNT.get() - before, changes)
 }
 
+/// A block on a square of cells, shaken along a diagonal.
+fn in_plan(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
+    let body = RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap();
+    let ground = ElasticGround::under(soil(SI), &body, 6).unwrap();
+    let shake = || Some(el_centro_1940().scaled(2.0).unwrap());
+    let motion = Triaxial { x: shake(), y: shake(), up: None };
+    let builder = Simulation::builder(2.5e-3).ground(ground).structure(body);
+    builder.interface(law).motion(motion)
+}
+
 #[test]
 fn steps_do_not_allocate() {
     // The counter counts.
@@ -144,6 +158,10 @@ fn steps_do_not_allocate() {
             let push = Load::new(3, |t: f64| 3e4 * (40.0 * t).sin());
             base().structure(damped()).interface(friction(0.2)).coordinates(modes).load(push)
         }),
+        ("plan, sliding", in_plan(friction(0.3))),
+        ("plan, uplift", in_plan(friction(2.0))),
+        ("plan, yielding", in_plan(Yielding::new(2.5e5, 0.3).unwrap())),
+        ("plan, bonds", in_plan(Cohesive::new(5e4, 5e4, 0.3).unwrap())),
         ("Newton", base().structure(Quadratic(block(SI))).interface(friction(0.3))),
     ];
     for (name, builder) in scenes {

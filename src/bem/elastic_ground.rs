@@ -131,10 +131,10 @@ impl ElasticGround {
         profile.check()?;
         let (elements, depths) = plan.sides();
         check_count(elements.len())?;
-        let unions = plan.unions();
+        let (unions, inside) = (plan.unions(), plan.fractions_inside());
         let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
         let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
-        let ground = WeightsGround::in_plan(source.clone(), elements, depths, unions);
+        let ground = WeightsGround::in_plan(source.clone(), elements, (depths, inside), unions);
         Ok(Self { source, used: None, ground })
     }
 
@@ -316,6 +316,7 @@ impl Ground for ElasticGround {
         fn elements(&self) -> &[ContactElement];
         fn directions(&self) -> usize;
         fn depth(&self, element: usize) -> [f64; 2];
+        fn fraction_inside(&self, element: usize) -> f64;
         fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;

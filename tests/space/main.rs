@@ -1,4 +1,4 @@
-//! GOAL: bonded bases in plan march in three directions, on any ground that has three.
+//! GOAL: bases in plan march in three directions, on any ground that has three: bonded, lifting off, sliding.
 //! SCENE: rigid bodies on independent springs and dashpots under each cell.
 //! REFERENCE: equations of motion integrated here, Newton's law, the same body in the plane, symmetry.
 
@@ -7,6 +7,10 @@ mod elastic;
 mod equations;
 mod march;
 mod mast;
+mod random;
 mod refused;
+mod sliding;
 mod springs;
+mod uplift;
 mod warnings;
+mod winkler;

@@ -1,7 +1,7 @@
 //! Scenes in plan that are none, each with an error that says what is wrong.
 
 use basemat::bem::{Ground, SpringGround};
-use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::interface::{Bonded, InterfaceLaw};
 use basemat::structure::{ContactNode, RigidBlock, RigidBody, Structure, StructureGroup, Triplets};
 use basemat::{Error, PlanError, Result, Simulation};
 
@@ -67,12 +67,6 @@ fn a_base_of_both_kinds() {
     for error in [build(Both(cube()), cells(), Bonded), build(Both(cube()), bed(), Bonded)] {
         assert!(error.to_string().contains("not both"), "{error}");
     }
-}
-
-#[test]
-fn laws_that_slide_or_open() {
-    let error = build(cube(), cells(), Coulomb::new(0.5).unwrap());
-    assert!(matches!(error, Error::Scene { quantity: "interface law", .. }), "{error}");
 }
 
 #[test]

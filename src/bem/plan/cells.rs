@@ -285,6 +285,19 @@ impl Plan {
         (elements, depths)
     }
 
+    /// Part of the area of each contact element that is inside the outline.
+    pub(in crate::bem) fn fractions_inside(&self) -> Vec<f64> {
+        let [a, b] = self.lattice.pitch;
+        let mut sums: Vec<[f64; 2]> = vec![];
+        for (number, inside) in self.inside().into_iter().enumerate() {
+            let owner = self.owners.as_ref().map_or(number, |owners| owners[number]);
+            sums.resize(sums.len().max(owner + 1), [0.0; 2]);
+            sums[owner][0] += inside;
+            sums[owner][1] += a * b;
+        }
+        sums.into_iter().map(|[inside, all]| inside / all).collect()
+    }
+
     /// Numbers that say which cells of which lattice they are.
     pub(in crate::bem) fn identity(&self) -> impl Iterator<Item = f64> {
         let Lattice { pitch, counts } = &self.lattice;

@@ -184,7 +184,7 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
                 gap,
                 slip: length * random.within(-1.0, 1.0),
                 pressure: if open { 0.0 } else { static_traction[e] },
-                shear: 0.0,
+                ..ContactState::default()
             };
             let mut start = PreviousContact::new(state, mode, 1e-3);
             start.has_opened = open || random.chance(0.5);
@@ -218,7 +218,7 @@ fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>,
     let input = problem.input();
     let known = problem.laws[0].modes();
     let count = problem.start.len();
-    let mut search = ModeSearch::new(count, ContactSearch::Robust);
+    let mut search = ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
     let mut found = Vec::new();
     let mut modes = vec![known[0]; count];
     for number in 0..known.len().pow(u32::try_from(count).unwrap()) {
@@ -286,7 +286,8 @@ impl Tally {
         let count = problem.start.len();
         let input = problem.input();
         let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
-        let mut search = ModeSearch::new(count, ContactSearch::Robust);
+        let mut search =
+            ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
         self.problems += 1;
         let all = brute_force(problem, &mut solver);
         let solutions = distinct(&all);

@@ -6,7 +6,7 @@ use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::scene::operators::condense;
 use crate::error::{Error, Result, StepError};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
@@ -72,9 +72,16 @@ impl StaticState {
 
     /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+        let is_plan = self.traction.len() > PLANE * self.modes.len();
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
             let known = law_of(laws, e).modes();
-            if known.contains(mode) && !mode.is_closed() { *mode } else { known[0] }
+            if known.contains(mode) && !mode.is_closed() {
+                *mode
+            } else if is_plan {
+                known[0].in_plan()
+            } else {
+                known[0]
+            }
         });
         modes.collect()
     }
@@ -119,7 +126,7 @@ impl Standing<'_> {
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, soil } = *self;
         let base = &assembled.base;
-        let (n, count) = (assembled.dofs(), base.areas().len());
+        let n = assembled.dofs();
         let size = base.layout().len();
         let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
@@ -128,7 +135,7 @@ impl Standing<'_> {
         let stiffest = epsilon;
 
         let mut solver = ContactSolver::new(base.layout());
-        let mut search = ModeSearch::new(count, ContactSearch::Robust);
+        let mut search = ModeSearch::new(base.layout(), base.areas(), ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
         let mut tangent = Tangent::new(n);
         let mut compliance: Option<Compliance> = None;

@@ -14,7 +14,7 @@ use crate::coupled::scene::operators::Operators;
 use crate::coupled::scene::{Scene, operators};
 use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
-use crate::geometry::PLANE;
+use crate::geometry::{PLANE, far_ends};
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
 };
@@ -52,24 +52,26 @@ pub(crate) fn cause(
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in; in the plane.
+/// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in.
 fn resultants(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    if base.layout().components() != PLANE {
-        return None;
-    }
+    let is_plan = base.layout().components() != PLANE;
     let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
-        let [horizontal, upward, _] = part.resultants(load);
+        let [along, upward, away] = part.resultants(load);
+        let horizontal = if away == 0.0 { along } else { along.hypot(away) };
         let normal = -upward;
         let nodes = part.nodes(base);
-        let (left, right) = (nodes.first()?.x, nodes.last()?.x);
-        let ends = [left, right];
+        let bounds = [
+            far_ends(nodes.iter().map(|node| [node.x; 2])),
+            far_ends(nodes.iter().map(|node| [node.y; 2])),
+        ];
+        let ends = bounds[0];
         let laws = || part.elements().iter().map(|&e| law_of(laws, e));
         let little = 1e-6 * normal.abs().max(1.0);
         let glued = |trial| laws().any(|law| sticks_at(law, trial));
@@ -97,13 +99,19 @@ fn resultants(
         if !coheres && let Some(slides) = slides() {
             return Some(slides);
         }
-        let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
-        let mut rotation = held.turns(nodes.iter().copied(), [middle, 0.0]).swap_remove(0);
-        factor.solve(&mut rotation);
-        let moment = dot(&rotation, load);
-        // The soil's pressure stands at the distance e: M + N e = 0.
-        let eccentricity = -moment / normal;
-        let ratio = eccentricity.abs() / half_width;
+        let middles = bounds.map(|[least, most]| 0.5 * (least + most));
+        let half_widths = bounds.map(|[least, most]| 0.5 * (most - least));
+        let mut moments = [0.0; 2];
+        let turns = held.turns(nodes.iter().copied(), middles);
+        for (moment, mut rotation) in moments.iter_mut().zip(turns) {
+            factor.solve(&mut rotation);
+            *moment = dot(&rotation, load);
+        }
+        // The soil's pressure stands at the distance e: M + N e = 0. In plan the axis is the one with less to spare.
+        let part_of = |axis: usize| (moments[axis] / normal).abs() / half_widths[axis];
+        let axis = usize::from(is_plan && part_of(1) > part_of(0));
+        let (middle, half_width, moment) = (middles[axis], half_widths[axis], moments[axis]);
+        let (eccentricity, ratio) = (-moment / normal, part_of(axis));
         if ratio >= 1.0 && opens {
             let error = StabilityError::Overturning { ends, moment, normal, eccentricity, ratio };
             return broken(pulls, error);
@@ -116,7 +124,8 @@ fn resultants(
         ];
         let resultant = middle + eccentricity;
         let slack = 1e-9 * half_width;
-        if opens && (resultant < reach[0] - slack || resultant > reach[1] + slack) {
+        let is_beyond = resultant < reach[0] - slack || resultant > reach[1] + slack;
+        if opens && axis == 0 && is_beyond {
             return broken(pulls, StabilityError::Beyond { ends, elements, resultant, reach });
         }
         if let Some(slides) = slides() {
@@ -126,7 +135,13 @@ fn resultants(
         let largest = laws().map(bearing_pressure).fold(0.0, f64::max);
         let all: f64 = laws().zip(lengths()).map(|(law, l)| bearing_pressure(law) * l).sum();
         let width = 2.0 * half_width * (1.0 - ratio);
-        let capacity = all.min(largest * width);
+        let effective = if is_plan {
+            // Of both axes (Meyerhof 1963).
+            lengths().sum::<f64>() * (1.0 - part_of(0)) * (1.0 - part_of(1))
+        } else {
+            width
+        };
+        let capacity = all.min(largest * effective);
         let ratio = normal / capacity;
         (ratio > 1.0).then_some(StabilityError::BearingFailure {
             ends,

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::quantity::Place;
-use super::{Extremes, Quantity, Run, Summary};
+use super::{Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::coupled::Peak;
 use crate::text::column::{number, printed};
 use crate::text::table::Table;
@@ -184,13 +184,16 @@ impl Run {
 
     fn effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (steps, wall) = (self.steps.max(1) as f64, self.wall.as_secs_f64());
+        // In plan sweeps are what nearly every step takes.
+        let Fallbacks { gauss_seidel, path, newton, proximal } = self.fallbacks;
+        let shown = if self.in_plan { [newton, proximal] } else { [gauss_seidel, path] };
         write!(
             f,
             "\n\nTime taken: {wall:.2} s, {:.1} µs and {:.2} linear solves per step; fallbacks {}/{}",
             wall / steps * 1e6,
             self.trials as f64 / steps,
-            self.fallbacks.gauss_seidel,
-            self.fallbacks.path
+            shown[0],
+            shown[1],
         )
     }
 

@@ -158,7 +158,7 @@ quantities! {
         |base| base.pick(base.state.mean_slip, |own| own.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.contact().iter().fold(0.0, |largest, own| own.slip.abs().max(largest));
+        |base| base.contact().iter().fold(0.0, |largest, own| own.slip.hypot(own.slip_across).max(largest));
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.pick(base.state.base_rotation, |own| own.base_rotation);
@@ -308,8 +308,9 @@ impl<'a> Base<'a> {
             let footing = Footing {
                 elements: context.elements.get(own.clone()).unwrap_or_default(),
                 depths: context.elements.depths().get(own.clone()).unwrap_or_default(),
-                contact: self.state.contact.get(own.clone()).unwrap_or_default(),
-                shear_across: self.state.shear_across.get(own).unwrap_or_default(),
+                areas: context.elements.areas().get(own.clone()).unwrap_or_default(),
+                contact: self.state.contact.get(own).unwrap_or_default(),
+                is_plan: context.elements.is_plan(),
             };
             factor(friction, footing)
         };

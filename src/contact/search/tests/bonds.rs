@@ -32,7 +32,8 @@ fn bonds_break_where_brute_force_says_they_may() {
             let mut problem = begin(delassus, count, &mut random);
             glue(&mut problem, &mut random);
             let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
-            let mut search = ModeSearch::new(count, ContactSearch::Robust);
+            let mut search =
+                ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
             let mut memory = problem.start.memory().to_vec();
             for _ in 0..10 {
                 push(&mut problem, &mut random);

@@ -1,0 +1,272 @@
+//! Small problems against all their solutions, found by other means.
+
+use basemat_problems::random::Random;
+
+use super::newton::Newton;
+use super::problem::{Bounds, Problem};
+use super::proximal::Proximal;
+use super::search;
+
+/// A random positive definite W of so many elements, and q.
+fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
+    let size = 3 * count;
+    let mut problem = Problem::new(count);
+    let root: Vec<f64> = (0..size * size).map(|_| random.within(-1.0, 1.0)).collect();
+    for i in 0..size {
+        for j in 0..size {
+            let sum: f64 = (0..size).map(|k| root[i * size + k] * root[j * size + k]).sum();
+            problem.w[i * size + j] = sum + if i == j { 0.3 } else { 0.0 };
+        }
+        problem.q[i] = random.within(-1.0, 1.0);
+    }
+    for bounds in &mut problem.bounds {
+        *bounds = Bounds { friction, ..Bounds::NONE };
+        if random.chance(0.3) {
+            bounds.strength = random.within(0.0, 0.3);
+        }
+        if random.chance(0.3) {
+            bounds.interval[1] = random.within(0.1, 0.6);
+        }
+        if random.chance(0.3) {
+            bounds.offset = random.within(-0.2, 0.2);
+        }
+    }
+    problem.scale = 1e-3;
+    problem.find_scales();
+    problem
+}
+
+/// Angles from which a direction is looked for.
+const GRID: usize = 24;
+
+/// What an element may be: open, closed or at its cap; sticking or sliding in a direction.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Open,
+    Closed,
+    Capped,
+}
+
+/// Solves rows · x = right by elimination; `None` if singular.
+fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let n = rows.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
+        rows.swap(k, pivot);
+        if rows[k][k].abs() < 1e-12 {
+            return None;
+        }
+        let own = rows[k].clone();
+        for row in rows.iter_mut().skip(k + 1) {
+            let factor = row[k] / own[k];
+            row.iter_mut().zip(&own).skip(k).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|j| rows[k][j] * rows[j][n]).sum();
+        rows[k][n] = (rows[k][n] - sum) / rows[k][k];
+    }
+    Some(rows.iter().map(|row| row[n]).collect())
+}
+
+/// Forces of given kinds, with the shear of a sliding element at an angle and that of others without slip.
+fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<Vec<f64>> {
+    let size = problem.size();
+    let mut rows = Vec::new();
+    for i in 0..size {
+        let (component, e) = (i / problem.count, i % problem.count);
+        let bounds = &problem.bounds[e];
+        let mut row = vec![0.0; size + 1];
+        let mut moves = |target: f64| {
+            row[..size].copy_from_slice(problem.row(i));
+            row[size] = target - problem.q[i];
+        };
+        match (component, kinds[e]) {
+            (0, (Kind::Closed, _)) => moves(bounds.offset),
+            (0, (Kind::Capped, _)) => (row[i], row[size]) = (1.0, bounds.interval[1]),
+            (0, _) => row[i] = 1.0,
+            (_, (_, false)) => moves(0.0),
+            (_, (kind, true)) => {
+                let d = if component == 1 { angles[e].cos() } else { angles[e].sin() };
+                // An open element keeps the strength until its bond is taken.
+                let friction = if kind == Kind::Open { 0.0 } else { bounds.friction };
+                row[i] = 1.0;
+                row[e] -= friction * d;
+                row[size] = bounds.strength * d;
+            }
+        }
+        rows.push(row);
+    }
+    eliminate(rows)
+}
+
+/// All solutions, up to directions that a scan of angles does not tell apart.
+fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
+    let count = problem.count;
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    let choices =
+        [Kind::Open, Kind::Closed, Kind::Capped].map(|kind| [(kind, false), (kind, true)]);
+    let choices = choices.concat();
+    let respond = |r: &[f64]| -> Vec<f64> {
+        let dot = |i: usize| problem.row(i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
+        (0..r.len()).map(|i| problem.q[i] + dot(i)).collect()
+    };
+    for set in 0..(0..count).fold(1, |all, _| all * choices.len()) {
+        let mut rest = set;
+        let mut next = || {
+            let kind = choices[rest % choices.len()];
+            rest /= choices.len();
+            kind
+        };
+        let kinds: Vec<_> = (0..count).map(|_| next()).collect();
+        let sliding: Vec<_> = (0..count).filter(|e| kinds[*e].1).collect();
+        let capless = |e: usize| problem.bounds[e].interval[1] == f64::INFINITY;
+        if (0..count).any(|e| kinds[e].0 == Kind::Capped && capless(e)) {
+            continue;
+        }
+        // Slip across the direction of the shear, which is none at a solution.
+        let across = |angles: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
+            let r = forces(problem, &kinds, angles)?;
+            let y = respond(&r);
+            let miss = sliding.iter().map(|&e| {
+                let (s, c) = angles[e].sin_cos();
+                c * y[2 * count + e] - s * y[count + e]
+            });
+            Some((miss.collect(), r))
+        };
+        // From a grid of angles by Newton's method with differences.
+        for start in 0..sliding.iter().fold(1, |all, _| all * GRID) {
+            let mut angles = vec![0.0; count];
+            let mut rest = start;
+            for &e in &sliding {
+                angles[e] = (rest % GRID) as f64 * std::f64::consts::TAU / GRID as f64;
+                rest /= GRID;
+            }
+            let mut solution = None;
+            for _ in 0..30 {
+                let Some((miss, r)) = across(&angles) else { break };
+                if miss.iter().all(|m| m.abs() < 1e-12) {
+                    solution = Some(r);
+                    break;
+                }
+                let mut rows: Vec<Vec<f64>> = miss.iter().map(|m| vec![-m]).collect();
+                for (k, &e) in sliding.iter().enumerate() {
+                    let mut turned = angles.clone();
+                    turned[e] += 1e-7;
+                    let Some((other, _)) = across(&turned) else { break };
+                    for (row, (a, b)) in rows.iter_mut().zip(other.iter().zip(&miss)) {
+                        row.insert(k, (a - b) / 1e-7);
+                    }
+                }
+                if rows.iter().any(|row| row.len() != sliding.len() + 1) {
+                    break;
+                }
+                let Some(turns) = eliminate(rows) else { break };
+                for (&e, turn) in sliding.iter().zip(turns) {
+                    angles[e] += turn.clamp(-0.3, 0.3);
+                }
+            }
+            let Some(r) = solution else { continue };
+            let y = respond(&r);
+            let admissible = (0..count).all(|e| {
+                let (bounds, [n, i, j]) = (&problem.bounds[e], problem.places(e));
+                let radius = bounds.radius(r[n]);
+                let gap = y[n] - bounds.offset;
+                let normal = match kinds[e].0 {
+                    Kind::Open => gap >= -1e-9,
+                    Kind::Closed => r[n] >= -1e-9 && r[n] <= bounds.interval[1] + 1e-9,
+                    Kind::Capped => gap <= 1e-9,
+                };
+                let shear = r[i].hypot(r[j]);
+                let along = r[i] * y[i] + r[j] * y[j];
+                let slides = (shear - radius).abs() < 1e-9 && along <= 1e-9;
+                normal && if kinds[e].1 { slides } else { shear <= radius + 1e-9 }
+            });
+            let near = |a: &Vec<f64>| a.iter().zip(&r).all(|(a, b)| (a - b).abs() < 1e-7);
+            if admissible && !found.iter().any(near) {
+                found.push(r);
+            }
+        }
+    }
+    found
+}
+
+/// By all methods.
+fn solve(problem: &mut Problem) -> bool {
+    let count = problem.count;
+    let (mut newton, mut proximal) = (Newton::new(count), Proximal::new(count));
+    let mut scratch = vec![0.0; 3 * count];
+    search(problem, &mut newton, &mut proximal, &mut scratch).1.is_some()
+}
+
+fn is_among(problem: &Problem, solutions: &[Vec<f64>]) -> bool {
+    let near =
+        |r: &Vec<f64>| r.iter().enumerate().all(|(i, r)| (r - problem.force(i)).abs() < 1e-7);
+    solutions.iter().any(near)
+}
+
+#[test]
+fn each_method_finds_one_of_all_solutions() {
+    let mut random = Random(11);
+    let (mut several, mut sliding, mut swept, mut none) = (0, 0, 0, 0);
+    for case in 0..240 {
+        let count = if case % 8 == 0 { 2 } else { 1 };
+        let friction = [0.2, 0.6, 1.5, 5.0][case % 4];
+        let mut problem = problem(&mut random, count, friction);
+        let solutions = all_solutions(&problem);
+        several += usize::from(solutions.len() > 1);
+        assert_ne!(solve(&mut problem), solutions.is_empty(), "case {case}: {}", solutions.len());
+        none += usize::from(solutions.is_empty());
+        if solutions.is_empty() {
+            continue;
+        }
+        assert!(is_among(&problem, &solutions), "case {case}: {} solutions", solutions.len());
+        let slip = |e: usize| problem.y[count + e].hypot(problem.y[2 * count + e]) > 1e-6;
+        sliding += usize::from((0..count).any(|e| slip(e) && problem.force(e) > 1e-6));
+        // Each alone, from nothing.
+        problem.change.fill(0.0);
+        if problem.sweep(2000).1 {
+            swept += 1;
+            assert!(is_among(&problem, &solutions), "case {case}, sweeps");
+        }
+        problem.change.fill(0.0);
+        if Newton::new(count).solve(&mut problem, case % 2 == 0).1 {
+            assert!(is_among(&problem, &solutions), "case {case}, Newton");
+        }
+        problem.change.fill(0.0);
+        let sweep = |problem: &mut Problem| problem.sweep(200).1;
+        if Proximal::new(count).solve(&mut problem, sweep) {
+            assert!(is_among(&problem, &solutions), "case {case}, proximal");
+        }
+    }
+    println!(
+        "{several} with several solutions, {none} without, {sliding} slide, sweeps alone find {swept}"
+    );
+    assert!(sliding > 40 && swept > 150, "{sliding} {swept}");
+}
+
+/// Friction work is the shear's against the slip of the same solution.
+#[test]
+fn friction_takes_energy_only() {
+    let (mut random, mut failed) = (Random(5), 0);
+    for case in 0..300 {
+        let count = 1 + case % 9;
+        let friction = random.log_within(0.05, 20.0);
+        let mut problem = problem(&mut random, count, friction);
+        if !solve(&mut problem) {
+            failed += 1;
+            continue;
+        }
+        problem.respond();
+        for e in 0..count {
+            let [n, x, y] = problem.places(e);
+            let work = -(problem.force(x) * problem.y[x] + problem.force(y) * problem.y[y]);
+            assert!(work > -1e-9, "case {case}: {work:e}");
+            let bounds = &problem.bounds[e];
+            let shear = problem.force(x).hypot(problem.force(y));
+            assert!(shear <= bounds.radius(problem.force(n)) * (1.0 + 1e-9) + 1e-9, "case {case}");
+        }
+    }
+    println!("{failed} without a solution found");
+    assert!(failed < 12, "{failed}");
+}

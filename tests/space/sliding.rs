@@ -1,0 +1,321 @@
+//! Sliding in plan against the plane, Newmark's block, a bonded base and a ground that moves in a circle.
+
+use std::f64::consts::PI;
+
+use basemat::bem::{ElasticGround, SpringGround};
+use basemat::coupled::{GravityStage, Load};
+use basemat::interface::{
+    Bonded, Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, UnilateralCondition,
+    VariableFriction, Yielding,
+};
+use basemat::motion::{FreeField, Triaxial, el_centro_1940};
+use basemat::structure::{RigidBlock, RigidBody};
+use basemat::{Error, Result, Simulation, Soil, StepError};
+
+use super::cells::{BED, Bed, Cells, Waves};
+
+type Law = Box<dyn InterfaceLaw>;
+
+/// A block of 4 m × 6 m on eight elements of the plane, and a slice of it one metre deep, shaken along x alone.
+fn both(law: impl Fn() -> Law, stage: GravityStage, step: f64) -> [Simulation; 2] {
+    let motion = || el_centro_1940().scaled(2.0).unwrap();
+    let push = |dof: usize| Load::new(dof, |t: f64| 2.0e4 * (1.0 + (20.0 * t).sin()));
+    let plane = Simulation::builder(step)
+        .structure(RigidBlock::new(4.0, 6.0, 1500.0).unwrap())
+        .ground(SpringGround::new(-2.0..2.0, 8, 3e7, 2e7).unwrap().with_dashpots(6e5, 3e5).unwrap())
+        .interface(law())
+        .gravity_stage(stage)
+        .load(push(0))
+        .motion(motion());
+    let lines: Vec<f64> = (0..=8).map(|k| -2.0 + 0.5 * f64::from(k)).collect();
+    let space = Simulation::builder(step)
+        .structure(RigidBody::cuboid([4.0, 1.0, 6.0], 1500.0).unwrap())
+        .ground(Cells::between(&lines, &[-0.5, 0.5], BED))
+        .interface(law())
+        .gravity_stage(stage)
+        .load(push(0))
+        .motion(Triaxial { x: Some(motion()), ..Triaxial::default() });
+    [plane, space].map(|builder| builder.build().unwrap())
+}
+
+/// Every law, in a slice that moves along x alone, does what it does in the plane.
+#[test]
+fn a_slice_lifts_and_slides_as_the_block_of_the_plane() {
+    let coulomb = |friction| Box::new(Coulomb::new(friction).unwrap());
+    let layer = || ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap().with_debonded_ratio(0.0);
+    let slowing = |start: &basemat::interface::PreviousContact| {
+        0.2 + 0.2 * (-start.slip_rate.abs() / 0.1).exp()
+    };
+    let velocity = UnilateralCondition::Velocity { closed_below: 1e-6 };
+    let laws: [(&str, &dyn Fn() -> Law); 9] = [
+        ("friction 0.3", &|| coulomb(0.3)),
+        ("friction 2", &|| coulomb(2.0)),
+        ("smooth", &|| coulomb(0.0)),
+        ("uplift only", &|| coulomb(f64::INFINITY)),
+        ("velocity", &|| {
+            Box::new(Coulomb::new(0.4).unwrap().with_unilateral_condition(velocity).unwrap())
+        }),
+        ("tensile strength", &|| {
+            Box::new(Coulomb::new(0.5).unwrap().with_tensile_strength(2e4).unwrap())
+        }),
+        ("variable", &move || Box::new(VariableFriction::new(slowing))),
+        ("yielding", &|| Box::new(Yielding::new(2.2e5, 0.4).unwrap())),
+        ("thin layer", &move || Box::new(layer().unwrap())),
+    ];
+    for (name, law) in laws {
+        // A base without friction has nothing against the load at t = 0.
+        let stage = match name {
+            "smooth" => GravityStage::Unloaded,
+            _ => GravityStage::Frictionless,
+        };
+        let [mut plane, mut space] = both(law, stage, 4e-3);
+        let (mut largest, mut errors) = ([0.0_f64; 6], [0.0_f64; 6]);
+        let (mut open, mut slides, mut yields) = (0, 0, 0);
+        for _ in 0..700 {
+            let (a, b) = (plane.step().unwrap(), space.step().unwrap());
+            let [u, v] = [a.displacement(), b.displacement()];
+            let pairs = [
+                (u[0], v[0]),
+                (u[2], -v[4]),
+                (a.base_shear, b.base_shear),
+                (a.base_moment, b.base_moment),
+                (a.mean_slip, b.mean_slip),
+                (a.energy_balance.contact, b.energy_balance.contact),
+            ];
+            for (k, (plane, space)) in pairs.into_iter().enumerate() {
+                largest[k] = largest[k].max(plane.abs());
+                errors[k] = errors[k].max((plane - space).abs());
+            }
+            assert!([v[1], v[3], v[5]].iter().all(|u| u.abs() < 1e-12), "{name}: {v:?}");
+            assert!(b.energy_balance.residual() < 1e-9, "{name}");
+            open += b.modes.iter().filter(|mode| **mode == Mode::Open).count();
+            slides += b.modes.iter().filter(|mode| mode.is_slip()).count();
+            yields += b.modes.iter().filter(|mode| mode.to_string().contains("yield")).count();
+        }
+        println!(
+            "{name}: open {open}, slides {slides}, yields {yields}, {errors:?} of {largest:?}"
+        );
+        assert!(open > 0 || name == "smooth", "{name} opens");
+        assert!(slides > 0 || name == "uplift only", "{name} slides");
+        assert!((yields > 0) == (name == "yielding"), "{name} yields");
+        let tolerance = if name == "uplift only" { 2e-3 } else { 1e-7 };
+        for (error, largest) in errors.iter().zip(largest) {
+            assert!(*error <= tolerance * largest.max(1e-6), "{name}: {errors:?} of {largest:?}");
+        }
+    }
+}
+
+const CUBE: [f64; 3] = [6.0, 6.0, 3.0];
+
+fn scene(law: impl InterfaceLaw + 'static, step: f64, scale: f64) -> Result<Simulation> {
+    let motion = |factor: f64| Some(el_centro_1940().scaled(factor * scale).unwrap());
+    let [k, c] = [BED.stiffness, BED.dashpot].map(|values| [values[0], values[1], values[1]]);
+    Simulation::builder(step)
+        .structure(RigidBody::cuboid(CUBE, 2000.0)?)
+        .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], Bed { stiffness: k, dashpot: c }))
+        .interface(law)
+        .motion(Triaxial { x: motion(1.0), y: motion(-0.7), up: motion(0.3) })
+        .build()
+}
+
+#[test]
+fn a_cone_that_sticks_is_bonded() {
+    let mut bonded = scene(Bonded, 4e-3, 1.0).unwrap();
+    let cohesive = Cohesive::new(1e9, 1e9, 0.5).unwrap();
+    let glued = [
+        scene(cohesive, 4e-3, 1.0).unwrap(),
+        scene(Coulomb::new(50.0).unwrap(), 4e-3, 0.2).unwrap(),
+    ];
+    let mut weak = scene(Bonded, 4e-3, 0.2).unwrap();
+    for (mut other, reference) in glued.into_iter().zip([&mut bonded, &mut weak]) {
+        let mut size = [0.0_f64; 2];
+        for _ in 0..500 {
+            let (a, b) = (reference.step().unwrap(), other.step().unwrap());
+            assert!(b.modes.iter().all(|mode| *mode == Mode::Stick));
+            for (k, values) in [a.displacement(), a.velocity()].into_iter().enumerate() {
+                size[k] = values.iter().fold(size[k], |most, value| most.max(value.abs()));
+            }
+            let pairs = [(a.displacement(), b.displacement()), (a.velocity(), b.velocity())];
+            for ((one, two), size) in pairs.into_iter().zip(size) {
+                for (x, y) in one.iter().zip(two) {
+                    assert!((x - y).abs() <= 1e-10 * size, "{one:?} {two:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Displacement of a ground that moves in a circle.
+struct Circle {
+    radius: f64,
+    frequency: f64,
+}
+
+impl FreeField for Circle {
+    fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
+        unreachable!("a ground in plan asks for three directions")
+    }
+
+    fn displacement_at(&self, _: [f64; 2], time: f64) -> [f64; 3] {
+        let angle = self.frequency * time;
+        [self.radius * angle.cos(), self.radius * angle.sin(), 0.0]
+    }
+}
+
+/// A block slides in a circle of its own: its acceleration is friction's, at right angles to what is left of the
+/// ground's (relative speed √(A² − (φ g)²)/ω).
+#[test]
+fn a_block_on_a_ground_that_moves_in_a_circle() {
+    let (friction, gravity, frequency) = (0.3, 1e-3, 0.1);
+    let acceleration = 2.0 * friction * gravity;
+    let body = RigidBody::cuboid([2.0, 2.0, 0.1], 1.0).unwrap();
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    let step = 2.0 * PI / frequency / 200.0;
+    let mut simulation = Simulation::builder(step)
+        .ground(ElasticGround::under(soil, &body, 4).unwrap())
+        .structure(body)
+        .interface(Coulomb::new(friction).unwrap())
+        .motion(Circle { radius: acceleration / (frequency * frequency), frequency })
+        .gravity(gravity)
+        .build()
+        .unwrap();
+    let run = simulation.run(800, |_| {}).unwrap();
+    assert!(run.energy_error < 1e-9);
+    let exact = (acceleration.powi(2) - (friction * gravity).powi(2)).sqrt() / frequency;
+    for _ in 0..200 {
+        let before = simulation.state().contact.clone();
+        let state = simulation.step().unwrap();
+        for (own, last) in state.contact.iter().zip(before) {
+            let slip = (own.slip - last.slip).hypot(own.slip_across - last.slip_across);
+            let ratio = slip / step / exact;
+            assert!((ratio - 1.0).abs() < 5e-3, "{ratio}");
+        }
+    }
+}
+
+#[test]
+fn a_run_that_slides_resumes_to_the_last_bit() {
+    let cohesive = || Cohesive::new(2e4, 3e4, 0.4).unwrap();
+    let laws: [&dyn Fn() -> Law; 3] = [
+        &|| Box::new(Coulomb::new(0.3).unwrap()),
+        &|| Box::new(Yielding::new(9e4, 0.3).unwrap()),
+        &move || Box::new(cohesive()),
+    ];
+    for law in laws {
+        let mut whole = scene(law(), 4e-3, 2.0).unwrap();
+        let run = whole.run(450, |_| {}).unwrap();
+        assert!(run.energy_error < 1e-9 && run.whole.largest_slip.magnitude() > 1e-3);
+        let saved = whole.checkpoint().unwrap();
+        whole.run(200, |_| {}).unwrap();
+        let mut resumed = scene(law(), 4e-3, 2.0).unwrap();
+        resumed.resume(&saved).unwrap();
+        resumed.run(200, |_| {}).unwrap();
+        assert_eq!(resumed.state(), whole.state());
+    }
+}
+
+/// Bonds break for good, within a step, and what is left is friction.
+#[test]
+fn bonds_break_one_after_the_other() {
+    let mut simulation = scene(Cohesive::new(2e4, 3e4, 0.4).unwrap(), 2e-3, 2.0).unwrap();
+    let glued = |simulation: &Simulation| {
+        (0..16).filter(|e| simulation.state().state_variables(*e) == [1.0]).count()
+    };
+    assert_eq!(glued(&simulation), 16);
+    let (mut before, mut stages) = (16, 0);
+    for _ in 0..1500 {
+        let state = simulation.step().unwrap();
+        for own in &state.contact {
+            let limit = 3e4 + 0.4 * own.pressure.max(0.0);
+            assert!(own.pressure >= -2e4 * (1.0 + 1e-9), "{own:?}");
+            assert!(own.shear.hypot(own.shear_across) <= limit * (1.0 + 1e-9), "{own:?}");
+        }
+        assert!(state.energy_balance.residual() < 1e-9);
+        let now = glued(&simulation);
+        assert!(now <= before);
+        stages += usize::from(now < before);
+        before = now;
+    }
+    assert!(stages > 1 && before < 16, "{stages} {before}");
+}
+
+/// A law of the plane alone, and one whose open elements bear something.
+#[test]
+fn laws_without_limits_are_named() {
+    struct Plane(Coulomb);
+    impl InterfaceLaw for Plane {
+        fn modes(&self) -> &[Mode] {
+            self.0.modes()
+        }
+        fn conditions(
+            &self,
+            mode: Mode,
+            start: &basemat::interface::PreviousContact,
+        ) -> [basemat::interface::Condition; 2] {
+            self.0.conditions(mode, start)
+        }
+        fn next_mode(
+            &self,
+            mode: Mode,
+            start: &basemat::interface::PreviousContact,
+            trial: &basemat::interface::ContactState,
+            tolerance: basemat::interface::Tolerance,
+        ) -> Mode {
+            self.0.next_mode(mode, start, trial, tolerance)
+        }
+    }
+    let error = scene(Plane(Coulomb::new(0.5).unwrap()), 4e-3, 1.0).unwrap_err();
+    assert!(matches!(error, Error::Scene { quantity: "Plane", .. }), "{error}");
+    let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
+    let error = scene(layer, 4e-3, 1.0).unwrap_err();
+    assert!(error.to_string().contains("with_debonded_ratio"), "{error}");
+    // Friction that is none at some step says so.
+    let law = VariableFriction::new(|start| if start.slip_rate > 0.05 { f64::NAN } else { 0.2 });
+    let mut simulation = scene(law, 4e-3, 2.0).unwrap();
+    let error = simulation.run(1000, |_| {}).unwrap_err();
+    let Error::Step { source: StepError::Law(_), .. } = &error else { panic!("{error}") };
+    assert!(error.to_string().contains("friction coefficient"), "{error}");
+}
+
+/// Loads at t = 0 are carried by friction, and the placed base stays as it is until something moves.
+#[test]
+fn loads_at_the_start_are_carried_by_friction() {
+    let weight = 9.80665 * 2000.0 * CUBE.iter().product::<f64>();
+    let build = |share: f64| {
+        let load = |dof: usize, part: f64| Load::new(dof, move |_| part * share * weight);
+        Simulation::builder(4e-3)
+            .structure(RigidBody::cuboid(CUBE, 2000.0).unwrap())
+            .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
+            .interface(Coulomb::new(0.5).unwrap())
+            .load(load(0, 0.6))
+            .load(load(1, -0.8))
+            .build()
+    };
+    let mut simulation = build(0.4).unwrap();
+    let own = simulation.state().foundations[0].clone();
+    assert!((own.base_shear - 0.6 * 0.4 * weight).abs() < 1e-9 * weight, "{own:?}");
+    assert!((own.shear_across + 0.8 * 0.4 * weight).abs() < 1e-9 * weight, "{own:?}");
+    assert!((own.normal_force - weight).abs() < 1e-9 * weight);
+    for own in &simulation.state().contact {
+        assert!(own.shear.hypot(own.shear_across) <= 0.5 * own.pressure * (1.0 + 1e-9));
+    }
+    let run = simulation.run(100, |_| {}).unwrap();
+    assert!(run.whole.largest_slip.magnitude() < 1e-12 && run.energy_error < 1e-9);
+    assert!(build(0.6).is_err(), "more than friction");
+}
+
+/// A wave that runs across the mat.
+#[test]
+fn travelling_waves_slide_a_base() {
+    let mut simulation = Simulation::builder(2e-3)
+        .structure(RigidBody::cuboid([6.0, 6.0, 9.0], 2000.0).unwrap())
+        .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
+        .interface(Coulomb::new(0.02).unwrap())
+        .motion(Waves { quarters: 0 })
+        .build()
+        .unwrap();
+    let run = simulation.run(400, |_| {}).unwrap();
+    assert!(run.energy_error < 1e-9 && run.whole.largest_slip.magnitude() > 1e-5);
+    // The mat has turned.
+    assert!(simulation.state().displacement()[5].abs() > 1e-7);
+}
