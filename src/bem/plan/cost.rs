@@ -36,6 +36,11 @@ pub(super) fn memory(blocks: usize, classes: usize, tolerance: f64) -> f64 {
     own * (SERIES * classes) as f64
 }
 
+/// Points of the circles of some blocks.
+fn points(blocks: &Range<usize>, tolerance: f64) -> usize {
+    blocks.clone().map(|number| Block::circle(number, tolerance).points()).sum()
+}
+
 /// Cost of the blocks `missing`, and of the forms and of the gate for so many numbers of contact vectors.
 pub(super) fn cost(
     quadrature: &LatticeQuadrature,
@@ -68,9 +73,7 @@ pub(super) fn cost(
             nanoseconds += samples * each;
         }
     }
-    let circles = missing.clone().map(|number| Block::circle(number, quadrature.tolerance));
-    let points: usize = circles.map(|circle| circle.points()).sum();
-    nanoseconds += POINT * points as f64 * classes;
+    nanoseconds += POINT * points(&missing, quadrature.tolerance) as f64 * classes;
     let memory = table.memory() + memory(missing.end, quadrature.classes, quadrature.tolerance);
     Ok(Cost { seconds: 1e-9 * nanoseconds, evaluations, memory })
 }
@@ -85,8 +88,7 @@ pub(super) fn afford(
     let table = &quadrature.integrals.table;
     let layers = quadrature.profile.layers().len() as f64;
     // Most grounds are told without an evaluation: as if every point of the circles were sampled.
-    let circles = missing.clone().map(|number| Block::circle(number, quadrature.tolerance));
-    let points: usize = circles.map(|circle| circle.points()).sum();
+    let points = points(&missing, quadrature.tolerance);
     let each =
         MOST_HALVING * (EVALUATION + LAYER * layers) + SUMS * PRODUCT * quadrature.classes as f64;
     let samples = ((points + GATE_POINTS) * quadrature.stages.count()) as f64;
