@@ -11,7 +11,7 @@ use super::layered::{
 use super::plan::{Plan, gate_sample};
 use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
 use crate::error::{Error, Observer, Result, positive};
-use crate::geometry::{ContactElement, check_count, check_order};
+use crate::geometry::{ContactElement, SPACE, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Soil, SoilProfile};
@@ -130,7 +130,7 @@ impl ElasticGround {
         let profile = profile.into();
         profile.check()?;
         let (elements, depths) = plan.sides();
-        check_count(elements.len())?;
+        check_count(elements.len(), SPACE)?;
         let (unions, inside) = (plan.unions(), plan.fractions_inside());
         let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
         let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };

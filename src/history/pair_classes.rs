@@ -141,7 +141,7 @@ impl PairClasses {
     /// # Errors
     /// As for [`check_count`].
     pub(crate) fn in_plan(lattice: Lattice, cells: Vec<[usize; 2]>, left: f64) -> Result<Self> {
-        check_count(cells.len())?;
+        check_count(cells.len(), PLANE)?;
         let side = |[column, _]: &[usize; 2]| {
             let [left, right] =
                 [*column, column + 1].map(|line| left + lattice.pitch[0] * line as f64);

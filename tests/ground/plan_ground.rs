@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::plan::{Plan, impedances_in_plan};
-use basemat::bem::{ElasticGround, Ground};
+use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
 use basemat::{Error, LayeredError, Soil};
@@ -159,6 +159,12 @@ fn limits_are_told_beforehand() {
     ground = ground.with_history(small).unwrap();
     ground.prepare(0.1).unwrap();
     let outcome = ground.expect_steps(50_000, None);
+    assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
+    // Matrices of three components between 2500 elements.
+    let many = || Plan::rectangle(-1.0..1.0, -1.0..1.0, 50).unwrap();
+    let outcome = ElasticGround::in_plan(half_space(), many()).map(drop);
+    assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
+    let outcome = SpringGround::in_plan(many(), [1.0; 3]).map(drop);
     assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
     let ground = ElasticGround::in_plan(half_space(), plan).unwrap();
     let outcome = ground.impedances(&[1.0], StripContact::Bonded);

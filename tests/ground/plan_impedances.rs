@@ -160,28 +160,31 @@ fn discs_match_a_spectral_solution() {
 /// What a rectangle of 20b × 2b has more than one of 16b × 2b is 4b of a strip, and its coupling has the strip's sign.
 #[test]
 fn long_mats_are_strips() {
-    let frequency = 1.0 / TAU;
+    let frequencies = [0.5 / TAU, 1.0 / TAU];
     let profile = half_space(1.0 / 3.0);
     let elements = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap().elements();
     let contact = StripContact::Bonded;
-    let strip = rigid_strip_impedances(&profile, &elements, &[frequency], contact).unwrap()[0];
+    let strips = rigid_strip_impedances(&profile, &elements, &frequencies, contact).unwrap();
     // Across the strip is along y here.
     let [long, short] = [10.0, 8.0].map(|half| {
         let plan = Plan::rectangle(-half..half, -1.0..1.0, 6).unwrap();
-        impedances_in_plan(&profile, &plan, &[frequency], contact).unwrap()[0].matrix
+        impedances_in_plan(&profile, &plan, &frequencies, contact).unwrap()
     });
-    for ([i, j], wanted) in [
-        ([2, 2], strip.vertical),
-        ([1, 1], strip.horizontal),
-        ([3, 3], strip.rocking),
-        // rx lowers the end at −y: the strip's rotation is −rx.
-        ([1, 3], -strip.coupling),
-    ] {
-        let found = (long[i][j] - short[i][j]) * 0.25;
-        let error = (found - wanted).abs() / wanted.abs();
-        println!("{i}{j} {found:?} {wanted:?} {error:.1e}");
-        let gate = if i == j { 0.04 } else { 0.3 };
-        assert!(error < gate, "{i}{j} {error:e}");
+    for (place, (strip, gate)) in strips.into_iter().zip([0.07, 0.03]).enumerate() {
+        let [long, short] = [&long, &short].map(|found| found[place].matrix);
+        for ([i, j], wanted) in [
+            ([2, 2], strip.vertical),
+            ([1, 1], strip.horizontal),
+            ([3, 3], strip.rocking),
+            // rx lowers the end at −y: the strip's rotation is −rx.
+            ([1, 3], -strip.coupling),
+        ] {
+            let found = (long[i][j] - short[i][j]) * 0.25;
+            let error = (found - wanted).abs() / wanted.abs();
+            println!("{place} {i}{j} {found:?} {wanted:?} {error:.1e}");
+            let gate = if i == j { gate } else { 0.05 };
+            assert!(error < gate, "{place} {i}{j} {error:e}");
+        }
     }
 }
 
