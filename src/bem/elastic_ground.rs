@@ -8,10 +8,10 @@ use super::layered::{
     Cost, LIMIT, Stages, StripContact, StripImpedance, TOLERANCE, check_limit, check_tolerance,
     rigid_strip_impedances, rigid_strip_impedances_observed,
 };
-use super::plan::Plan;
+use super::plan::{Plan, gate_sample};
 use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
 use crate::error::{Error, Observer, Result, positive};
-use crate::geometry::{ContactElement, check_count, check_order};
+use crate::geometry::{ContactElement, SPACE, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Soil, SoilProfile};
@@ -130,7 +130,7 @@ impl ElasticGround {
         let profile = profile.into();
         profile.check()?;
         let (elements, depths) = plan.sides();
-        check_count(elements.len())?;
+        check_count(elements.len(), SPACE)?;
         let (unions, inside) = (plan.unions(), plan.fractions_inside());
         let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
         let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
@@ -217,7 +217,7 @@ impl ElasticGround {
     }
 
     /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
-    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form, and for cells in plan, of which it is not known.
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
     /// ```
     /// use basemat::Soil;
@@ -237,11 +237,13 @@ impl ElasticGround {
     /// As for [`LayeredKernel::cost`](super::layered::LayeredKernel::cost); [`Error::Input`](crate::Error::Input) for a bad time step.
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
-        let stages = self.source.stages(time_step).filter(|_| self.source.plan.is_none());
-        let Some(stages) = stages else { return Ok(Cost::default()) };
-        let kernel = self.source.layered(self.elements(), time_step, stages)?;
         // Convolutions take lags by powers of two.
-        kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
+        let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX);
+        if let Some(plan) = &self.source.plan {
+            return self.source.in_plan(plan, time_step)?.cost(lags);
+        }
+        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
+        self.source.layered(self.elements(), time_step, stages)?.cost(lags)
     }
 
     /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):
@@ -336,6 +338,10 @@ impl Ground for ElasticGround {
 
     fn soils(&self) -> Vec<Soil> {
         self.profile().soils().map(|(soil, _)| soil).collect()
+    }
+
+    fn sampled_cells(&self) -> Option<[usize; 2]> {
+        self.source.plan.as_ref().and_then(gate_sample)
     }
 
     fn history_choice(&self) -> Option<HistoryChoice> {

@@ -32,6 +32,13 @@ impl ElasticSource {
         (!closed).then(|| self.stages.unwrap_or_else(by_rule))
     }
 
+    /// Step coefficients of cells in plan.
+    pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
+        let stages = self.stages(time_step).unwrap_or_default();
+        let (sizes, file) = ([time_step, self.tolerance, self.limit], self.file.clone());
+        LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)
+    }
+
     /// Step coefficients by convolution quadrature.
     pub(super) fn layered(
         &self,
@@ -53,10 +60,7 @@ impl WeightsSource for ElasticSource {
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
         if let Some(plan) = &self.plan {
-            let stages = self.stages(time_step).unwrap_or_default();
-            let (sizes, file) = ([time_step, self.tolerance], self.file.clone());
-            let kernel = LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)?;
-            return Ok(Arc::new(kernel));
+            return Ok(Arc::new(self.in_plan(plan, time_step)?));
         }
         match (self.stages(time_step), self.profile.base()) {
             (None, Base::HalfPlane { soil, .. }) => {

@@ -102,7 +102,7 @@ impl SpringGround {
     /// between them allow; as for [`Plan::without_overhang`].
     pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
         let (elements, depths) = plan.without_overhang()?.sides();
-        check_count(elements.len())?;
+        check_count(elements.len(), SPACE)?;
         Self::bed(elements, Some(depths), stiffness)
     }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::{Error, Result, finite, positive};
 use crate::fundamental::branch::Weight;
-use crate::geometry::{ContactElement, check_count};
+use crate::geometry::{ContactElement, PLANE, check_count};
 use crate::structure::{Structure, foundation_nodes};
 
 /// Variation of element lengths along a strip.
@@ -60,7 +60,7 @@ impl Strip {
             let (quantity, value) = ("number of contact elements", 0.0);
             return Err(Error::Input { quantity, value, needed: "1 or more" });
         }
-        check_count(count)?;
+        check_count(count, PLANE)?;
         let middle = 0.5 * (range.start + range.end);
         let half = 0.5 * (range.end - range.start);
         let node = |k: usize| {

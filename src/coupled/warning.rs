@@ -97,6 +97,14 @@ pub enum Warning {
         /// Distance from the outermost element to the end of the foundation, m.
         reach: f64,
     },
+    /// More cells in plan than are checked for passivity together: theorem and all steps are as they were, but errors of the
+    /// quadrature and damping laws that are not passive are looked for among some of them only.
+    SampledPassivity {
+        /// Cells that were checked together.
+        checked: usize,
+        /// All cells.
+        cells: usize,
+    },
     /// A soil unlike any: a number in another unit, unless the model is not to scale.
     UnusualSoil {
         /// Speed of its shear waves, m/s.
@@ -257,6 +265,9 @@ impl fmt::Display for Warning {
                 f,
                 "foundation {foundation} reaches {reach:.2} m beyond the ground's elements: nothing carries it there"
             ),
+            Self::SampledPassivity { checked, cells } => {
+                write!(f, "passivity of the ground checked on {checked} of {cells} cells")
+            }
             Self::UnusualSoil { shear_wave_speed, density } => write!(
                 f,
                 "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",

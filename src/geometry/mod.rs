@@ -215,18 +215,19 @@ impl std::ops::Deref for Patch {
 /// elements: 202 to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
 const BYTES_PER_PAIR: f64 = 400.0;
 
-/// Error for so many elements that the matrices between them would not fit into memory.
-pub(crate) fn check_count(count: usize) -> std::result::Result<(), MemoryError> {
+/// Error for so many elements with so many components that the matrices between them would not fit into memory.
+pub(crate) fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
-    memory::check("contact elements", count, BYTES_PER_PAIR * count * count)
+    let numbers = count * (components as f64 / PLANE as f64);
+    memory::check("contact elements", count, BYTES_PER_PAIR * numbers * numbers)
 }
 
 /// Error unless each element has finite ends, the left one first, and there are not too many.
-fn check_lengths(elements: &[ContactElement]) -> Result<()> {
+fn check_lengths(elements: &[ContactElement], components: usize) -> Result<()> {
     if elements.is_empty() {
         return Err(Error::Size { quantity: "list of contact elements", found: 0, needed: 1 });
     }
-    check_count(elements.len())?;
+    check_count(elements.len(), components)?;
     for element in elements {
         finite("left end of a contact element", element.left)?;
         finite("right end of a contact element", element.right)?;
@@ -240,7 +241,7 @@ const OVERLAP: f64 = 1e-9;
 
 /// Error unless the elements have positive length, in order, without overlap.
 pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
-    check_lengths(elements)?;
+    check_lengths(elements, PLANE)?;
     for pair in elements.windows(2) {
         let overlap = pair[0].right - pair[1].left;
         if overlap > OVERLAP * pair[0].length().min(pair[1].length()) {
@@ -256,7 +257,7 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
 
 /// Error unless the rectangles have a size and do not overlap.
 fn check_cells(elements: &[ContactElement], depths: &[[f64; 2]]) -> Result<()> {
-    check_lengths(elements)?;
+    check_lengths(elements, SPACE)?;
     for [front, back] in depths {
         finite("front end of a contact element", *front)?;
         finite("back end of a contact element", *back)?;

@@ -226,7 +226,7 @@ pub struct HistoryOptions {
     /// Method; [`HistoryMethod::Auto`] by default.
     pub method: HistoryMethod,
     /// Relative error that coefficients may have, 1e-12 to 1e-2. In plan, [`HistoryMethod::Auto`] leaves out late
-    /// coefficients that are together less than this of all (1e-8 unless given) as soon as a run is twice as long as
+    /// coefficients that are together less than this of all (1e-8 unless given, or [what their errors](ConvolutionWeights::late_error) sum up to) as soon as a run is twice as long as
     /// the others. Exponentials take it instead of 1e-12
     /// ([`HistoryMethod::Auto`]) or 1e-10 ([`HistoryMethod::Exponentials`]); only the half-plane's closed form has
     /// them.
@@ -342,7 +342,7 @@ impl HistoryOptions {
             return Ok((Kept::Exact(Box::new(history)), choice));
         }
         // In plan the soil forgets; what does not fit into memory has to end before.
-        let error_bound = self.tolerance.unwrap_or(FORGOTTEN);
+        let error_bound = self.tolerance.unwrap_or(FORGOTTEN.max(kernel.late_error()));
         let mut ended = exact;
         if reason == ChoiceReason::NoExponentials {
             let lags = room(self, HistoryMethod::RelaxedFft, &**kernel)?;

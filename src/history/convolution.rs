@@ -179,6 +179,12 @@ pub trait ConvolutionWeights: Send + Sync {
         None
     }
 
+    /// What errors of late coefficients may sum up to, of the sum of all; zero (the default) if these are exact. A memory
+    /// that [forgets](super::HistoryOptions) takes no less for nothing.
+    fn late_error(&self) -> f64 {
+        0.0
+    }
+
     /// Where histories of this kernel leave the spectra of its coefficients for each other; `None`
     /// (the default) if each makes its own. To be kept beside the coefficients, shared by clones,
     /// and by nothing else.

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{
     ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
 };
-use crate::linalg::{ComplexField, hermitian_range};
+use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 
 /// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const KINDS: usize = 3;
@@ -141,7 +141,7 @@ impl PairClasses {
     /// # Errors
     /// As for [`check_count`].
     pub(crate) fn in_plan(lattice: Lattice, cells: Vec<[usize; 2]>, left: f64) -> Result<Self> {
-        check_count(cells.len())?;
+        check_count(cells.len(), PLANE)?;
         let side = |[column, _]: &[usize; 2]| {
             let [left, right] =
                 [*column, column + 1].map(|line| left + lattice.pitch[0] * line as f64);
@@ -256,6 +256,33 @@ impl PairClasses {
     where
         T: ComplexField<Real = f64> + Copy + Default + Mul<f64, Output = T>,
     {
+        let matrix = self.scaled(own, of_pair);
+        hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[least, _]| least)
+    }
+
+    /// Whether that of a real symbol is above `bound`, by a factorisation that is much quicker; where it is near, it may
+    /// say no.
+    pub(crate) fn exceeds<const KINDS: usize>(
+        &self,
+        bound: f64,
+        own: impl Fn(usize, usize) -> f64,
+        of_pair: impl FnMut([usize; 2], &Pair) -> [f64; KINDS],
+    ) -> bool {
+        let mut matrix = self.scaled(own, of_pair);
+        let order = self.layout().len();
+        matrix.iter_mut().step_by(order + 1).for_each(|value| *value -= bound);
+        matrix.iter().all(|value| value.is_finite()) && indefinite_pivot(&matrix, order).is_none()
+    }
+
+    /// Matrix of a symbol with rows and columns over the roots of `own`.
+    fn scaled<T, const KINDS: usize>(
+        &self,
+        own: impl Fn(usize, usize) -> f64,
+        of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
+    ) -> Vec<T>
+    where
+        T: Copy + Default + Mul<f64, Output = T>,
+    {
         let layout = self.layout();
         let mut matrix = vec![T::default(); layout.square()];
         self.scatter(&mut matrix, of_pair);
@@ -271,7 +298,7 @@ impl PairClasses {
                 *value = *value * *row * *column;
             }
         }
-        hermitian_range(&matrix, layout.len()).map_or(f64::NAN, |[least, _]| least)
+        matrix
     }
 
     /// Length from the first element's left end to the last one's right end, m.

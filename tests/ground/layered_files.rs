@@ -5,6 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, ElasticGround, Ground, SharedKernels, Strip};
 use basemat::history::ConvolutionWeights;
 use basemat::interface::Coulomb;
@@ -56,6 +57,48 @@ fn bits(kernel: &LayeredKernel) -> Result<Vec<u64>, Error> {
 
 fn with(path: &Path) -> Result<Vec<u64>, Error> {
     bits(&kernel().with_file(path))
+}
+
+/// Coefficients of a ground in plan: the same from a file, of which only its own cells take them.
+#[test]
+fn files_in_plan_are_taken_to_the_last_bit() {
+    let file = Temporary::new("plan");
+    let plan = |cells| Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
+    let ground = |plan| {
+        let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan).unwrap();
+        ground.with_kernel_file(&file.0)
+    };
+    let march = |mut ground: ElasticGround| -> Result<Vec<u64>, Error> {
+        ground.prepare(0.2)?;
+        ground.expect_steps(LAGS, None)?;
+        let size = 3 * ground.elements().len();
+        let (mut field, mut bits) = (vec![0.0; size], vec![]);
+        for step in 0..LAGS {
+            ground.history(&mut field)?;
+            bits.extend(field.iter().map(|value| value.to_bits()));
+            let traction = |n: usize| ((7 * n + 3 * step) % 11) as f64 - 5.0;
+            ground.commit(&(0..size).map(traction).collect::<Vec<_>>());
+        }
+        Ok(bits)
+    };
+    let wanted = march(ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan(3)).unwrap()).unwrap();
+    assert!(march(ground(plan(3))).unwrap() == wanted);
+    let written = std::fs::read(&file.0).unwrap();
+    // Six classes of six kinds, two blocks of lags, and six words around them.
+    assert_eq!(written.len(), 8 * (6 * 6 * 256 + 6));
+    assert!(march(ground(plan(3))).unwrap() == wanted);
+    assert!(std::fs::read(&file.0).unwrap() == written);
+    // A file of which one bit is wrong is refused; one with other numbers and their checksum is believed.
+    let forged = rewritten(&written, true, |words| words[300] ^= 1 << 40);
+    std::fs::write(&file.0, rewritten(&written, false, |words| words[300] ^= 1 << 40)).unwrap();
+    assert!(matches!(march(ground(plan(3))), Err(Error::Layered(LayeredError::File { .. }))));
+    std::fs::write(&file.0, forged).unwrap();
+    assert!(march(ground(plan(3))).unwrap() != wanted);
+    // Other cells make it anew.
+    march(ground(plan(2))).unwrap();
+    assert_ne!(std::fs::read(&file.0).unwrap().len(), written.len());
+    assert!(march(ground(plan(3))).unwrap() == wanted);
+    assert!(std::fs::read(&file.0).unwrap() == written);
 }
 
 fn reason(found: Result<Vec<u64>, Error>) -> KernelFileError {
@@ -136,7 +179,7 @@ fn files_of_other_kernels_are_made_anew() {
         assert_eq!(bits(&make().with_file(&file.0)).unwrap(), bits(&make()).unwrap());
         let written = std::fs::read(&file.0).unwrap();
         assert_eq!(bits(&make().with_file(&file.0)).unwrap(), bits(&make()).unwrap());
-        assert_eq!(std::fs::read(&file.0).unwrap(), written);
+        assert!(std::fs::read(&file.0).unwrap() == written);
         assert!(seen.insert(written));
     }
     // An older or newer format, or rule of sampling.

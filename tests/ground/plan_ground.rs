@@ -2,14 +2,15 @@
 //! SCENE: cells of squares, oblong ones and an L on a half-space and on a damped layer over rock.
 //! REFERENCE: direct sums; static compliance as the sum of all lags; rigid mats by another solution.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::plan::{Plan, impedances_in_plan};
-use basemat::bem::{ElasticGround, Ground};
+use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
-use basemat::{Error, Soil};
+use basemat::{Error, LayeredError, Soil};
 use basemat_problems::dense::solve;
 use basemat_problems::profiles::{gmb, p1};
 use basemat_problems::random::Random;
@@ -159,9 +160,45 @@ fn limits_are_told_beforehand() {
     ground.prepare(0.1).unwrap();
     let outcome = ground.expect_steps(50_000, None);
     assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
+    // Matrices of three components between 2500 elements.
+    let many = || Plan::rectangle(-1.0..1.0, -1.0..1.0, 50).unwrap();
+    let outcome = ElasticGround::in_plan(half_space(), many()).map(drop);
+    assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
+    let outcome = SpringGround::in_plan(many(), [1.0; 3]).map(drop);
+    assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
     let ground = ElasticGround::in_plan(half_space(), plan).unwrap();
     let outcome = ground.impedances(&[1.0], StripContact::Bonded);
     assert!(matches!(outcome, Err(Error::Scene { .. })), "{outcome:?}");
+}
+
+/// A limit on processor time is one on what `cost` says, and holds before anything is computed.
+#[test]
+fn costs_are_said_and_limited() {
+    let plan = |cells| Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
+    let ground = |cells| ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan(cells)).unwrap();
+    let [few, many] = [6, 12].map(|cells| ground(cells).cost(0.1, 500).unwrap());
+    let long = ground(6).cost(0.1, 8000).unwrap();
+    assert!(few.seconds < many.seconds && few.memory < many.memory, "{few} {many}");
+    assert!(few.seconds < long.seconds && 4.0 * few.memory < long.memory, "{few} {long}");
+    for (limit, wanted) in [(0.5 * few.seconds, false), (1.01 * few.seconds, true)] {
+        let mut ground = ground(6).with_time_limit(limit).unwrap();
+        ground.prepare(0.1).unwrap();
+        let made = ground.expect_steps(500, Some(&mut |_| ControlFlow::Continue(())));
+        assert_eq!(made.is_ok(), wanted, "{made:?}");
+        if let Err(error) = made {
+            let Error::Layered(LayeredError::TooCostly { seconds, element, lags, .. }) = error
+            else {
+                panic!("{error}")
+            };
+            assert_eq!((seconds, lags), (few.seconds, 512));
+            assert!((element - plan(6).pitch()[0]).abs() < 1e-15);
+        }
+    }
+    // What is not watched is limited as well.
+    let mut ground = ground(6).with_time_limit(0.0).unwrap();
+    ground.prepare(0.1).unwrap();
+    let found = ground.step_compliance(&mut vec![0.0; 108 * 108]);
+    assert!(matches!(found, Err(Error::Layered(LayeredError::TooCostly { limit: 0.0, .. }))));
 }
 
 /// Elements of several cells are what tractions equal over these cells, and means over them, make of the cells' ground.
@@ -238,4 +275,32 @@ fn unions_are_sums_of_cells() {
     // A corner that is not there.
     assert!(l_shape().with_unions(&[1, 2, 1], &[1, 1, 1, 1]).is_err());
     assert!(l_shape().with_unions(&[1, 1, 1, 1], &[1, 1, 1, 1]).is_ok());
+}
+
+/// Without a tolerance memory ends where coefficients are lost in their errors, in a long run on layers.
+#[test]
+fn memory_ends_by_itself() {
+    let steps = 5000;
+    let ground = |tolerance| {
+        let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), l_shape()).unwrap();
+        let mut ground = ground.with_tolerance(tolerance).unwrap();
+        ground.prepare(0.4).unwrap();
+        ground.expect_steps(steps, None).unwrap();
+        ground
+    };
+    let mut ended = ground(1e-10);
+    let found = marched(&mut ended, steps, 7);
+    let bound = ended.increment_error_bound();
+    let choice = ended.history_choice().unwrap();
+    assert!((5e-7..2e-6).contains(&choice.error_bound), "{choice}");
+    let kept = ended.save().unwrap().len() / (3 * 12);
+    assert!(bound > 0.0 && kept < steps - 2000, "{bound:e} {kept}");
+    // Coefficients a hundred times as good, all of them; random tractions cancel, their bound does not.
+    let mut whole = ground(1e-13).with_history(HistoryMethod::RelaxedFft).unwrap();
+    whole.prepare(0.4).unwrap();
+    let wanted = marched(&mut whole, steps, 7);
+    let pairs = found.iter().flatten().zip(wanted.iter().flatten());
+    let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("{error:e} of {bound:e}, {choice}");
+    assert!(0.0 < error && error < bound, "{error:e} {bound:e}");
 }

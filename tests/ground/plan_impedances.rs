@@ -50,9 +50,13 @@ fn number(text: &str) -> f64 {
 #[test]
 fn static_rectangles_match_the_table() {
     let rows = rows(include_str!("../data/plan/static_rectangle.csv"));
-    // Rocking of incompressible contact forces, ν = 0, is worst; L/b = 4 is of coarser cells in the table.
-    for (cells, gates) in [(8, [4e-3, 1.13e-2, 1.1e-2]), (12, [2.5e-3, 6e-3, 5e-3])] {
-        let mut worst = [0.0_f64; 3];
+    // Rocking about the longer axis is worst, and the more so the smaller ν is: shear at welded edges oscillates. Extrapolated
+    // values of the table are low themselves, by 0.04 % (ν = 1/3) to 0.11 % (ν = 0) of the square's rocking, as 48 cells
+    // tell. L/b = 4 is of coarser cells there.
+    let all =
+        [(8, [4e-3, 1.13e-2, 4.5e-3, 7e-3, 1.1e-2]), (12, [2.5e-3, 6e-3, 2.5e-3, 3.3e-3, 5e-3])];
+    for (cells, gates) in all {
+        let mut worst = [0.0_f64; 5];
         for group in rows.chunk_by(|a, b| a[..2] == b[..2]) {
             let (length, poisson) = (number(group[0][0]), number(group[0][1]));
             let plan = Plan::rectangle(-length..length, -1.0..1.0, cells).unwrap();
@@ -62,13 +66,20 @@ fn static_rectangles_match_the_table() {
             for row in group {
                 for (found, wanted) in found.iter().zip(&row[3..]) {
                     let error = (component(found, row[2]).re / number(wanted) - 1.0).abs();
-                    let place =
-                        if length == 4.0 { 2 } else { usize::from(row[2].starts_with('R')) };
+                    let place = match (length, poisson, row[2].starts_with('R')) {
+                        (4.0, ..) => 4,
+                        (_, _, false) => 0,
+                        (_, 0.0, _) => 1,
+                        (1.0, ..) => 2,
+                        _ => 3,
+                    };
                     worst[place] = worst[place].max(error);
                 }
             }
         }
-        println!("{cells} cells: {worst:.5?} (translations and torsion, rocking, L/b = 4)");
+        println!(
+            "{cells} cells: {worst:.5?} (translations, rocking of ν = 0, squares, others, L/b = 4)"
+        );
         assert!(worst.iter().zip(gates).all(|(worst, gate)| *worst < gate), "{worst:?}");
     }
 }
@@ -149,28 +160,31 @@ fn discs_match_a_spectral_solution() {
 /// What a rectangle of 20b × 2b has more than one of 16b × 2b is 4b of a strip, and its coupling has the strip's sign.
 #[test]
 fn long_mats_are_strips() {
-    let frequency = 1.0 / TAU;
+    let frequencies = [0.5 / TAU, 1.0 / TAU];
     let profile = half_space(1.0 / 3.0);
     let elements = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap().elements();
     let contact = StripContact::Bonded;
-    let strip = rigid_strip_impedances(&profile, &elements, &[frequency], contact).unwrap()[0];
+    let strips = rigid_strip_impedances(&profile, &elements, &frequencies, contact).unwrap();
     // Across the strip is along y here.
     let [long, short] = [10.0, 8.0].map(|half| {
         let plan = Plan::rectangle(-half..half, -1.0..1.0, 6).unwrap();
-        impedances_in_plan(&profile, &plan, &[frequency], contact).unwrap()[0].matrix
+        impedances_in_plan(&profile, &plan, &frequencies, contact).unwrap()
     });
-    for ([i, j], wanted) in [
-        ([2, 2], strip.vertical),
-        ([1, 1], strip.horizontal),
-        ([3, 3], strip.rocking),
-        // rx lowers the end at −y: the strip's rotation is −rx.
-        ([1, 3], -strip.coupling),
-    ] {
-        let found = (long[i][j] - short[i][j]) * 0.25;
-        let error = (found - wanted).abs() / wanted.abs();
-        println!("{i}{j} {found:?} {wanted:?} {error:.1e}");
-        let gate = if i == j { 0.04 } else { 0.3 };
-        assert!(error < gate, "{i}{j} {error:e}");
+    for (place, (strip, gate)) in strips.into_iter().zip([0.07, 0.03]).enumerate() {
+        let [long, short] = [&long, &short].map(|found| found[place].matrix);
+        for ([i, j], wanted) in [
+            ([2, 2], strip.vertical),
+            ([1, 1], strip.horizontal),
+            ([3, 3], strip.rocking),
+            // rx lowers the end at −y: the strip's rotation is −rx.
+            ([1, 3], -strip.coupling),
+        ] {
+            let found = (long[i][j] - short[i][j]) * 0.25;
+            let error = (found - wanted).abs() / wanted.abs();
+            println!("{place} {i}{j} {found:?} {wanted:?} {error:.1e}");
+            let gate = if i == j { gate } else { 0.05 };
+            assert!(error < gate, "{place} {i}{j} {error:e}");
+        }
     }
 }
 

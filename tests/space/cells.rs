@@ -19,6 +19,7 @@ pub(crate) struct Cells {
     pub(crate) elements: Vec<ContactElement>,
     pub(crate) depths: Vec<[f64; 2]>,
     pub(crate) directions: usize,
+    pub(crate) sampled: Option<[usize; 2]>,
     bed: Bed,
     time_step: f64,
     displacement: Vec<f64>,
@@ -35,7 +36,7 @@ impl Cells {
             }
         }
         let displacement = vec![0.0; 3 * elements.len()];
-        Self { elements, depths, directions: 3, bed, time_step: 0.0, displacement }
+        Self { elements, depths, directions: 3, sampled: None, bed, time_step: 0.0, displacement }
     }
 
     /// Under a rectangle about `center`, its outer cells a tenth of their side beyond its edge.
@@ -80,6 +81,10 @@ impl Ground for Cells {
 
     fn depth(&self, element: usize) -> [f64; 2] {
         self.depths[element]
+    }
+
+    fn sampled_cells(&self) -> Option<[usize; 2]> {
+        self.sampled
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {

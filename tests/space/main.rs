@@ -14,3 +14,4 @@ mod springs;
 mod storeys;
 mod uplift;
 mod warnings;
+mod winkler;

@@ -1,12 +1,15 @@
 //! Warnings of cells and steps that miss what a body in plan and its ground do.
 
-use basemat::bem::ElasticGround;
+use basemat::bem::plan::Plan;
+use basemat::bem::{ElasticGround, Ground};
 use basemat::coupled::Warning;
 use basemat::interface::Bonded;
 use basemat::motion::{Record, Triaxial, el_centro_1940};
 use basemat::results::Run;
 use basemat::structure::RigidBody;
 use basemat::{Simulation, Soil};
+
+use super::cells::{BED, Cells};
 
 fn motion(record: Record, along_y: bool) -> Triaxial {
     let [x, y] = if along_y { [None, Some(record)] } else { [Some(record), None] };
@@ -100,4 +103,24 @@ fn motions_along_y_are_judged() {
     let (run, _, _) = run([20.0, 20.0, 4.0], 2000.0, motion(fast, true), 4, 2e-2);
     let found = |warning: &Warning| matches!(warning, Warning::UnresolvedMotion { .. });
     assert!(run.warnings.iter().any(found), "{:?}", run.warnings);
+}
+
+/// More than 512 cells are too many for the gate; a ground of one's own may say so too.
+#[test]
+fn samples_of_the_passivity_gate_are_told() {
+    let ground = |cells| {
+        let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
+        ElasticGround::in_plan(Soil::new(8e7, 0.3, 1900.0).unwrap(), plan).unwrap()
+    };
+    assert_eq!(ground(22).sampled_cells(), None);
+    assert_eq!(ground(23).sampled_cells(), Some([256, 529]));
+    let build = |sample| {
+        let mut cells = Cells::under([4.0; 2], [0.0; 2], [4, 4], BED);
+        cells.sampled = sample;
+        let body = RigidBody::cuboid([4.0; 3], 2000.0).unwrap();
+        let builder = Simulation::builder(0.01).structure(body).ground(cells);
+        builder.interface(Bonded).build().unwrap().run(2, |_| {}).unwrap().warnings
+    };
+    assert_eq!(build(None), []);
+    assert_eq!(build(Some([9, 16])), [Warning::SampledPassivity { checked: 9, cells: 16 }]);
 }

@@ -162,7 +162,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     }
 
     /// Eigenvalues and weights at z, given by ln |z| and its angle.
-    pub(super) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
+    pub(crate) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
         let [z, rest] = on_circle(logarithm, angle);
         self.stages.nodes(z, rest)
     }
@@ -185,7 +185,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     }
 
     /// The Laplace variable of an eigenvalue, 1/s.
-    pub(super) fn variable(&self, node: Node) -> Complex {
+    pub(crate) fn variable(&self, node: Node) -> Complex {
         node.lambda.scale(1.0 / self.time_step)
     }
 

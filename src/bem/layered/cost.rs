@@ -11,7 +11,7 @@ use super::coefficients::{Block, DOUBT, Quadrature};
 use super::contour::{Circle, Panels, Place};
 use super::form_factors::{DEGREES, FormRow, LANES, POINTS, Panel};
 use super::passivity;
-use super::wavenumber::{Counts, Workspace};
+use super::wavenumber::{Compliances, Counts, Workspace};
 use crate::error::{LayeredError, Result};
 use crate::history::KINDS;
 use crate::linalg::Complex;
@@ -32,6 +32,8 @@ const POINT: f64 = 170.0;
 /// One sample more for so many: errors of the integrals keep panels from being resolved that look so. Measured
 /// (`cost/tests.rs`).
 const MISJUDGED: usize = 5;
+/// Samples for each that a look stands for.
+pub(crate) const SUMMED: f64 = 1.0 + 1.0 / MISJUDGED as f64;
 /// Samples of each eigenvalue that are looked at.
 const LOOKED_AT: usize = 16;
 /// Halving makes no integral so many times as long as its panels, as a rule.
@@ -70,16 +72,41 @@ struct Total {
 }
 
 /// Samples of each eigenvalue, block by block: ln |z| and angle.
-pub(super) struct Outlook(Vec<Vec<Vec<[f64; 2]>>>);
+pub(crate) struct Outlook(Vec<Vec<Vec<[f64; 2]>>>);
+
+/// A sample of an eigenvalue that stands for so many.
+pub(crate) struct Look {
+    pub(crate) node: usize,
+    /// ln |z| and angle.
+    pub(crate) place: [f64; 2],
+    pub(crate) samples: usize,
+}
 
 impl Outlook {
     /// Numbers of samples of all eigenvalues, block by block.
-    pub(super) fn counts(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn counts(&self) -> impl Iterator<Item = usize> {
         let blocks = self.0.first().map_or(0, Vec::len);
         (0..blocks).map(|place| {
             let looked: usize = self.0.iter().map(|blocks| blocks[place].len()).sum();
             looked + looked / MISJUDGED
         })
+    }
+
+    /// Some samples of each eigenvalue, and of the gate if that is `open`.
+    pub(crate) fn looks(&self, open: bool) -> Vec<Look> {
+        let mut looks = vec![];
+        for (node, blocks) in self.0.iter().enumerate() {
+            let gate = passivity::places().filter(|_| open);
+            let mut samples: Vec<_> = gate.chain(blocks.iter().flatten().copied()).collect();
+            samples.sort_by(|[one, a], [two, b]| a.total_cmp(b).then(one.total_cmp(two)));
+            let stride = samples.len().div_ceil(LOOKED_AT).max(1);
+            looks.extend(samples.chunks(stride).map(|some| Look {
+                node,
+                place: some[some.len() / 2],
+                samples: some.len(),
+            }));
+        }
+        looks
     }
 }
 
@@ -96,6 +123,42 @@ fn distinct(met: &[Met]) -> f64 {
     let (once, twice) = (of(1), of(2));
     let uses: f64 = met.iter().map(|met| met.uses).sum();
     uses.min(met.len() as f64 + once * (once - 1.0) / (2.0 * (twice + 1.0)))
+}
+
+impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
+    /// Where shares of the eigenvalues in the mobility will be evaluated, as far as one wavenumber tells.
+    pub(crate) fn outlook(
+        &self,
+        missing: Range<usize>,
+        work: &mut I::Workspace,
+    ) -> Result<Outlook> {
+        let of_node = |(node, panels): (usize, &Panels)| {
+            let mut met: HashMap<Place, bool> = HashMap::new();
+            let of_block = |number: usize| {
+                let circle = Block::circle(number, self.tolerance);
+                let mut samples = vec![];
+                let (_, alone) = circle.covered(node, |places| {
+                    let resolved = |place: &Place| {
+                        let known = panels.known(*place).or_else(|| met.get(place).copied());
+                        if let Some(known) = known {
+                            return Ok(known);
+                        }
+                        let looks = self.looks(node, *place, work)?;
+                        if looks(DOUBT) {
+                            samples.extend(place.places());
+                        }
+                        met.insert(*place, looks(1.0));
+                        Ok(looks(1.0))
+                    };
+                    places.iter().map(resolved).collect()
+                })?;
+                samples.extend(alone.iter().map(|p| [circle.logarithm, circle.angle(*p)]));
+                Ok(samples)
+            };
+            missing.clone().map(of_block).collect()
+        };
+        self.panels.iter().enumerate().map(of_node).collect::<Result<_>>().map(Outlook)
+    }
 }
 
 impl Quadrature {
@@ -163,56 +226,20 @@ impl Quadrature {
 
     fn total(&self, outlook: &Outlook, open: bool, work: &mut Workspace) -> Result<Total> {
         let mut total = Total::default();
-        let gate = || passivity::places().filter(|_| open);
-        for (node, blocks) in outlook.0.iter().enumerate() {
-            let mut samples: Vec<_> = gate().chain(blocks.iter().flatten().copied()).collect();
-            samples.sort_by(|[one, a], [two, b]| a.total_cmp(b).then(one.total_cmp(two)));
-            let stride = samples.len().div_ceil(LOOKED_AT).max(1);
-            for some in samples.chunks(stride) {
-                for node in self.nodes(some[some.len() / 2]).skip(node).take(1) {
-                    let (met, uses) =
-                        (&mut total.met, (1.0 + 1.0 / MISJUDGED as f64) * some.len() as f64);
-                    let meet = |panel: Panel, halved: bool| {
-                        let met = met.entry((panel, halved)).or_default();
-                        *met = Met { looks: met.looks + 1, uses: met.uses + uses };
-                    };
-                    let s = self.variable(node);
-                    let counts = self.integrals.counts(&self.profile, s, work, meet)?;
-                    total.sum = total.sum.with(&counts, |sum, one| sum + uses * one);
-                }
+        for Look { node, place, samples } in outlook.looks(open) {
+            for node in self.nodes(place).skip(node).take(1) {
+                let uses = SUMMED * samples as f64;
+                let met = &mut total.met;
+                let meet = |panel: Panel, halved: bool| {
+                    let met = met.entry((panel, halved)).or_default();
+                    *met = Met { looks: met.looks + 1, uses: met.uses + uses };
+                };
+                let s = self.variable(node);
+                let counts = self.integrals.counts(&self.profile, s, work, meet)?;
+                total.sum = total.sum.with(&counts, |sum, one| sum + uses * one);
             }
         }
         Ok(total)
-    }
-
-    /// Where shares of the eigenvalues in the mobility will be evaluated, as far as one wavenumber tells.
-    pub(super) fn outlook(&self, missing: Range<usize>, work: &mut Workspace) -> Result<Outlook> {
-        let of_node = |(node, panels): (usize, &Panels)| {
-            let mut met: HashMap<Place, bool> = HashMap::new();
-            let of_block = |number: usize| {
-                let circle = Block::circle(number, self.tolerance);
-                let mut samples = vec![];
-                let (_, alone) = circle.covered(node, |places| {
-                    let resolved = |place: &Place| {
-                        let known = panels.known(*place).or_else(|| met.get(place).copied());
-                        if let Some(known) = known {
-                            return Ok(known);
-                        }
-                        let looks = self.looks(node, *place, work)?;
-                        if looks(DOUBT) {
-                            samples.extend(place.places());
-                        }
-                        met.insert(*place, looks(1.0));
-                        Ok(looks(1.0))
-                    };
-                    places.iter().map(resolved).collect()
-                })?;
-                samples.extend(alone.iter().map(|p| [circle.logarithm, circle.angle(*p)]));
-                Ok(samples)
-            };
-            missing.clone().map(of_block).collect()
-        };
-        self.panels.iter().enumerate().map(of_node).collect::<Result<_>>().map(Outlook)
     }
 
     /// Tables of the narrowest panels, wide and halved ones: those that are kept, and how often they are made.

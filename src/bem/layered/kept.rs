@@ -20,7 +20,7 @@ pub(crate) struct KeptBlocks {
     blocks: [OnceLock<Result<Block>>; BLOCKS],
     /// Held by the thread that computes.
     making: Mutex<()>,
-    pub(super) file: Option<PathBuf>,
+    pub(crate) file: Option<PathBuf>,
     /// Numbers of classes and kinds.
     sizes: [usize; 2],
 }

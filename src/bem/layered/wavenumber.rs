@@ -166,28 +166,40 @@ impl Compliances<KINDS> for Wavenumbers {
         work: &mut Self::Workspace,
         values: &mut Vec<Complex>,
     ) -> Result<()> {
-        let slab = profile.layers().first().zip(profile.soils().nth(1));
-        // Whether the top layer carries more along the patch than the ground below it.
-        let has_slab = slab.is_some_and(|(top, (below, _))| {
-            let carried = top.soil.shear_modulus() * top.thickness;
-            carried > below.shear_modulus() * self.span
-        });
-        let wavenumbers = if has_slab { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
         work.compliance.set(profile, s)?;
-        work.evaluations += wavenumbers.len();
-        let (_, q2, _) = work.compliance.top();
-        let one = Complex::real(1.0);
-        let waves = [self.shortest, self.span].map(|way| {
-            let turn = q2.sqrt().scale(way);
-            (-turn).exp() / (one + turn)
-        });
-        let weight = one + waves[0] + waves[1];
-        for wavenumber in wavenumbers {
-            let c = work.compliance.at(wavenumber / self.span);
-            values.extend([c.zz, c.xx, c.xz].map(|value| weight * value));
-        }
+        work.evaluations +=
+            surface_outlook(profile, &mut work.compliance, [self.shortest, self.span], values);
         Ok(())
     }
+}
+
+/// The surface compliance at small wavenumbers, and on waves along the shortest element and the patch: how often it was
+/// evaluated.
+pub(crate) fn surface_outlook(
+    profile: &SoilProfile,
+    compliance: &mut Compliance,
+    [shortest, span]: [f64; 2],
+    values: &mut Vec<Complex>,
+) -> usize {
+    let slab = profile.layers().first().zip(profile.soils().nth(1));
+    // Whether the top layer carries more along the patch than the ground below it.
+    let has_slab = slab.is_some_and(|(top, (below, _))| {
+        let carried = top.soil.shear_modulus() * top.thickness;
+        carried > below.shear_modulus() * span
+    });
+    let wavenumbers = if has_slab { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
+    let (_, q2, _) = compliance.top();
+    let one = Complex::real(1.0);
+    let waves = [shortest, span].map(|way| {
+        let turn = q2.sqrt().scale(way);
+        (-turn).exp() / (one + turn)
+    });
+    let weight = one + waves[0] + waves[1];
+    for wavenumber in wavenumbers {
+        let c = compliance.at(wavenumber / span);
+        values.extend([c.zz, c.xx, c.xz].map(|value| weight * value));
+    }
+    wavenumbers.len()
 }
 
 impl Wavenumbers {

@@ -44,7 +44,7 @@ impl AngularMeans {
     }
 
     /// Directions in a quarter that resolve the means at the wavenumber `k`.
-    fn directions(&self, k: f64) -> usize {
+    pub(super) fn directions(&self, k: f64) -> usize {
         let turn = k * self.diagonal;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
         let count = (0.25 * (turn + 8.0 * turn.cbrt() + 40.0)).ceil() as usize;

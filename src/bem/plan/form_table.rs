@@ -100,16 +100,17 @@ pub(super) struct FormTable {
     /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
     tails: Vec<(usize, Rows)>,
     deep: f64,
+    /// Number of panels up to K*.
+    end: usize,
 }
 
 impl FormTable {
-    /// Table for `lattice`.
+    /// Table for `lattice`, still empty.
     ///
     /// # Errors
-    /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped).
-    pub(super) fn new(lattice: &Lattice, need: Need, watch: &mut Watch) -> Result<Self> {
-        let list = lattice.classes();
-        let classes = list.len();
+    /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
+    pub(super) fn new(lattice: &Lattice, need: Need) -> Result<Self> {
+        let classes = lattice.classes().len();
         let width = TURN / lattice.diagonal();
         let mut table = Self {
             lattice: lattice.clone(),
@@ -121,6 +122,7 @@ impl FormTable {
             legendre: vec![],
             tails: vec![],
             deep: need.deep,
+            end: 0,
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
@@ -135,13 +137,11 @@ impl FormTable {
         }
         let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;
-        let first = table.panels(0.0);
         let last = table.panels(need.root);
-        table.values = Rows::new(last * POINTS, classes);
         table.legendre = (0..last).map(|_| OnceLock::new()).collect();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
         let end = (end / width).ceil() as usize;
-        table.tabulate(&list, first..=last, end.max(last + 1), watch)?;
+        table.end = end.max(last + 1);
         Ok(table)
     }
 
@@ -158,20 +158,41 @@ impl FormTable {
         self.lattice.diagonal()
     }
 
+    /// Directions of all means that it takes.
+    pub(super) fn directions(&self) -> usize {
+        let means = AngularMeans::new(&self.lattice);
+        let middles = (0..self.end).map(|panel| self.width * (panel as f64 + 0.5));
+        middles.map(|k| POINTS * means.directions(k)).sum()
+    }
+
+    /// Offsets of two cells.
+    pub(super) fn offsets(&self) -> usize {
+        self.lattice.extent().into_iter().product()
+    }
+
+    /// Panels up to the largest K.
+    pub(super) fn most_panels(&self) -> usize {
+        self.legendre.len()
+    }
+
+    /// Bytes of what is tabulated.
+    pub(super) fn memory(&self) -> f64 {
+        8.0 * (FORMS * POINTS * self.classes * self.most_panels()) as f64
+    }
+
     /// κ, 1/m.
     pub(super) fn unit(&self) -> f64 {
         1.0 / self.lattice.finest()
     }
 
     /// Forms at all points, from the last panel to the first; on the way the sums beyond each K.
-    fn tabulate(
-        &mut self,
-        list: &[[usize; 2]],
-        kept: std::ops::RangeInclusive<usize>,
-        end: usize,
-        watch: &mut Watch,
-    ) -> Result<()> {
-        let (classes, unit) = (self.classes, self.unit());
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped).
+    pub(super) fn tabulate(&mut self, watch: &mut Watch) -> Result<()> {
+        let (list, classes, unit) = (self.lattice.classes(), self.classes, self.unit());
+        let (kept, end) = (self.panels(0.0)..=self.most_panels(), self.end);
+        self.values = Rows::new(kept.end() * POINTS, classes);
         let mut means = AngularMeans::new(&self.lattice);
         let mut sums = Rows::new(TERMS, classes);
         // Sums fade out towards K*: an end would see the waves that forms are. What has faded is like k⁻³.

@@ -20,9 +20,9 @@ use super::form_table::{FormTable, Need, Rows, TERMS};
 use super::sh::transverse;
 use crate::bem::layered::{
     Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, Surface, by_halves, legendre,
-    surface_series,
+    surface_outlook, surface_series,
 };
-use crate::error::{LayeredError, PlanError, Result, Watch};
+use crate::error::{Error, LayeredError, PlanError, Result, Watch};
 use crate::geometry::{Lattice, SERIES};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -49,7 +49,7 @@ const SHARES: [(usize, &[[f64; KERNELS]]); FORMS] = [
 #[derive(Debug)]
 pub(super) struct Integrals {
     pub(super) table: FormTable,
-    finest: f64,
+    pub(super) finest: f64,
     tolerance: f64,
 }
 
@@ -118,20 +118,75 @@ impl Compliances<SERIES> for Integrals {
         }
         Ok(())
     }
+
+    fn outlook(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Workspace,
+        values: &mut Vec<Complex>,
+    ) -> Result<()> {
+        work.ground.set(profile, s)?;
+        let sizes = [self.finest, self.table.span()];
+        work.evaluations += surface_outlook(profile, &mut work.ground, sizes, values);
+        Ok(())
+    }
 }
 
 impl Integrals {
+    /// Panels of an integral, and those of them that are halved; its evaluations are added to those of `work`.
+    pub(super) fn counts(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Workspace,
+    ) -> Result<[usize; 2]> {
+        let mut ground = std::mem::take(&mut work.ground);
+        let outcome = ground.set(profile, s).and_then(|()| {
+            let (modulus, q2, a2) = ground.top();
+            let panels = self.table.panels(q2.sqrt().abs());
+            let rest = series(a2)[0].map(|d| modulus.inverse().scale(d));
+            let mut halved = 0;
+            self.resolve(
+                panels,
+                work,
+                &mut Symbol { ground: &mut ground, rest },
+                &mut |panel, _| {
+                    halved += usize::from(panel.is_some());
+                },
+            )
+            .map_err(|wavenumber| unresolved(s, wavenumber))?;
+            Ok([panels, halved])
+        });
+        work.ground = ground;
+        outcome
+    }
+
     /// Integrals that serve `profile` at all Laplace variables of `list`, relative to a cell's own compliance.
     ///
     /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory);
-    /// [`Error::Stopped`](crate::Error::Stopped).
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`Integrals::sketch`].
     pub(super) fn new(
         lattice: &Lattice,
         profile: &SoilProfile,
         list: impl IntoIterator<Item = Complex>,
         tolerance: f64,
         watch: &mut Watch,
+    ) -> Result<Self> {
+        let mut integrals = Self::sketch(lattice, profile, list, tolerance)?;
+        integrals.table.tabulate(watch)?;
+        Ok(integrals)
+    }
+
+    /// The same without the forms, to be counted.
+    ///
+    /// # Errors
+    /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
+    pub(super) fn sketch(
+        lattice: &Lattice,
+        profile: &SoilProfile,
+        list: impl IntoIterator<Item = Complex>,
+        tolerance: f64,
     ) -> Result<Self> {
         let deep = profile.layers().first().map_or(0.0, |layer| DEEP / layer.thickness);
         let mut ground = Compliance::default();
@@ -142,7 +197,7 @@ impl Integrals {
             // Squares may leave the range of f64.
             root = root.max(if own.is_nan() { f64::INFINITY } else { own });
         }
-        let table = FormTable::new(lattice, Need { root, deep }, watch)?;
+        let table = FormTable::new(lattice, Need { root, deep })?;
         Ok(Self { table, finest: lattice.finest(), tolerance })
     }
 
@@ -167,17 +222,20 @@ impl Integrals {
         }
         self.add(tail, work);
         let rest = series[0].map(|d| softness.scale(d));
-        self.resolve(panels, work, &mut Symbol { ground, rest }).map_err(|wavenumber| {
-            LayeredError::Unresolved { re: s.re, im: s.im, wavenumber }.into()
+        self.resolve(panels, work, &mut Symbol { ground, rest }, &mut |panel, work| {
+            self.add(panel.map_or(&self.table.values, |panel| self.table.legendre(panel)), work);
         })
+        .map_err(|wavenumber| unresolved(s, wavenumber))
     }
 
-    /// Panels up to K into `work.sums`; the wavenumber where halving stopped if it did.
+    /// Calls `take` with kernels at the points of all panels up to K, and with moments of each that is halved; the
+    /// wavenumber where halving stopped if it did.
     fn resolve(
         &self,
         panels: usize,
         work: &mut Workspace,
         symbol: &mut Symbol,
+        take: &mut dyn FnMut(Option<usize>, &mut Workspace),
     ) -> std::result::Result<(), f64> {
         let (width, half) = (self.table.width, 0.5 * self.table.width);
         work.samples.clear();
@@ -208,10 +266,10 @@ impl Integrals {
                 work.kernels.push(if good { weighted } else { Kernel::default() });
             }
         }
-        self.add(&self.table.values, work);
+        take(None, work);
         for panel in hard {
             self.halved(panel, allowed, work, symbol)?;
-            self.add(self.table.legendre(panel), work);
+            take(Some(panel), work);
         }
         Ok(())
     }
@@ -305,6 +363,10 @@ impl Integrals {
             rows.combine(form, weights, &mut sums[range]);
         }
     }
+}
+
+fn unresolved(s: Complex, wavenumber: f64) -> Error {
+    LayeredError::Unresolved { re: s.re, im: s.im, wavenumber }.into()
 }
 
 #[cfg(test)]

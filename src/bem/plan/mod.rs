@@ -13,11 +13,12 @@
 //! | sh | surface compliance across the wavenumber |
 //! | angular_means, static_cells, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
-//! | kernel | step coefficients by convolution quadrature |
+//! | kernel, cost | step coefficients by convolution quadrature; what they cost |
 //! | sectors, impedance | rigid mats at one frequency |
 
 mod angular_means;
 mod cells;
+mod cost;
 pub(crate) mod faces;
 mod form_table;
 mod impedance;
@@ -30,5 +31,5 @@ mod unions;
 
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};
-pub(super) use kernel::{LatticeKernel, static_compliance};
+pub(super) use kernel::{LatticeKernel, gate_sample, static_compliance};
 pub(super) use unions::Unions;

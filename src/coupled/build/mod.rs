@@ -270,7 +270,10 @@ impl SimulationBuilder {
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let uncovered = scene.base.uncovered(ground.elements());
         let period = assembled.period_on_fixed_base(&mut held);
-        let warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
+        let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
+        let sample = ground.sampled_cells();
+        warnings
+            .extend(sample.map(|[checked, cells]| Warning::SampledPassivity { checked, cells }));
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.

@@ -212,6 +212,11 @@ impl Ground for Double {
         vec![soil()]
     }
 
+    fn sampled_cells(&self) -> Option<[usize; 2]> {
+        self.0.asked("sampled_cells");
+        Some([3, 4])
+    }
+
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.0.asked("static_compliance");
         matrix.fill(3.0 * CORRECT);

@@ -92,6 +92,7 @@ fn boxed_grounds() {
         assert_eq!(matrix, [3.0 * CORRECT; 4]);
         assert_eq!(part.shear_wave_speed(), Some(CORRECT));
         assert_eq!(part.soils(), [doubles::soil()]);
+        assert_eq!(part.sampled_cells(), Some([3, 4]));
         assert_eq!(part.history_choice(), None);
         assert_eq!(part.increment_error_bound(), CORRECT);
         assert_eq!(part.save(), Ok(vec![CORRECT]));

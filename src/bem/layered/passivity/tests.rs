@@ -121,6 +121,34 @@ fn active_damping_is_refused() {
     );
 }
 
+/// Hermitian parts are real parts: matrices of all pairs are symmetric, on unequal elements too.
+#[test]
+fn mobilities_are_reciprocal() {
+    let strip = Strip::new(-1.0..1.0, 5, Grading::Cosine).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let quadrature = quadrature(p3(gmb(5)), &classes, 0.1);
+    let mut values = vec![[Complex::default(); 3]; classes.count()];
+    let mut scratch = values.clone();
+    let at = [RADIUS.ln(), 0.4];
+    quadrature.mobility(at, &mut Workspace::default(), &mut scratch, &mut values).unwrap();
+    let matrix = assembled(&classes, &values);
+    let order = classes.layout().len();
+    let mut odd = 0.0_f64;
+    for (place, value) in matrix.iter().enumerate() {
+        let twin = matrix[place % order * order + place / order];
+        assert_eq!(*value, twin);
+        odd = odd.max(value.im.abs());
+    }
+    let scale = |place: usize| 1.0 / matrix[place * (order + 1)].norm().sqrt();
+    let scaled = |place: usize| matrix[place] * scale(place / order) * scale(place % order);
+    let scaled: Vec<_> = (0..order * order).map(scaled).collect();
+    let [least, _] = crate::linalg::hermitian_range(&scaled, order).unwrap();
+    let found = margin(&classes, &values);
+    assert!(odd > 0.0 && (least - found).abs() < 1e-13, "{least} {found}");
+    let exceeds = |bound| classes.exceeds(bound, own(&values), |_, pair| real(&values[pair.class]));
+    assert!(exceeds(least - 1e-10) && !exceeds(least + 1e-10));
+}
+
 /// The gate with a bar that no ground meets, and the eigenvalue that it reports.
 #[test]
 fn the_gate_reports_the_least_eigenvalue() {
