@@ -7,5 +7,6 @@ mod elastic;
 mod equations;
 mod march;
 mod mast;
+mod motions;
 mod refused;
 mod storeys;
