@@ -20,7 +20,7 @@ pub struct ContactNode {
 }
 
 impl ContactNode {
-    /// A node with a horizontal and a vertical unknown of its own.
+    /// A node with a horizontal and a vertical degree of freedom of its own.
     pub fn free(x: f64, horizontal: usize, vertical: usize) -> Self {
         Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
     }
@@ -99,7 +99,7 @@ impl FaceNode {
     /// The degrees of freedom that move it.
     pub(crate) fn dofs(&self) -> impl Iterator<Item = usize> {
         let terms = self.rows().into_iter().flatten();
-        terms.filter(|(_, weight)| *weight != 0.0).map(|(unknown, _)| *unknown)
+        terms.filter(|(_, weight)| *weight != 0.0).map(|(dof, _)| *dof)
     }
 
     /// Refuses a place and weights that are not finite, and degrees of freedom at `bound` or beyond.
@@ -109,7 +109,7 @@ impl FaceNode {
         for &(index, weight) in self.rows().into_iter().flatten() {
             finite("weight of a contact node", weight)?;
             if index >= bound {
-                let quantity = "unknown of a contact node";
+                let quantity = "degree of freedom of a contact node";
                 return Err(Error::Index { quantity, index, bound });
             }
         }

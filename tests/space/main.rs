@@ -9,4 +9,7 @@ mod march;
 mod mast;
 mod motions;
 mod refused;
+mod springs;
 mod storeys;
+mod uplift;
+mod warnings;
