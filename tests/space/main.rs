@@ -9,6 +9,7 @@ mod march;
 mod mast;
 mod motions;
 mod refused;
+mod results;
 mod springs;
 mod storeys;
 mod uplift;

@@ -79,10 +79,7 @@ fn a_block_that_lifts_and_slides_follows_the_table() {
     let numbers = |line: &str| line.split(',').map(|number| number.parse().unwrap()).collect();
     let rows: Vec<Vec<f64>> = table.lines().skip(1).map(numbers).collect();
     assert_eq!(rows.len(), 300);
-    for (cells, gates) in [
-        (16, [1e-5; 8]),
-        (8, [2e-2, 1e-2, 1e-2, 1e-2, 1e-2, 2e-2, 3e-2, 1e-2]),
-    ] {
+    for (cells, gates) in [(16, [1e-5; 8]), (8, [2e-2, 1e-2, 1e-2, 1e-2, 1e-2, 2e-2, 3e-2, 1e-2])] {
         let mut simulation = block(cells, Shake);
         let (mut errors, mut sizes) = ([0.0; 8], [0.0; 8]);
         let (mut row, mut iterations) = (rows.iter(), 0);
