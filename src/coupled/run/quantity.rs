@@ -372,7 +372,8 @@ impl<'a> Base<'a> {
 fn open_area(base: &Base<'_>) -> f64 {
     let areas = base.state.context.elements.areas().get(base.elements()).unwrap_or_default();
     let open = areas.iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
-    open.map(|(area, _)| area).sum()
+    // An empty sum would be a negative zero.
+    open.fold(0.0, |sum, (area, _)| sum + area)
 }
 
 impl Summary {
