@@ -122,7 +122,17 @@ fn rigid_motions_strain_nothing_and_move_all_masses() {
             u
         })
         .collect();
+    // Any motion: the total drift is the sum of those of the storeys.
+    let u: Vec<f64> = (0..n).map(|k| (1.3 * k as f64).cos()).collect();
+    let total = without.total_drift(2, [1.5, -2.5]).unwrap();
+    for (k, row) in total.iter().enumerate() {
+        let own = |storey| without.drift_at(storey, [1.5, -2.5]).unwrap()[k].value(&u);
+        assert!((row.value(&u) - (0..3).map(own).sum::<f64>()).abs() < 1e-13);
+    }
     for motion in &motions {
+        for row in &total {
+            assert!(row.value(motion).abs() < 1e-13);
+        }
         for matrix in [&stiffness, &damping] {
             let force = product(matrix, motion);
             assert!(force.iter().all(|f| f.abs() < 1e-12 * 1e11), "{force:?}");
