@@ -124,20 +124,28 @@ impl State {
             foundation.base_moment = moment + normal * scene.foundation_arms[k][0];
             if scene.elements.is_plan() {
                 let [x, y] = scene.foundation_arms[k];
-                let [mut across, mut moment, mut torque] = [0.0; 3];
+                let [mut across, mut moment, mut torque, mut slip] = [0.0; 4];
                 for e in foundation.elements.clone() {
                     let (contact, shear) = (&state.contact[e], state.contact[e].shear_across);
                     let [dx, dy] = [scene.arms[e][0] - x, scene.arms[e][1] - y];
                     across += areas[e] * shear;
+                    slip += areas[e] * contact.slip_across;
                     moment -= areas[e] * contact.pressure * dy;
                     torque += areas[e] * (dx * shear - dy * contact.shear);
                 }
                 foundation.shear_across = across;
                 (foundation.moment_across, foundation.torque) = (moment, torque);
+                foundation.mean_slip_across = slip / own_width;
             }
             foundation.uplifted_fraction = own_open / own_width;
             foundation.mean_slip = own_slip / own_width;
-            foundation.base_rotation = scene.base.rotation(k, displacement);
+            let own = [
+                &mut foundation.base_rotation,
+                &mut foundation.rotation_across,
+                &mut foundation.twist,
+            ];
+            let rotations = scene.base.rotations(k, displacement);
+            own.into_iter().zip(rotations).for_each(|(own, rotation)| *own = rotation);
             if foundation.base_rotation.abs() > state.base_rotation.abs() {
                 state.base_rotation = foundation.base_rotation;
             }

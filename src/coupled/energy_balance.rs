@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::text::column::{column, number};
+use crate::text::column::{column, number, of_body};
 
 /// Where a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,13 +123,11 @@ impl EnergyTerm {
         ROWS[self as usize].2
     }
 
-    /// Its column in files: `soil_energy_j_per_m`.
-    pub(crate) fn column(self) -> String {
+    /// Its column in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
+    pub(crate) fn column(self, in_plan: bool) -> String {
         let word = ROWS[self as usize].0;
-        column(
-            &if word.contains("bound") { word.to_owned() } else { format!("{word} energy") },
-            "J/m",
-        )
+        let name = if word.contains("bound") { word.to_owned() } else { format!("{word} energy") };
+        column(&name, of_body("J/m", in_plan))
     }
 
     /// Whether it is what the structure has lost for good, or to the ground.
@@ -270,9 +268,10 @@ mod tests {
 
     #[test]
     fn columns_by_one_rule() {
-        let columns = EnergyTerm::ALL.map(EnergyTerm::column);
+        let columns = EnergyTerm::ALL.map(|term| term.column(false));
         assert_eq!(columns[0], "kinetic_energy_j_per_m");
         assert!(columns.contains(&"relative_input_energy_j_per_m".to_owned()));
         assert!(columns.contains(&"soil_error_bound_j_per_m".to_owned()));
+        assert_eq!(EnergyTerm::ALL[0].column(true), "kinetic_energy_j");
     }
 }

@@ -13,9 +13,10 @@ use super::state::State;
 use super::step::newton::Solver;
 use super::step::{Forcing, Increment};
 use super::warning::Warning;
-use crate::bem::{ContactElement, Ground};
+use crate::bem::Ground;
 use crate::coupled::run::Run;
 use crate::error::{Error, Observer, Result, StepError, not_negative, positive};
+use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
 use crate::structure::Structure;
@@ -96,7 +97,7 @@ impl Simulation {
     }
 
     /// The contact elements, from left to right.
-    pub(crate) fn elements(&self) -> &[ContactElement] {
+    pub(crate) fn elements(&self) -> &Patch {
         &self.scene.elements
     }
 

@@ -71,6 +71,15 @@ pub struct Foundation {
     /// In plan: moment on the soil about the vertical axis through the middle, counter-clockwise from above, N·m.
     #[cfg_attr(feature = "serde", serde(default))]
     pub torque: f64,
+    /// In plan: slip along y averaged over its elements, m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mean_slip_across: f64,
+    /// In plan: rotation of its base about the axis along x, by the right-hand rule, rad.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub rotation_across: f64,
+    /// In plan: rotation of its base about the vertical axis, counter-clockwise from above, rad.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub twist: f64,
 }
 
 impl Foundation {
@@ -86,6 +95,9 @@ impl Foundation {
             shear_across: 0.0,
             moment_across: 0.0,
             torque: 0.0,
+            mean_slip_across: 0.0,
+            rotation_across: 0.0,
+            twist: 0.0,
         }
     }
 }

@@ -4,7 +4,8 @@
 //! the static state, relative to the free field) and `velocity` (m/s, total) at its points: apply
 //! *Warp By Vector* to see it move. The
 //! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and
-//! `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open).
+//! `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for
+//! every element, with `shear_across` and `slip_across` (along y) and mode 7, slip in any direction.
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -24,6 +25,7 @@ use std::fmt::{Display, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result, write_file};
+use crate::geometry::ContactElement;
 use crate::interface::Mode;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, TimeSeries};
 
@@ -41,27 +43,52 @@ pub fn write_series(
     shape: &DeformedShape,
     histories: &TimeSeries,
 ) -> Result<usize> {
-    let folder = folder.as_ref();
+    if histories.motion_frames().next().is_none() {
+        let needed = "tell the recorder to keep the motion";
+        return Err(Error::Scene { quantity: "series of the structure", needed });
+    }
+    write(folder.as_ref(), name, Some(shape), histories)
+}
+
+/// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`, …),
+/// as [`write_series`] does: for structures without a [`DeformedShape`], those in plan for example.
+///
+/// # Errors
+/// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if a
+/// file cannot be written.
+pub fn write_base(folder: impl AsRef<Path>, name: &str, histories: &TimeSeries) -> Result<usize> {
+    if histories.contact_frames().next().is_none() {
+        let needed = "tell the recorder to keep the contact";
+        return Err(Error::Scene { quantity: "series of the base", needed });
+    }
+    write(folder.as_ref(), name, None, histories)
+}
+
+fn write(
+    folder: &Path,
+    name: &str,
+    shape: Option<&DeformedShape>,
+    histories: &TimeSeries,
+) -> Result<usize> {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || !name.chars().all(plain) {
         let needed = "letters, digits, - and _ only, one at least";
         return Err(Error::Scene { quantity: "name of a series", needed });
     }
-    if histories.motion_frames().next().is_none() {
-        let needed = "tell the recorder to keep the motion";
-        return Err(Error::Scene { quantity: "series of the structure", needed });
-    }
     let made = std::fs::create_dir_all(folder);
     made.map_err(|e| Error::Write { file: folder.display().to_string(), reason: e.kind() })?;
 
     let mut entries = Vec::new();
-    for (k, frame) in histories.motion_frames().enumerate() {
+    let moved = histories.motion_frames().filter_map(|frame| Some((shape?, frame)));
+    for (k, (shape, frame)) in moved.enumerate() {
         let file = format!("{name}_{k:04}.vtu");
         write_file(&folder.join(&file), &structure(shape, &frame)?)?;
         entries.push((frame.time, 0, file));
     }
-    let cells: Vec<Vec<usize>> =
-        (0..histories.elements().len()).map(|e| vec![2 * e, 2 * e + 1]).collect();
+    let corners = if histories.in_plan() { 4 } else { 2 };
+    let cells: Vec<Vec<usize>> = (0..histories.elements().len())
+        .map(|e| (corners * e..corners * (e + 1)).collect())
+        .collect();
     for (k, frame) in histories.contact_frames().enumerate() {
         let file = format!("{name}_base_{k:04}.vtu");
         write_file(&folder.join(&file), base(histories, &cells, &frame))?;
@@ -87,6 +114,12 @@ fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>) -> Result<String> {
 
 fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
     let ends = histories.elements().iter().flat_map(|e| [[e.left, 0.0], [e.right, 0.0]]);
+    let sides = histories.elements().iter().zip(histories.depths());
+    let rectangles = sides.flat_map(|(along, [front, back])| {
+        let ContactElement { left, right } = *along;
+        [[left, *front], [right, *front], [right, *back], [left, *back]]
+    });
+    let points = if histories.in_plan() { rectangles.collect() } else { ends.collect() };
     let states = frame.states.iter();
     let number = |mode: &Mode| match mode {
         Mode::Stick => 0.0,
@@ -99,18 +132,18 @@ fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) 
         Mode::Slip => 7.0,
         Mode::YieldSlip => 8.0,
     };
-    let grid = Grid {
-        points: ends.collect(),
-        cells,
-        point_vectors: Vec::new(),
-        cell_scalars: vec![
-            ("pressure", states.clone().map(|s| s.pressure).collect()),
-            ("shear", states.clone().map(|s| s.shear).collect()),
-            ("gap", states.clone().map(|s| s.gap).collect()),
-            ("slip", states.map(|s| s.slip).collect()),
-            ("mode", frame.modes.iter().map(number).collect()),
-        ],
-    };
+    let mut cell_scalars = vec![
+        ("pressure", states.clone().map(|s| s.pressure).collect()),
+        ("shear", states.clone().map(|s| s.shear).collect()),
+        ("gap", states.clone().map(|s| s.gap).collect()),
+        ("slip", states.clone().map(|s| s.slip).collect()),
+        ("mode", frame.modes.iter().map(number).collect()),
+    ];
+    if histories.in_plan() {
+        cell_scalars.push(("shear_across", states.clone().map(|s| s.shear_across).collect()));
+        cell_scalars.push(("slip_across", states.map(|s| s.slip_across).collect()));
+    }
+    let grid = Grid { points, cells, point_vectors: Vec::new(), cell_scalars };
     grid.xml()
 }
 

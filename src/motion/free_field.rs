@@ -210,7 +210,8 @@ impl FreeField for Triaxial {
     }
 }
 
-/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c).
+/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c); in plan in any direction
+/// ([`with_azimuth`](TravellingWave::with_azimuth)).
 ///
 /// ```
 /// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
@@ -225,6 +226,8 @@ pub struct TravellingWave {
     field: Box<dyn FreeField>,
     slowness: f64,
     origin: f64,
+    /// Cosine and sine of the azimuth.
+    direction: [f64; 2],
 }
 
 short_debug! {
@@ -253,26 +256,64 @@ impl TravellingWave {
                 needed: "not zero (infinite: everywhere at once)",
             });
         }
-        Ok(Self { field: Box::new(field), slowness, origin: finite("origin of a wave", origin)? })
+        let origin = finite("origin of a wave", origin)?;
+        Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
     }
 
-    /// Time (s) at which the motion of `origin` reaches `x`.
-    pub(crate) fn delay(&self, x: f64) -> f64 {
-        self.slowness * (x - self.origin)
+    /// The same wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
+    /// counter-clockwise from x as seen from above, and its components along and across that direction turn with it.
+    /// `origin` counts from (0, 0) in that direction. In the plane its components along x and up are felt, at y = 0.
+    ///
+    /// ```
+    /// use basemat::motion::{FreeField, PlaneWave, el_centro_1940};
+    /// use basemat::Soil;
+    /// use std::f64::consts::FRAC_PI_2;
+    /// // SH at 30° from the vertical, running away from the reader: it moves the ground to the left.
+    /// let soil = Soil::from_shear_wave_speed(250.0, 0.3, 1900.0)?;
+    /// let wave = PlaneWave::sh(soil, 30.0_f64.to_radians())?;
+    /// let field = wave.field_from_across(&el_centro_1940(), -10.0)?.with_azimuth(FRAC_PI_2)?;
+    /// let [x, y, up] = field.displacement_at([3.0, -10.0], 4.0);
+    /// assert!((x + el_centro_1940().at(4.0).displacement).abs() < 1e-15);
+    /// assert!(y.abs() < 1e-15 && up == 0.0);
+    /// // It passes a mat of 20 m in 40 ms, and turns it.
+    /// let later = field.displacement_at([3.0, 10.0], 4.04);
+    /// assert!((x - later[0]).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `azimuth` is finite.
+    pub fn with_azimuth(self, azimuth: f64) -> Result<Self> {
+        let (sin, cos) = finite("azimuth of a wave", azimuth)?.sin_cos();
+        Ok(Self { direction: [cos, sin], ..self })
+    }
+
+    /// Time (s) at which the motion of `origin` reaches a place.
+    fn delay(&self, [x, y]: [f64; 2]) -> f64 {
+        let [cos, sin] = self.direction;
+        self.slowness * (cos * x + sin * y - self.origin)
     }
 }
 
 impl FreeField for TravellingWave {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        self.field.displacement(self.origin, time - self.delay(x))
+        let [along, _, up] = self.displacement_at([x, 0.0], time);
+        [along, up]
     }
 
-    fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
-        self.field.displacement_at([self.origin, y], time - self.delay(x))
+    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
+        let ([cos, sin], [x, y]) = (self.direction, place);
+        let own = [self.origin, cos * y - sin * x];
+        let [along, across, up] = self.field.displacement_at(own, time - self.delay(place));
+        [cos * along - sin * across, sin * along + cos * across, up]
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
-        self.field.velocity(self.origin, time - self.delay(x))
+        if self.direction == [1.0, 0.0] {
+            self.field.velocity(self.origin, time - self.delay([x, 0.0]))
+        } else {
+            differenced(self, x, time)
+        }
     }
 }
 

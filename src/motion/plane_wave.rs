@@ -12,6 +12,7 @@
 //!
 //! * SV: u_x = 2bg/(c₂R), u_up = −4pab/(c₂R)
 //! * P: u_x = 4pab c₁/(c₂²R), u_up = 2ag c₁/(c₂²R)
+//! * SH: twice the incident wave, across the plane of incidence
 //!
 //! (Achenbach, *Wave Propagation in Elastic Solids*, 1973, § 5.6; Aki & Richards, *Quantitative
 //! Seismology*, 2nd ed., § 5.2). Rayleigh's wave is R = 0: u_up/u_x = −2pa/g. An imaginary part
@@ -20,7 +21,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::out_of_phase::OutOfPhase;
-use super::{Record, TravellingWave, VerticalIncidence};
+use super::{Record, TravellingWave, Triaxial, VerticalIncidence};
 use crate::error::{Error, Result};
 use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
@@ -51,6 +52,7 @@ pub struct PlaneWave {
     slowness: f64,
     horizontal: Complex,
     vertical: Complex,
+    across: f64,
 }
 
 impl PlaneWave {
@@ -68,7 +70,19 @@ impl PlaneWave {
             slowness: p,
             horizontal: b.scale(2.0 * g) * scale,
             vertical: (a * b).scale(-4.0 * p) * scale,
+            across: 0.0,
         })
+    }
+
+    /// SH wave from below, as for [`PlaneWave::sv`], for a ground in plan: it moves the surface across its direction
+    /// only, in phase at all angles.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless |`angle`| < π/2.
+    pub fn sh(soil: Soil, angle: f64) -> Result<Self> {
+        let slowness = check_angle(angle)?.sin() / soil.shear_wave_speed();
+        let [horizontal, vertical] = [Complex::default(); 2];
+        Ok(Self { slowness, horizontal, vertical, across: 2.0 })
     }
 
     /// P wave from below, as for [`PlaneWave::sv`].
@@ -83,6 +97,7 @@ impl PlaneWave {
             slowness: p,
             horizontal: (a * b).scale(4.0 * p) * scale,
             vertical: a.scale(2.0 * g) * scale,
+            across: 0.0,
         })
     }
 
@@ -93,7 +108,7 @@ impl PlaneWave {
         let decay = (slowness * slowness - soil.pressure_wave_speed().powi(-2)).sqrt();
         let g = shear.powi(-2) - 2.0 * slowness * slowness;
         let vertical = Complex::new(0.0, -2.0 * slowness * decay / g);
-        Self { slowness, horizontal: Complex::real(1.0), vertical }
+        Self { slowness, horizontal: Complex::real(1.0), vertical, across: 0.0 }
     }
 
     /// The same wave running the other way.
@@ -112,6 +127,12 @@ impl PlaneWave {
     /// for Rayleigh's), horizontal and up, each `[in phase, a quarter of a period late]`.
     pub fn amplification(&self) -> [[f64; 2]; 2] {
         [self.horizontal, self.vertical].map(|c| [c.re, c.im])
+    }
+
+    /// Surface displacement across the wave's direction (along y, if it runs along x) per unit displacement of the
+    /// incident wave: 2 for SH, else 0.
+    pub fn amplification_across(&self) -> f64 {
+        self.across
     }
 
     /// The free field in which `record` is the horizontal motion at `origin` (m), the edge of the
@@ -178,15 +199,32 @@ impl PlaneWave {
         };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
+
+    /// The free field in which `record` is the motion across the direction of an SH wave, as for
+    /// [`PlaneWave::field_from_horizontal`]; [`TravellingWave::with_azimuth`] turns it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for waves that do not move the ground across, and an origin that is not finite.
+    pub fn field_from_across(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
+        let quantity = "component of the wave across its direction";
+        check_prescribed(quantity, self.across, self.horizontal.abs() + self.vertical.abs())?;
+        let field = Triaxial { y: Some(record.clone()), ..Triaxial::default() };
+        TravellingWave::new(field, self.apparent_velocity(), origin)
+    }
+}
+
+/// `angle`, if it is one of incidence from below.
+fn check_angle(angle: f64) -> Result<f64> {
+    if angle.abs() < FRAC_PI_2 {
+        return Ok(angle);
+    }
+    let quantity = "angle of incidence";
+    Err(Error::Input { quantity, value: angle, needed: "between -pi/2 and pi/2" })
 }
 
 /// p, a, b, g and R of the file's head, for a wave of this speed.
 fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Complex, f64, Complex)> {
-    if angle.is_nan() || angle.abs() >= FRAC_PI_2 {
-        let quantity = "angle of incidence";
-        return Err(Error::Input { quantity, value: angle, needed: "between -pi/2 and pi/2" });
-    }
-    let p = angle.sin() / speed;
+    let p = check_angle(angle)?.sin() / speed;
     let vertical = |c: f64| {
         // Of the wave itself without cancellation.
         let own = angle.cos() / speed;
@@ -210,7 +248,8 @@ fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Compl
 
 /// Error for a component of size `given` that is too small a fraction of the larger one.
 pub(crate) fn check_prescribed(quantity: &'static str, given: f64, other: f64) -> Result<()> {
-    let share = given / other.max(given);
+    let largest = other.max(given);
+    let share = if largest == 0.0 { 0.0 } else { given / largest };
     if share > SMALLEST {
         return Ok(());
     }

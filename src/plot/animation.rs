@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::axes::{Axis, chart, draw_curve, drawable};
-use super::base::shown;
 use super::drawing::{Key, Sample, Stroke, fitted, short, width};
+use super::shown::shown;
 use super::svg::{Sheet, Svg};
 use crate::error::{Error, Result, finite, positive};
 use crate::results::{DeformedShape, MotionFrame, TimeSeries};

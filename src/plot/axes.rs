@@ -211,7 +211,7 @@ pub(super) struct Ticks {
 }
 
 /// 1, 2 or 5 times a power of ten, the next at or above `least`.
-fn nice(least: f64) -> f64 {
+pub(super) fn nice(least: f64) -> f64 {
     let power = 10.0_f64.powf(least.log10().floor());
     // Rounding must not skip a step.
     let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);

@@ -7,7 +7,7 @@ use crate::coupled::{EnergyBalance, Refinement, Setting};
 use crate::error::{Error, Result};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
-use crate::text::column::printed;
+use crate::text::column::{of_body, printed};
 use plotters::prelude::*;
 
 /// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.
@@ -71,10 +71,15 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
 /// can be larger; values above four are drawn at four, and the axis says so.
 ///
 /// # Errors
-/// As for [`curves`].
+/// As for [`curves`]; [`Error::Scene`] for runs in the plane and in plan together, whose units differ.
 pub fn history(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
     let limit = quantity.limit();
-    let (factor, unit) = quantity.printed();
+    let in_plan = runs.first().is_some_and(|(_, histories)| histories.in_plan());
+    let (factor, unit) = quantity.printed(in_plan);
+    if runs.iter().any(|(_, own)| quantity.printed(own.in_plan()).1 != unit) {
+        let needed = "the same in all runs: in the plane it is per metre";
+        return Err(Error::Scene { quantity: "unit of a quantity", needed });
+    }
     let value = |&value: &f64| match limit {
         // Without a value, in flight or without a friction coefficient, nothing is drawn.
         Some(_) if value.is_nan() => f64::NAN,
@@ -169,7 +174,8 @@ pub fn energy(title: &str, histories: &TimeSeries) -> Result<Svg> {
         name: names[k].to_owned(),
         points: histories.times().iter().zip(&rows).map(|(t, row)| (*t, 1e-3 * row[k].1)).collect(),
     };
-    curves(title, "time, s", "energy, kJ/m", &shown.map(curve).collect::<Vec<_>>())
+    let y = with_unit("energy", of_body("kJ/m", histories.in_plan()));
+    curves(title, "time, s", &y, &shown.map(curve).collect::<Vec<_>>())
 }
 
 /// Periods that can be drawn, s.

@@ -8,7 +8,8 @@
 //! |---|---|
 //! | one quantity of one or more runs over time | [`history`], [`probe_history`], [`curves`] |
 //! | contact modes over base and time | [`mode_map`] |
-//! | largest, least and static pressure along the base | [`pressure_envelope`] |
+//! | largest, least and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
+//! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
 //! | where the energy went | [`energy`] |
 //! | response spectra | [`spectra`] |
 //! | wave speeds and strains of a site over depth, and spectra | [`site_response`](site_response()) |
@@ -31,13 +32,16 @@ mod axes;
 mod base;
 mod drawing;
 mod lines;
+mod plan;
 #[cfg(feature = "png")]
 mod png;
+mod shown;
 mod site_response;
 mod svg;
 
 pub use animation::{animation, deformed_shapes};
 pub use base::{mode_map, pressure_envelope};
 pub use lines::{Curve, curves, energy, history, probe_history, refinement, spectra};
+pub use plan::contact_plan;
 pub use site_response::site_response;
 pub use svg::Svg;

@@ -6,7 +6,7 @@ use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::Place;
-use crate::text::column::{Cell, column, distinct, number, printed};
+use crate::text::column::{Cell, column, distinct, number, of_body, printed};
 use crate::text::csv::Csv;
 use crate::text::table::Table;
 
@@ -30,7 +30,8 @@ pub struct Comparison {
 /// Value of a run; none where a run does not have it.
 type Value = dyn Fn(&Run) -> Option<f64>;
 
-/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run.
+/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run. What is per metre in the
+/// plane has a row for each dimension that occurs.
 struct Line {
     name: String,
     unit: &'static str,
@@ -53,7 +54,7 @@ impl Line {
 /// What is derived from several quantities, or is none.
 type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
-const DERIVED: [Derived; 9] = [
+const DERIVED: [Derived; 8] = [
     ("shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
     ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.whole.residual_slip)),
     ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
@@ -68,27 +69,32 @@ const DERIVED: [Derived; 9] = [
     ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |s| {
         s.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
     }),
-    ("energy input", "kJ/m", "input_energy_j_per_m", 1e-3, |s| Some(s.energy_balance.input)),
 ];
 
-/// All rows: quantities, with the times of some, then what is derived.
-fn lines() -> Vec<Line> {
+/// All rows, for runs of these dimensions (whether in plan): quantities, with the times of some, then what is derived.
+fn lines(of: &[bool]) -> Vec<Line> {
     let mut lines = Vec::new();
-    for quantity in Quantity::shown(Place::Comparison) {
-        let (factor, unit) = quantity.printed();
+    for quantity in Quantity::shown(Place::Comparison, of.contains(&true)) {
         let peak = move |run: &Run| run.whole.peak(quantity);
-        let known = move |run: &Run| Some(peak(run).value).filter(|value| !value.is_nan());
-        let (name, column) = (quantity.short_name(), quantity.column());
-        lines.push(Line { name, unit, column, factor, value: Box::new(known) });
+        let of_all = quantity.unit(true) == quantity.unit(false);
+        let in_plan_only = quantity.is_shown(Place::Plan);
+        let dimensions = of.iter().filter(|in_plan| **in_plan || !in_plan_only);
+        for &in_plan in dimensions.take(if of_all { 1 } else { 2 }) {
+            let has = move |run: &Run| run.in_plan == in_plan || of_all && !in_plan_only;
+            let known = move |run: &Run| Some(peak(run).value).filter(|x| has(run) && !x.is_nan());
+            let (factor, unit) = quantity.printed(in_plan);
+            let (name, column) = (quantity.short_name(), quantity.column(in_plan));
+            lines.push(Line { name, unit, column, factor, value: Box::new(known) });
+        }
         if quantity.is_shown(Place::ComparisonTime) {
-            let (column, value) =
-                (format!("{quantity}_time_s"), move |run: &Run| Some(peak(run).time));
+            let has = move |run: &Run| run.in_plan || !in_plan_only;
+            let time = move |run: &Run| Some(peak(run).time).filter(|_| has(run));
             lines.push(Line {
                 name: "  at".to_owned(),
                 unit: "s",
-                column,
+                column: format!("{quantity}_time_s"),
                 factor: 1.0,
-                value: Box::new(value),
+                value: Box::new(time),
             });
         }
     }
@@ -98,6 +104,15 @@ fn lines() -> Vec<Line> {
         column: column.to_owned(),
         factor,
         value: Box::new(value),
+    }));
+    lines.extend(of.iter().map(|&in_plan| Line {
+        name: "energy input".to_owned(),
+        unit: of_body("kJ/m", in_plan),
+        column: EnergyTerm::Input.column(in_plan),
+        factor: 1e-3,
+        value: Box::new(move |run: &Run| {
+            Some(run.energy_balance.input).filter(|_| run.in_plan == in_plan)
+        }),
     }));
     lines.extend(EnergyTerm::ALL.into_iter().filter(|term| term.is_lost()).map(|term| Line {
         name: format!("  {}", term.name()),
@@ -127,6 +142,13 @@ impl Comparison {
         &self.cases
     }
 
+    /// The rows of its cases.
+    fn lines(&self) -> Vec<Line> {
+        let has = |in_plan: &bool| self.cases.iter().any(|(_, run)| run.in_plan == *in_plan);
+        let of: Vec<bool> = [false, true].into_iter().filter(has).collect();
+        lines(if of.is_empty() { &[false] } else { &of })
+    }
+
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
@@ -139,7 +161,7 @@ impl Comparison {
         let known = |row: &Line| {
             self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.value)(s).is_some())
         };
-        let mut rows: Vec<_> = lines().into_iter().filter(known).map(line).collect();
+        let mut rows: Vec<_> = self.lines().into_iter().filter(known).map(line).collect();
         for (k, probe) in self.common_probes().iter().enumerate() {
             let (factor, unit) = printed(&probe.unit);
             let value = |run: &Run| {
@@ -172,7 +194,7 @@ impl Comparison {
     /// as the [module](super) has them for all files; empty where a case has no value.
     pub fn csv(&self) -> Csv {
         let mut heading = vec!["case".to_owned()];
-        let lines = lines();
+        let lines = self.lines();
         heading.extend(lines.iter().map(|row| row.column.clone()));
         let probes = self.common_probes();
         let columns = probes.iter().map(|probe| column(&probe.name, &probe.unit));

@@ -1,7 +1,8 @@
 //! Time series, envelopes and spectra as CSV.
 
-use super::{Quantity, Run, TimeSeries};
+use super::{ElementEnvelope, Quantity, Run, TimeSeries};
 use crate::coupled::{EnergyTerm, Probe};
+use crate::interface::ContactState;
 use crate::motion::SpectralOrdinate;
 use crate::text::column::{Cell, column, distinct, line};
 use crate::text::csv::Csv;
@@ -24,7 +25,7 @@ impl TimeSeries {
     /// [the rule](super#columns-and-numbers-in-files).
     pub fn csv(&self) -> Csv {
         let mut columns = self.columns();
-        columns.push(EnergyTerm::Input.column());
+        columns.push(EnergyTerm::Input.column(self.in_plan()));
         let rows = self.energy_balances().iter().enumerate().map(|(k, energy_balance)| {
             let values = self.column_values().map(move |values| values[k]);
             (String::new(), values.chain([energy_balance.input]))
@@ -56,16 +57,23 @@ impl TimeSeries {
     /// assert!(lines[2].starts_with("0.0,1,0.0,2.0,stick,"));
     /// # Ok::<(), basemat::Error>(())
     /// ```
+    ///
+    /// In plan front and back ends follow, and slip and shear along y at the end.
     pub fn contact_csv(&self) -> Csv {
+        let (ends, numbers) = (self.element_ends(), self.contact_numbers());
+        let names = ends.iter().map(|(name, _)| *name).chain(["mode"]);
+        let names = names.chain(numbers.iter().map(|(name, _)| *name));
+        let heading: Vec<_> = ["time_s", "element"].into_iter().chain(names).collect();
         let rows = self.contact_frames().flat_map(|frame| {
-            let contact = frame.states.iter().zip(frame.modes).zip(self.elements()).enumerate();
-            contact.map(move |(e, ((state, mode), element))| {
-                let [time, left, right] = [frame.time, element.left, element.right].map(Cell);
-                let start = format!("{time},{e},{left},{right},{mode},");
-                (start, [state.gap, state.slip, state.pressure, state.shear])
+            let contact = frame.states.iter().zip(frame.modes).enumerate();
+            let ends = &ends;
+            contact.map(move |(e, (state, mode))| {
+                let places: Vec<_> = ends.iter().map(|(_, of)| Cell(of[e]).to_string()).collect();
+                let start = format!("{},{e},{},{mode},", Cell(frame.time), places.join(","));
+                (start, numbers.iter().map(move |(_, value)| value(state)))
             })
         });
-        lines("time_s,element,left_m,right_m,mode,gap_m,slip_m,pressure_pa,shear_pa", rows)
+        lines(&heading.join(","), rows)
     }
 }
 
@@ -73,21 +81,42 @@ impl Run {
     /// [Envelopes](Run::envelope) as CSV: a heading and a line for every element, with the times of the extremes, by
     /// [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
+        let columns: Vec<_> = ENVELOPE.iter().filter(|own| self.in_plan || !own.1).collect();
+        let heading: Vec<_> =
+            std::iter::once("element").chain(columns.iter().map(|own| own.0)).collect();
         let rows = self.envelope.iter().enumerate().map(|(e, own)| {
-            let mut numbers = vec![own.element.left, own.element.right, own.static_pressure];
-            let peaks = [own.pressure.lowest, own.pressure.highest, own.shear, own.gap, own.slip];
-            numbers.extend(peaks.iter().flat_map(|peak| [peak.value, peak.time]));
-            numbers.push(own.open);
-            (format!("{e},"), numbers)
+            let columns = &columns;
+            (format!("{e},"), columns.iter().map(move |(_, _, value)| value(own)))
         });
-        lines(
-            "element,left_m,right_m,static_pressure_pa,lowest_pressure_pa,lowest_pressure_time_s,\
-             highest_pressure_pa,highest_pressure_time_s,shear_pa,shear_time_s,gap_m,gap_time_s,\
-             slip_m,slip_time_s,open_s",
-            rows,
-        )
+        lines(&heading.join(","), rows)
     }
 }
+
+/// Column of an envelope, and whether it is of three directions only.
+type EnvelopeColumn = (&'static str, bool, fn(&ElementEnvelope) -> f64);
+
+const ENVELOPE: [EnvelopeColumn; 20] = [
+    ("left_m", false, |own| own.element.left),
+    ("right_m", false, |own| own.element.right),
+    ("front_m", true, |own| own.depth[0]),
+    ("back_m", true, |own| own.depth[1]),
+    ("static_pressure_pa", false, |own| own.static_pressure),
+    ("lowest_pressure_pa", false, |own| own.pressure.lowest.value),
+    ("lowest_pressure_time_s", false, |own| own.pressure.lowest.time),
+    ("highest_pressure_pa", false, |own| own.pressure.highest.value),
+    ("highest_pressure_time_s", false, |own| own.pressure.highest.time),
+    ("shear_pa", false, |own| own.shear.value),
+    ("shear_time_s", false, |own| own.shear.time),
+    ("gap_m", false, |own| own.gap.value),
+    ("gap_time_s", false, |own| own.gap.time),
+    ("slip_m", false, |own| own.slip.value),
+    ("slip_time_s", false, |own| own.slip.time),
+    ("open_s", false, |own| own.open),
+    ("shear_across_pa", true, |own| own.shear_across.value),
+    ("shear_across_time_s", true, |own| own.shear_across.time),
+    ("slip_across_m", true, |own| own.slip_across.value),
+    ("slip_across_time_s", true, |own| own.slip_across.time),
+];
 
 /// Response spectrum, of a record or of a floor, as CSV: a heading and a line for every period, by
 /// [the rule](crate::results#columns-and-numbers-in-files).
@@ -118,17 +147,20 @@ pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
 
 // The columns of histories, in CSV and in archives of arrays.
 
-/// Elements and contact frames.
-pub(super) const CONTACT: [&str; 9] = [
-    "element_left_m",
-    "element_right_m",
-    "contact_time_s",
-    "contact_gap_m",
-    "contact_slip_m",
-    "contact_pressure_pa",
-    "contact_shear_pa",
-    "contact_mode",
-    "contact_mode_words",
+/// Times, modes and their words of contact frames, beside their numbers.
+pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contact_mode_words"];
+
+/// A number of an element after a step.
+type Number = fn(&ContactState) -> f64;
+
+/// Numbers of an element; those along y in plan only.
+const NUMBERS: [(&str, Number); 6] = [
+    ("gap_m", |own| own.gap),
+    ("slip_m", |own| own.slip),
+    ("pressure_pa", |own| own.pressure),
+    ("shear_pa", |own| own.shear),
+    ("slip_across_m", |own| own.slip_across),
+    ("shear_across_pa", |own| own.shear_across),
 ];
 
 /// Motion frames.
@@ -136,12 +168,34 @@ pub(super) const MOTION: [&str; 4] =
     ["motion_time_s", "motion_displacement", "motion_velocity", "motion_free_field_m"];
 
 impl TimeSeries {
+    /// Ends of the elements.
+    pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let mut ends = vec![
+            ("left_m", self.elements().iter().map(|own| own.left).collect()),
+            ("right_m", self.elements().iter().map(|own| own.right).collect()),
+        ];
+        if self.in_plan() {
+            ends.push(("front_m", self.depths().iter().map(|own| own[0]).collect()));
+            ends.push(("back_m", self.depths().iter().map(|own| own[1]).collect()));
+        }
+        ends
+    }
+
+    /// Numbers of each element in frames of contact.
+    pub(super) fn contact_numbers(&self) -> &'static [(&'static str, Number)] {
+        if self.in_plan() { &NUMBERS } else { &NUMBERS[..4] }
+    }
+
     /// Names of time, scalars and probes; those of probes differ from all others in any file.
     pub(super) fn columns(&self) -> Vec<String> {
+        let in_plan = self.in_plan();
         let mut columns = vec![column("time", "s")];
-        columns.extend(Quantity::ALL.map(Quantity::column));
+        columns.extend(Quantity::of(in_plan).map(|quantity| quantity.column(in_plan)));
         let others = CONTACT.iter().chain(&MOTION).map(|&name| name.to_owned());
-        let others = EnergyTerm::ALL.map(EnergyTerm::column).into_iter().chain(others);
+        let ends = self.element_ends().into_iter().map(|(name, _)| format!("element_{name}"));
+        let numbers = self.contact_numbers().iter().map(|(name, _)| format!("contact_{name}"));
+        let energies = EnergyTerm::ALL.into_iter().map(|term| term.column(in_plan));
+        let others = energies.chain(others).chain(ends).chain(numbers);
         let taken: Vec<String> = columns.iter().cloned().chain(others).collect();
         columns.extend(distinct(&taken, self.probes.iter().map(Probe::column)));
         columns
@@ -149,7 +203,7 @@ impl TimeSeries {
 
     /// Their values.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
-        let scalars = Quantity::ALL.iter().map(|&quantity| self.series(quantity));
+        let scalars = Quantity::of(self.in_plan()).map(|quantity| self.series(quantity));
         let probes = self.probe_values.iter().map(Vec::as_slice);
         std::iter::once(self.times()).chain(scalars).chain(probes)
     }

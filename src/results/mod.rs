@@ -70,6 +70,7 @@ mod deformed_shape;
 mod floor;
 #[cfg(feature = "npz")]
 mod npz;
+mod recorder;
 mod time_series;
 
 pub use crate::coupled::run::{
@@ -82,4 +83,5 @@ pub use csv::spectrum_csv;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
-pub use time_series::{ContactFrame, MotionFrame, Recorder, TimeSeries};
+pub use recorder::Recorder;
+pub use time_series::{ContactFrame, MotionFrame, TimeSeries};

@@ -14,7 +14,7 @@ use super::TimeSeries;
 use super::csv::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
 use crate::error::{Error, Result, write_file};
-use crate::interface::{ContactState, Mode};
+use crate::interface::Mode;
 
 /// The archive under construction.
 struct Archive(ZipWriter<Cursor<Vec<u8>>>);
@@ -91,10 +91,11 @@ impl TimeSeries {
     /// | arrays | shape | |
     /// |---|---|---|
     /// | `time_s`; scalars and probes, called as [in CSV](TimeSeries::csv) | kept steps | |
-    /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [energy balance](crate::coupled::EnergyBalance) |
-    /// | `element_left_m`, `element_right_m` | elements | ends of the contact elements |
+    /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [energy balance](crate::coupled::EnergyBalance); in plan `_j` |
+    /// | `element_left_m`, `element_right_m`; in plan `element_front_m`, `element_back_m` | elements | ends of the contact elements |
     /// | `contact_time_s` | frames | with [`Recorder::contact`](super::Recorder::contact) |
     /// | `contact_gap_m`, `contact_slip_m`, `contact_pressure_pa`, `contact_shear_pa` | frames × elements | |
+    /// | in plan `contact_slip_across_m`, `contact_shear_across_pa` | frames × elements | along y |
     /// | `contact_mode`, integers | frames × elements | places in `contact_mode_words` |
     /// | `contact_mode_words` | modes | texts |
     /// | `motion_time_s` | frames | with [`Recorder::motion`](super::Recorder::motion) |
@@ -112,7 +113,7 @@ impl TimeSeries {
         for term in EnergyTerm::ALL {
             let values =
                 self.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
-            archive.add_numbers(&term.column(), &[steps], values)?;
+            archive.add_numbers(&term.column(self.in_plan()), &[steps], values)?;
         }
         self.add_contact(&mut archive)?;
         self.add_motion(&mut archive)?;
@@ -121,23 +122,21 @@ impl TimeSeries {
 
     fn add_contact(&self, archive: &mut Archive) -> io::Result<()> {
         let elements = self.elements();
-        let [left, right, time, gap, slip, pressure, shear, mode, words] = CONTACT;
-        archive.add_numbers(left, &[elements.len()], elements.iter().map(|own| own.left))?;
-        archive.add_numbers(right, &[elements.len()], elements.iter().map(|own| own.right))?;
+        let [time, mode, words] = CONTACT;
+        for (name, ends) in self.element_ends() {
+            let name = format!("element_{name}");
+            archive.add_numbers(&name, &[elements.len()], ends.into_iter())?;
+        }
         if self.recorder.contact.is_none() {
             return Ok(());
         }
         let frames = self.contact_frames().count();
         let shape = [frames, elements.len()];
         archive.add_numbers(time, &[frames], self.contact_frames().map(|frame| frame.time))?;
-        let mut add = |name: &str, value: fn(&ContactState) -> f64| {
+        for (name, value) in self.contact_numbers() {
             let numbers = self.contact_frames().flat_map(|frame| frame.states.iter().map(value));
-            archive.add_numbers(name, &shape, numbers)
-        };
-        add(gap, |own| own.gap)?;
-        add(slip, |own| own.slip)?;
-        add(pressure, |own| own.pressure)?;
-        add(shear, |own| own.shear)?;
+            archive.add_numbers(&format!("contact_{name}"), &shape, numbers)?;
+        }
         let modes = self.contact_frames().flat_map(|frame| frame.modes);
         let codes: Vec<u8> = modes.map(|mode| *mode as u8).collect();
         archive.add(mode, "|u1", &shape, &codes)?;

@@ -1,6 +1,6 @@
 //! The observer: time series of a run, and the frames of motion and contact that it keeps.
 
-use super::Quantity;
+use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::run::base::Sequence;
@@ -19,6 +19,7 @@ use crate::interface::{ContactState, Mode};
 pub struct TimeSeries {
     pub(super) recorder: Recorder,
     pub(super) elements: Vec<ContactElement>,
+    depths: Vec<[f64; 2]>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
     #[cfg_attr(feature = "serde", serde(rename = "end", serialize_with = "Sequence::write_end"))]
@@ -39,6 +40,8 @@ validated! {
     TimeSeries as TimeSeriesForm {
         recorder: Recorder,
         elements: Vec<ContactElement>,
+        #[serde(default)]
+        depths: Vec<[f64; 2]>,
         probes: Vec<Probe>,
         time_step: f64,
         end: f64,
@@ -55,7 +58,11 @@ validated! {
     } => {
         let kept = times.len();
         let lengths = scalars.iter().chain(&probe_values).map(Vec::len);
-        crate::error::same_length("list of scalars", scalars.len(), Quantity::ALL.len())?;
+        let in_plan = !depths.is_empty();
+        if in_plan {
+            crate::error::same_length("list of depths", depths.len(), elements.len())?;
+        }
+        crate::error::same_length("list of scalars", scalars.len(), Quantity::of(in_plan).count())?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
         lengths.into_iter().try_for_each(|length| crate::error::same_length("time series", length, kept))?;
@@ -65,7 +72,7 @@ validated! {
         crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
         let sequence = Sequence::ended(end);
         Ok(Self {
-            recorder, elements, probes, time_step, sequence, steps, dofs, times, scalars,
+            recorder, elements, depths, probes, time_step, sequence, steps, dofs, times, scalars,
             probe_values, energy_balances, contact, motion,
         })
     }
@@ -92,15 +99,18 @@ impl Recorder {
 impl TimeSeries {
     fn new(recorder: Recorder, simulation: &Simulation) -> Self {
         let state = simulation.state();
+        let elements = simulation.elements();
+        let in_plan = elements.is_plan();
         let mut histories = Self {
-            elements: simulation.elements().to_vec(),
+            elements: elements.to_vec(),
+            depths: if in_plan { elements.depths().to_vec() } else { Vec::new() },
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
             sequence: Sequence::new(state),
             steps: 0,
             dofs: recorder.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
-            scalars: vec![Vec::new(); Quantity::ALL.len()],
+            scalars: vec![Vec::new(); Quantity::of(in_plan).count()],
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: recorder.contact.map(ContactFrames::new),
@@ -162,9 +172,9 @@ impl TimeSeries {
         &self.times
     }
 
-    /// History of a scalar at [`TimeSeries::times`].
+    /// History of a scalar at [`TimeSeries::times`]; empty in the plane for those of three directions.
     pub fn series(&self, quantity: Quantity) -> &[f64] {
-        &self.scalars[quantity as usize]
+        self.scalars.get(quantity as usize).map_or(&[], Vec::as_slice)
     }
 
     /// History of the probe called `name`, zero at the start of a run.
@@ -194,6 +204,16 @@ impl TimeSeries {
         &self.elements
     }
 
+    /// Front and back end of each contact element along y on a ground in plan, m; empty in the plane.
+    pub fn depths(&self) -> &[[f64; 2]] {
+        &self.depths
+    }
+
+    /// Whether they are of a ground in plan.
+    pub(crate) fn in_plan(&self) -> bool {
+        !self.depths.is_empty()
+    }
+
     /// Snapshots of the base; none unless asked for with [`Recorder::contact`].
     pub fn contact_frames(&self) -> impl Iterator<Item = ContactFrame<'_>> {
         self.contact.iter().flat_map(|frames| frames.frames(self.elements.len()))
@@ -213,52 +233,6 @@ impl TimeSeries {
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
-    }
-}
-
-// Selection of results to keep of a run.
-
-/// Selection of results to keep of a run beyond its [`Run`](super::Run): the scalar histories and the probes at every step, unless told otherwise.
-///
-/// See the [module](super) for an example.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Recorder {
-    pub(super) every: usize,
-    pub(super) contact: Option<usize>,
-    pub(super) motion: Option<usize>,
-}
-
-impl Default for Recorder {
-    fn default() -> Self {
-        Self { every: 1, contact: None, motion: None }
-    }
-}
-
-impl Recorder {
-    /// Scalars and probes at every step.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Keeps scalars and probes of every `steps`th step only; floor spectra can no longer be had.
-    #[must_use]
-    pub fn every(self, steps: usize) -> Self {
-        Self { every: steps, ..self }
-    }
-
-    /// Keeps the base at every `steps`th step: 33 bytes per element and frame.
-    #[must_use]
-    pub fn contact(self, steps: usize) -> Self {
-        Self { contact: Some(steps), ..self }
-    }
-
-    /// Keeps displacement and velocity of the structure at every `steps`th step: 16 bytes per
-    /// degree of freedom and frame.
-    #[must_use]
-    pub fn motion(self, steps: usize) -> Self {
-        Self { motion: Some(steps), ..self }
     }
 }
 

@@ -12,6 +12,7 @@ use super::transform::SiteMotion;
 use super::transform::{Contour, Place};
 use crate::error::{Result, not_negative};
 use crate::linalg::Complex;
+use crate::motion::{Record, Triaxial};
 use crate::soil::{Soil, SoilProfile};
 
 /// What travels.
@@ -159,6 +160,53 @@ impl SoilColumn {
         self.filtered(control, time_step, motion, |value, decay| value * decay.exp())
     }
 
+    /// Motion of the surface of `profile` in three directions by that of `control`: shear waves carry the components
+    /// along x and y, pressure waves the vertical one. Each goes on after its record's end until the layers are at
+    /// rest; [`to_surface`](SoilColumn::to_surface) says what else it loses.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::motion::{Triaxial, el_centro_1940};
+    /// use basemat::site::{ControlPoint, SoilColumn};
+    /// use basemat::soil::SoilProfile;
+    /// let rock = Soil::from_shear_wave_speed(900.0, 0.25, 2300.0)?;
+    /// let profile = SoilProfile::on_half_plane(rock)
+    ///     .with_layer(Soil::from_shear_wave_speed(300.0, 0.3, 1900.0)?, 20.0)?;
+    /// let record = el_centro_1940();
+    /// let outcrop = Triaxial {
+    ///     x: Some(record.clone()),
+    ///     y: Some(record.scaled(0.8)?),
+    ///     up: Some(record.scaled(0.5)?),
+    /// };
+    /// let surface = SoilColumn::surface_in_plan(&profile, ControlPoint::Outcrop, &outcrop)?;
+    /// let peak = |record: &Option<_>| record.as_ref().map_or(0.0, |own: &basemat::motion::Record| own.peaks().acceleration);
+    /// assert!(peak(&surface.x) > peak(&outcrop.x));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`new`](SoilColumn::new) and [`to_surface`](SoilColumn::to_surface).
+    pub fn surface_in_plan(
+        profile: &SoilProfile,
+        control: ControlPoint,
+        motion: &Triaxial,
+    ) -> Result<Triaxial> {
+        let through = |wave, record: &Option<Record>| -> Result<Option<Record>> {
+            let Some(record) = record else { return Ok(None) };
+            let (step, motion) = (record.time_step(), record.accelerations());
+            let own = Self::new(profile.clone(), wave)?;
+            let mut found =
+                own.whole(control, step, motion, |value, decay| value.inverse() * (-decay).exp())?;
+            found.cut(found.duration().max(motion.len()));
+            Record::new(step, found.samples).map(Some)
+        };
+        Ok(Triaxial {
+            x: through(VerticalWave::Shear, &motion.x)?,
+            y: through(VerticalWave::Shear, &motion.y)?,
+            up: through(VerticalWave::Pressure, &motion.up)?,
+        })
+    }
+
     /// Stiffness of this kind of wave.
     fn stiffness(&self, soil: Soil, modulus: Complex) -> Complex {
         match self.wave {
@@ -220,15 +268,27 @@ impl SoilColumn {
         motion: &[f64],
         filter: impl Fn(Complex, Complex) -> Complex,
     ) -> Result<SiteMotion> {
+        let mut found = self.whole(control, time_step, motion, filter)?;
+        found.cut(motion.len());
+        Ok(found)
+    }
+
+    /// The same with what follows the end of `motion`.
+    fn whole(
+        &self,
+        control: ControlPoint,
+        time_step: f64,
+        motion: &[f64],
+        filter: impl Fn(Complex, Complex) -> Complex,
+    ) -> Result<SiteMotion> {
         self.profile.check_causal()?;
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
         let slowness = |soil, modulus, _| self.slowness(soil, modulus);
         let mut layers = Sampled::new(&self.profile, slowness, contour.end()?)?;
-        let [mut found] = contour.filtered(motion, |place| {
+        let [found] = contour.filtered(motion, |place| {
             let (value, decay) = self.inverse_transfer(control, place, &mut layers, |_| ())?;
             Ok([filter(value, decay)])
         })?;
-        found.cut(motion.len());
         Ok(found)
     }
 

@@ -143,6 +143,11 @@ pub(crate) fn printed(unit: &str) -> (f64, &str) {
     }
 }
 
+/// A unit per metre of thickness, which in plan is that of the whole body.
+pub(crate) fn of_body(unit: &str, in_plan: bool) -> &str {
+    unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
+}
+
 /// Below this, in units of engineers, a number is rounding: nobody measures 10⁻¹² N or m.
 const NOTHING: f64 = 1e-9;
 

@@ -119,11 +119,13 @@ fn units_of_acceleration() {
 #[test]
 fn quantities_by_any_of_their_names() {
     for quantity in Quantity::ALL {
-        for text in [quantity.to_string(), quantity.column(), quantity.name().to_owned()] {
+        let columns = [false, true].map(|in_plan| quantity.column(in_plan));
+        let names = [quantity.to_string(), quantity.name().to_owned()];
+        for text in names.into_iter().chain(columns) {
             assert_eq!(text.parse(), Ok(quantity), "{text}");
         }
     }
-    let columns = Quantity::ALL.map(Quantity::column);
+    let columns: Vec<_> = Quantity::of(false).map(|quantity| quantity.column(false)).collect();
     let known = [
         "base_shear_n_per_m",
         "base_moment_n_m_per_m",

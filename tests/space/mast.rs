@@ -1,16 +1,17 @@
-//! A mass on horizontal springs above a rigid body: wrapped, reduced, and in all coordinates.
+//! A mass on horizontal springs above a rigid body: wrapped, reduced, and in all coordinates; bodies by their matrices.
 
 use std::f64::consts::TAU;
 
 use basemat::coupled::Coordinates;
 use basemat::interface::Bonded;
 use basemat::structure::{
-    ContactNode, CraigBampton, DofCombination, FaceNode, ModalDamping, RigidBody, Structure,
-    Triplets, WithSprings,
+    ContactNode, CraigBampton, DofCombination, FaceNode, MatrixModel, ModalDamping, PlanStorey,
+    RigidBody, StoreyBuilding, Structure, Triplets, WithSprings,
 };
-use basemat::{Result, Simulation};
+use basemat::{Error, Result, Simulation};
 
 use super::cells::{BED, Cells, Waves};
+use super::storeys;
 
 const SIDES: [f64; 3] = [8.0, 6.0, 3.0];
 const DENSITY: f64 = 2000.0;
@@ -124,4 +125,55 @@ fn all_coordinates_and_wrappers_march_alike() {
             assert!((found - exact).abs() < 1e-9 * size, "{found} {exact}");
         }
     }
+}
+
+/// The matrices of a body, and those of a building that was reduced before or after, are the structure itself.
+#[test]
+fn given_matrices_are_the_structure_that_has_them() {
+    let model = |own: &dyn Structure| {
+        let matrix = |fill: &dyn Fn(&mut Triplets)| {
+            let mut matrix = Triplets::new(own.dofs());
+            fill(&mut matrix);
+            matrix
+        };
+        MatrixModel::in_plan(
+            matrix(&|m| own.mass(m).unwrap()),
+            matrix(&|m| own.stiffness(m).unwrap()),
+            own.contact_faces(),
+        )
+        .and_then(|model| model.with_damping(matrix(&|m| own.damping(m).unwrap())))
+        .unwrap()
+    };
+    let ground = || Cells::under([SIDES[0], SIDES[1]], [3.0, 1.0], [4, 3], BED);
+    let run = |structure: Box<dyn Structure>| {
+        storeys::march(structure, ground(), Waves { quarters: 0 }, 200)
+            .state()
+            .displacement()
+            .to_vec()
+    };
+    let body = || RigidBody::cuboid(SIDES, 2400.0).unwrap().centered_at([3.0, 1.0]).unwrap();
+    assert_eq!(run(Box::new(body())), run(Box::new(model(&body()))));
+
+    let storeys = [PlanStorey::new(3.0, 1e5, [9.0; 2], [2e8, 3e8, 4e9]); 4];
+    let tall = StoreyBuilding::new(body(), &storeys).unwrap();
+    let whole = run(Box::new(tall.clone()));
+    assert_eq!(whole, run(Box::new(model(&tall))));
+    let reduced = CraigBampton::new(12).reduce(model(&tall)).unwrap();
+    let recovery = reduced.recovery();
+    let found = recovery.full(&run(Box::new(reduced))).unwrap();
+    for (found, exact) in found.iter().zip(&whole) {
+        assert!((found - exact).abs() < 1e-12, "{found} {exact}");
+    }
+}
+
+#[test]
+fn matrices_that_are_none() {
+    let unit = |n: usize| Triplets::from_entries(n, (0..n).map(|k| (k, k, 1.0)));
+    let faces = mast().contact_faces();
+    let made = MatrixModel::in_plan(unit(6), Triplets::new(6), Vec::new());
+    assert!(matches!(made, Err(Error::Size { .. })));
+    let made = MatrixModel::in_plan(unit(5), Triplets::new(5), faces.clone());
+    assert!(matches!(made, Err(Error::Index { index: 5, bound: 5, .. })));
+    let made = MatrixModel::in_plan(unit(6), Triplets::new(5), faces);
+    assert!(matches!(made, Err(Error::Size { .. })));
 }

@@ -1,4 +1,4 @@
-//! Buildings in plan: eccentric floors by closed forms, a slice beside the plane's building, and given matrices.
+//! Buildings in plan: eccentric floors by closed forms, and a slice beside the plane's building.
 
 use std::f64::consts::TAU;
 
@@ -7,8 +7,8 @@ use basemat::coupled::{Probe, State};
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, Triaxial, el_centro_1940};
 use basemat::structure::{
-    Bilinear, CraigBampton, DofCombination, MatrixModel, ModalDamping, PlanStorey, RigidBlock,
-    RigidBody, ShearBuilding, Storey, StoreyBuilding, Structure, Triplets,
+    Bilinear, DofCombination, ModalDamping, PlanStorey, RigidBody, ShearBuilding, Storey,
+    StoreyBuilding, Structure, Triplets,
 };
 use basemat::{Error, Simulation};
 
@@ -122,7 +122,17 @@ fn rigid_motions_strain_nothing_and_move_all_masses() {
             u
         })
         .collect();
+    // Any motion: the total drift is the sum of those of the storeys.
+    let u: Vec<f64> = (0..n).map(|k| (1.3 * k as f64).cos()).collect();
+    let total = without.total_drift(2, [1.5, -2.5]).unwrap();
+    for (k, row) in total.iter().enumerate() {
+        let own = |storey| without.drift_at(storey, [1.5, -2.5]).unwrap()[k].value(&u);
+        assert!((row.value(&u) - (0..3).map(own).sum::<f64>()).abs() < 1e-13);
+    }
     for motion in &motions {
+        for row in &total {
+            assert!(row.value(motion).abs() < 1e-13);
+        }
         for matrix in [&stiffness, &damping] {
             let force = product(matrix, motion);
             assert!(force.iter().all(|f| f.abs() < 1e-12 * 1e11), "{force:?}");
@@ -174,7 +184,7 @@ fn rigid_motions_strain_nothing_and_move_all_masses() {
     }
 }
 
-fn march(
+pub(crate) fn march(
     structure: impl Structure + 'static,
     ground: Cells,
     motion: impl FreeField + 'static,
@@ -348,44 +358,8 @@ fn storey_forces_are_those_of_their_columns() {
     }
 }
 
-/// The matrices of a body, and those of a building that was reduced before or after, are the structure itself.
 #[test]
-fn given_matrices_are_the_structure_that_has_them() {
-    let model = |own: &dyn Structure| {
-        let matrix = |fill: &dyn Fn(&mut Triplets)| {
-            let mut matrix = Triplets::new(own.dofs());
-            fill(&mut matrix);
-            matrix
-        };
-        MatrixModel::in_plan(
-            matrix(&|m| own.mass(m).unwrap()),
-            matrix(&|m| own.stiffness(m).unwrap()),
-            own.contact_faces(),
-        )
-        .and_then(|model| model.with_damping(matrix(&|m| own.damping(m).unwrap())))
-        .unwrap()
-    };
-    let ground = || Cells::under([MAT[0], MAT[1]], [1.0, 2.0], [4, 3], BED);
-    let run = |structure: Box<dyn Structure>| {
-        march(structure, ground(), Waves { quarters: 0 }, 200).state().displacement().to_vec()
-    };
-    let body = || RigidBody::cuboid(MAT, 2400.0).unwrap().centered_at([1.0, 2.0]).unwrap();
-    assert_eq!(run(Box::new(body())), run(Box::new(model(&body()))));
-
-    let storeys = [PlanStorey::new(3.0, 1e5, [9.0; 2], [2e8, 3e8, 4e9]); 4];
-    let tall = StoreyBuilding::new(body(), &storeys).unwrap();
-    let whole = run(Box::new(tall.clone()));
-    assert_eq!(whole, run(Box::new(model(&tall))));
-    let reduced = CraigBampton::new(12).reduce(model(&tall)).unwrap();
-    let recovery = reduced.recovery();
-    let found = recovery.full(&run(Box::new(reduced))).unwrap();
-    for (found, exact) in found.iter().zip(&whole) {
-        assert!((found - exact).abs() < 1e-12, "{found} {exact}");
-    }
-}
-
-#[test]
-fn buildings_and_matrices_that_are_none() {
+fn buildings_that_are_none() {
     let mat = || RigidBody::cuboid(MAT, 2400.0).unwrap();
     let storey = PlanStorey::new(3.0, 1e5, [9.0; 2], [2e8, 3e8, 4e9]);
     assert!(matches!(StoreyBuilding::new(mat(), &[]), Err(Error::Size { found: 0, .. })));
@@ -412,15 +386,4 @@ fn buildings_and_matrices_that_are_none() {
     let ground = Cells::under([MAT[0], MAT[1]], [0.0; 2], [4, 3], BED);
     let built = Simulation::builder(0.01).structure(weak).ground(ground).interface(Bonded).build();
     assert!(matches!(built, Err(Error::Indefinite { .. })), "{:?}", built.err());
-
-    let unit = |n: usize| Triplets::from_entries(n, (0..n).map(|k| (k, k, 1.0)));
-    let faces = mat().contact_faces();
-    let made = MatrixModel::in_plan(unit(6), Triplets::new(6), Vec::new());
-    assert!(matches!(made, Err(Error::Size { .. })));
-    let made = MatrixModel::in_plan(unit(5), Triplets::new(5), faces.clone());
-    assert!(matches!(made, Err(Error::Index { index: 5, bound: 5, .. })));
-    let made = MatrixModel::in_plan(unit(6), Triplets::new(5), faces);
-    assert!(matches!(made, Err(Error::Size { .. })));
-    let block = RigidBlock::new(4.0, 4.0, 2000.0).unwrap();
-    assert!(block.contact_faces().is_empty());
 }

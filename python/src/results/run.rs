@@ -165,14 +165,15 @@ impl PyRun {
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let units = PyDict::new(py);
         units.set_item("time", "s")?;
-        for quantity in Quantity::ALL {
-            units.set_item(quantity.to_string(), quantity.unit())?;
+        let in_plan = self.run.in_plan;
+        for quantity in Quantity::of(in_plan) {
+            units.set_item(quantity.to_string(), quantity.unit(in_plan))?;
         }
         for probe in &self.run.probes {
             units.set_item(&probe.name, &probe.unit)?;
         }
         for term in EnergyTerm::ALL {
-            units.set_item(term.to_string(), "J/m")?;
+            units.set_item(term.to_string(), if in_plan { "J" } else { "J/m" })?;
         }
         Ok(units)
     }
@@ -217,7 +218,7 @@ impl PyRun {
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
         let numbers = PyDict::new(py);
-        for quantity in Quantity::ALL {
+        for quantity in Quantity::of(run.in_plan) {
             let value = run.whole.peak(quantity).value;
             numbers.set_item(quantity.to_string(), (!value.is_nan()).then_some(value))?;
         }

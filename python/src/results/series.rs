@@ -19,8 +19,9 @@ pub(super) fn named(histories: &TimeSeries, name: &str) -> PyResult<Array> {
     if let Ok(values) = histories.probe(name) {
         return Ok(Array::from(values));
     }
-    let words = Quantity::ALL.map(|quantity| quantity.to_string());
-    match words.iter().zip(Quantity::ALL).find(|(word, _)| *word == name) {
+    let in_plan = !histories.depths().is_empty();
+    let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
+    match words.iter().zip(Quantity::of(in_plan)).find(|(word, _)| *word == name) {
         Some((_, quantity)) => Ok(Array::from(histories.series(quantity))),
         None => Err(pyo3::exceptions::PyKeyError::new_err(format!(
             "'{name}' is neither a time series ({}) nor a probe ({})",
@@ -39,7 +40,7 @@ pub(super) fn names(histories: &TimeSeries) -> Vec<String> {
 pub(super) fn all<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
     series.set_item("time", Array::from(histories.times()))?;
-    for quantity in Quantity::ALL {
+    for quantity in Quantity::of(!histories.depths().is_empty()) {
         series.set_item(quantity.to_string(), Array::from(histories.series(quantity)))?;
     }
     for name in names(histories) {

@@ -2,10 +2,12 @@
 
 use std::ops::Range;
 
+use super::Extremes;
+use super::peak::resultant;
 use crate::bem::ContactElement;
-use crate::coupled::run::Extremes;
 use crate::coupled::{Origin, Peak, State, Warning};
-use crate::interface::Mode;
+use crate::geometry::Patch;
+use crate::interface::{ContactState, Mode};
 
 /// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
 /// ones slide, and the mean slip does not turn round.
@@ -20,6 +22,16 @@ pub struct SlipEvent {
     pub end: f64,
     /// Change of the mean slip, m; positive to the right.
     pub slip: f64,
+    /// In plan: that along y, m; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub slip_across: f64,
+}
+
+impl SlipEvent {
+    /// How far it went, m.
+    pub(crate) fn size(&self) -> f64 {
+        resultant(self.slip, self.slip_across).abs()
+    }
 }
 
 /// Sliding of a base in a run, by its mean slip: of one foundation, or of all as one base.
@@ -43,24 +55,31 @@ impl Sliding {
     }
 
     /// A step between two `times` that ended in these `modes` of the base's elements, and changed
-    /// the mean slip by `slip`.
-    pub(super) fn see(&mut self, modes: &[Mode], slip: f64, times: [f64; 2]) {
+    /// the mean slip by `slip`, along x and y.
+    pub(super) fn see(&mut self, modes: &[Mode], slip: [f64; 2], times: [f64; 2]) {
         let slides = modes.iter().any(|mode| mode.is_slip())
             && modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
         self.advance(slides, slip, times);
     }
 
     /// The mean slip changed by `slip` from the first to the second of `times`.
-    fn advance(&mut self, slides: bool, slip: f64, times: [f64; 2]) {
+    fn advance(&mut self, slides: bool, [slip, slip_across]: [f64; 2], times: [f64; 2]) {
         if slides {
-            self.path += slip.abs();
+            self.path += resultant(slip, slip_across).abs();
             self.duration += times[1] - times[0];
             match self.events.last_mut() {
-                Some(event) if self.in_event && event.slip * slip >= 0.0 => {
+                Some(event)
+                    if self.in_event
+                        && event.slip * slip + event.slip_across * slip_across >= 0.0 =>
+                {
                     event.slip += slip;
+                    event.slip_across += slip_across;
                     event.end = times[1];
                 }
-                _ => self.events.push(SlipEvent { start: times[0], end: times[1], slip }),
+                _ => {
+                    let [start, end] = times;
+                    self.events.push(SlipEvent { start, end, slip, slip_across });
+                }
             }
         }
         self.in_event = slides;
@@ -68,7 +87,7 @@ impl Sliding {
 
     /// The event with the largest |slip|.
     pub(crate) fn largest_event(&self) -> Option<SlipEvent> {
-        let larger = |a: &SlipEvent, b: &SlipEvent| a.slip.abs().total_cmp(&b.slip.abs());
+        let larger = |a: &SlipEvent, b: &SlipEvent| a.size().total_cmp(&b.size());
         self.events.iter().copied().max_by(larger)
     }
 }
@@ -83,6 +102,9 @@ impl Sliding {
 pub struct ElementEnvelope {
     /// Where it is.
     pub element: ContactElement,
+    /// Its front and back end along y, m; 0 and 1 in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub depth: [f64; 2],
     /// Pressure at the start, Pa.
     pub static_pressure: f64,
     /// Smallest and largest pressure, Pa.
@@ -95,6 +117,12 @@ pub struct ElementEnvelope {
     pub slip: Peak,
     /// Time open, s.
     pub open: f64,
+    /// In plan: shear traction along y of largest magnitude, Pa; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub shear_across: Peak,
+    /// In plan: slip along y of largest magnitude, m; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub slip_across: Peak,
 }
 
 /// Warning of the largest tension under a base with static pressures, among elements that cannot open; `None` below the
@@ -113,20 +141,23 @@ pub(super) fn tension(
 }
 
 /// Of every element, at the start.
-pub(super) fn start(elements: &[ContactElement], state: &State) -> Vec<ElementEnvelope> {
-    let envelope = |(element, contact): (&ContactElement, &crate::interface::ContactState)| {
+pub(super) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
+    let envelope = |((element, depth), contact): ((&ContactElement, &[f64; 2]), &ContactState)| {
         let peak = |value| Peak { value, time: state.time };
         ElementEnvelope {
             element: *element,
+            depth: *depth,
             static_pressure: contact.pressure,
             pressure: Extremes::of(contact.pressure, state.time),
             shear: peak(contact.shear),
             gap: peak(contact.gap),
             slip: peak(contact.slip),
             open: 0.0,
+            shear_across: peak(contact.shear_across),
+            slip_across: peak(contact.slip_across),
         }
     };
-    elements.iter().zip(&state.contact).map(envelope).collect()
+    elements.iter().zip(elements.depths()).zip(&state.contact).map(envelope).collect()
 }
 
 /// Of every element, after a step of length `step`.
@@ -137,6 +168,8 @@ pub(super) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
         envelope.shear.see(contact.shear, state.time);
         envelope.gap.see(contact.gap, state.time);
         envelope.slip.see(contact.slip, state.time);
+        envelope.shear_across.see(contact.shear_across, state.time);
+        envelope.slip_across.see(contact.slip_across, state.time);
         if !mode.is_closed() {
             envelope.open += step;
         }
@@ -269,14 +302,22 @@ mod tests {
             (false, 0.1),
         ];
         for (k, (slides, slip)) in steps.into_iter().enumerate() {
-            sliding.advance(slides, slip, [k as f64, (k + 1) as f64]);
+            sliding.advance(slides, [slip, 0.0], [k as f64, (k + 1) as f64]);
         }
-        let event = |start, end, slip| SlipEvent { start, end, slip };
+        let event = |start, end, slip| SlipEvent { start, end, slip, slip_across: 0.0 };
         let known = [event(1.0, 3.0, 3.0), event(3.0, 5.0, -5.0), event(6.0, 7.0, -3.0)];
         assert_eq!(sliding.events, known);
         assert_eq!((sliding.path, sliding.duration), (11.0, 5.0));
         assert_eq!(sliding.largest_event(), Some(known[1]));
         assert_eq!(Sliding::default().largest_event(), None);
+        // In plan: 3 to the right and 4 away, then back at an angle of more than a right one.
+        let mut sliding = Sliding::default();
+        for (k, slip) in [[3.0, 4.0], [-4.0, 3.0], [-0.1, -6.0]].into_iter().enumerate() {
+            sliding.advance(true, slip, [k as f64, (k + 1) as f64]);
+        }
+        assert_eq!(sliding.events.len(), 2);
+        assert_eq!((sliding.events[0].slip, sliding.events[0].slip_across), (-1.0, 7.0));
+        assert_eq!(sliding.path, 10.0 + 0.1_f64.hypot(6.0));
     }
 }
 

@@ -238,10 +238,11 @@ impl Run {
         probe_index(&self.probes, name, |probe| &probe.name).map(|k| self.probes[k].extremes)
     }
 
-    /// Largest base shear over the weight; `None` without weight.
+    /// Largest base shear (in plan, horizontal force) over the weight; `None` without weight.
     pub fn shear_coefficient(&self) -> Option<f64> {
-        let Summary { static_normal_force, base_shear, .. } = &self.whole;
-        (*static_normal_force > 0.0).then(|| base_shear.magnitude() / static_normal_force)
+        let Summary { static_normal_force, base_shear, horizontal_force, .. } = &self.whole;
+        let shear = if self.in_plan { horizontal_force } else { base_shear };
+        (*static_normal_force > 0.0).then(|| shear.magnitude() / static_normal_force)
     }
 
     /// Number of slip events, of several foundations those of each.

@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use super::peak::resultant;
 use super::quantity::Place;
 use super::{Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::coupled::Peak;
-use crate::text::column::{number, printed};
+use crate::text::column::{number, of_body, printed};
 use crate::text::table::Table;
 
 /// Elements of the pressure envelope beyond which only some are printed.
@@ -17,14 +18,20 @@ impl fmt::Display for Run {
         writeln!(f, "Run of {steps} steps from t = {start:.3} s to {end:.3} s")?;
         let weight = self.whole.static_normal_force;
         if weight > 0.0 {
-            writeln!(f, "Weight on the base: {:.1} {}", 1e-3 * weight, self.unit("kN/m"))?;
+            writeln!(
+                f,
+                "Weight on the base: {:.1} {}",
+                1e-3 * weight,
+                of_body("kN/m", self.in_plan)
+            )?;
         }
         writeln!(f, "\n{}", self.peaks().text())?;
         if self.foundations.len() > 1 {
             writeln!(f, "{}", self.each_foundation().text())?;
         }
         if let Some(coefficient) = self.shear_coefficient() {
-            writeln!(f, "Largest base shear: {coefficient:.3} of the weight")?;
+            let name = if self.in_plan { "horizontal force" } else { "base shear" };
+            writeln!(f, "Largest {name}: {coefficient:.3} of the weight")?;
         }
         self.safety(f)?;
         if let Some(met) = self.is_serviceable() {
@@ -48,11 +55,6 @@ impl fmt::Display for Run {
 }
 
 impl Run {
-    /// A unit per metre of thickness, which in plan is that of the whole body.
-    fn unit<'a>(&self, unit: &'a str) -> &'a str {
-        unit.strip_suffix("/m").filter(|_| self.in_plan).unwrap_or(unit)
-    }
-
     fn peaks(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let row = |name: &str, unit: &str, factor: f64, extremes: &Extremes| {
@@ -61,9 +63,9 @@ impl Run {
             let [high, high_time] = cell(extremes.highest);
             vec![name.to_owned(), unit.to_owned(), low, low_time, high, high_time]
         };
-        let whole = Quantity::shown(Place::Page).map(|quantity| {
-            let (factor, unit) = quantity.printed();
-            row(quantity.name(), self.unit(unit), factor, &self.whole.extremes(quantity))
+        let whole = Quantity::shown(Place::Page, self.in_plan).map(|quantity| {
+            let (factor, unit) = quantity.printed(self.in_plan);
+            row(quantity.name(), unit, factor, &self.whole.extremes(quantity))
         });
         let mut rows: Vec<_> = whole.collect();
         rows.extend(self.probes.iter().map(|probe| {
@@ -75,9 +77,10 @@ impl Run {
 
     /// Largest magnitudes, a line for each foundation.
     fn each_foundation(&self) -> Table {
-        let shown: Vec<_> = Quantity::shown(Place::Foundations).collect();
+        let shown: Vec<_> = Quantity::shown(Place::Foundations, self.in_plan).collect();
+        let printed = |quantity: &Quantity| quantity.printed(self.in_plan);
         let heading = |quantity: &Quantity| {
-            let unit = if quantity.limit().is_some() { "" } else { quantity.printed().1 };
+            let unit = if quantity.limit().is_some() { "" } else { printed(quantity).1 };
             format!("{} {unit}", quantity.short_name()).trim_end().to_owned()
         };
         let mut headings = vec!["Foundation, m".to_owned()];
@@ -87,7 +90,7 @@ impl Run {
             let [left, right] = own.ends;
             let value = |quantity: &Quantity| match own.peak(*quantity).value {
                 safety if quantity.limit().is_some() => factor(safety),
-                value => number(quantity.printed().0 * value),
+                value => number(printed(quantity).0 * value),
             };
             let mut cells = vec![format!("{left:.2} to {right:.2}")];
             cells.extend(shown.iter().map(value));
@@ -132,6 +135,16 @@ impl Run {
             number(1e3 * self.whole.residual_slip),
             number(1e3 * self.whole.largest_slip.highest.value)
         )?;
+        if self.in_plan {
+            let (across, end) =
+                (self.whole.mean_slip_across.largest(), self.whole.residual_slip_across);
+            let [value, end] = [across.value, end].map(|slip| number(1e3 * slip));
+            writeln!(
+                f,
+                "  mean slip across up to {value} mm at {:.3} s, {end} mm at the end",
+                across.time
+            )?;
+        }
         let base =
             if self.foundations.len() > 1 { "all foundations as one" } else { "the whole base" };
         write!(
@@ -142,7 +155,7 @@ impl Run {
             1e3 * sliding.path
         )?;
         if let Some(event) = sliding.largest_event() {
-            let slip = 1e3 * event.slip;
+            let slip = 1e3 * resultant(event.slip, event.slip_across);
             write!(
                 f,
                 "\n  largest event {slip:.3} mm, {:.3} s to {:.3} s",
@@ -158,28 +171,34 @@ impl Run {
 
     fn pressures(&self) -> Table {
         let heading = ["x, m", "static kPa", "least kPa", "largest kPa", "at s", "open s"];
+        let mut heading = heading.map(str::to_owned).to_vec();
+        if self.in_plan {
+            heading.insert(1, "y, m".to_owned());
+        }
         let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
         let row = |envelope: &super::ElementEnvelope| {
-            vec![
-                format!("{:.3}", envelope.element.center()),
+            let mut cells = vec![format!("{:.3}", envelope.element.center())];
+            if self.in_plan {
+                let [front, back] = envelope.depth;
+                cells.push(format!("{:.3}", 0.5 * (front + back)));
+            }
+            cells.extend([
                 number(1e-3 * envelope.static_pressure),
                 number(1e-3 * envelope.pressure.lowest.value),
                 number(1e-3 * envelope.pressure.highest.value),
                 format!("{:.3}", envelope.pressure.highest.time),
                 format!("{:.3}", envelope.open),
-            ]
+            ]);
+            cells
         };
         // Whatever is left out, the largest pressure is not.
         let place = |k: &usize| self.envelope[*k].pressure.highest.value;
         let largest = (0..self.envelope.len()).max_by(|a, b| place(a).total_cmp(&place(b)));
         let kept = |k: &usize| k.is_multiple_of(every) || *k == last || Some(*k) == largest;
         let shown = self.envelope.iter().enumerate().filter(|(k, _)| kept(k));
-        Table {
-            heading: heading.map(str::to_owned).to_vec(),
-            repeated: 1,
-            rows: shown.map(|(_, envelope)| row(envelope)).collect(),
-        }
+        let repeated = heading.len() - 5;
+        Table { heading, repeated, rows: shown.map(|(_, envelope)| row(envelope)).collect() }
     }
 
     fn effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -201,7 +220,7 @@ impl Run {
         if self.energy_balance.is_left_out() {
             return write!(f, "\n{}", self.energy_balance);
         }
-        let (input, unit) = (1e-3 * self.energy_balance.input, self.unit("kJ/m"));
+        let (input, unit) = (1e-3 * self.energy_balance.input, of_body("kJ/m", self.in_plan));
         let shares = self.energy_balance.shares();
         let ending = if shares.is_some() { ", of which" } else { "" };
         writeln!(f, "\nEnergy: input {input:.4} {unit}{ending}")?;

@@ -91,6 +91,11 @@ fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
     }
 }
 
+/// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
+pub(super) fn resultant(along: f64, across: f64) -> f64 {
+    if across == 0.0 { along } else { along.hypot(across) }
+}
+
 // Largest and smallest values of a run, and when they occurred.
 
 /// A value of largest magnitude, with its sign, and when it occurred.

@@ -5,12 +5,13 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::peak::{Footing, against_overturning, against_sliding};
+use super::peak::{Footing, against_overturning, against_sliding, resultant};
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Foundation, Peak, State};
 use crate::error::{Error, Result};
+use crate::geometry::far_ends;
 use crate::interface::{ContactState, Mode};
-use crate::text::column::{column, printed};
+use crate::text::column::{column, of_body, printed};
 use crate::text::words::{plain, unknown};
 
 /// One row: how a quantity is called, and where it is shown beside its time series.
@@ -37,6 +38,8 @@ enum Scale {
 /// Where the summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
+    /// Nowhere but in plan.
+    Plan,
     /// Extremes on the page of a run.
     Page,
     /// Largest value, in the page's table of foundations.
@@ -80,6 +83,7 @@ macro_rules! quantities {
 
         impl Quantity {
             /// All quantities, in the order of columns.
+            /// Those of three directions are the last: [`Quantity::of`] leaves them out in the plane.
             pub const ALL: [Self; WORDS.len()] = [$(Self::$variant),+];
         }
 
@@ -101,6 +105,9 @@ macro_rules! quantities {
             $($(#[$doc])* pub $field: Extremes,)+
             /// Mean slip at the end, m.
             pub residual_slip: f64,
+            /// In plan: that along y, m; zero in the plane.
+            #[cfg_attr(feature = "serde", serde(default))]
+            pub residual_slip_across: f64,
             /// Duration of uplift.
             pub uplift: Uplift,
             /// Distance and duration of sliding, and the slip events. The base as a whole slides while all
@@ -114,13 +121,14 @@ macro_rules! quantities {
                 let base = state.base(foundation);
                 let extremes = |value: fn(&Base) -> f64| Extremes::of(value(&base), state.time);
                 let own = base.elements();
-                let elements = &state.context.elements[own.clone()];
+                let elements = state.context.elements[own.clone()].iter();
                 Self {
                     elements: own,
-                    ends: [elements.first().map_or(0.0, |e| e.left), elements.last().map_or(0.0, |e| e.right)],
+                    ends: far_ends(elements.map(|element| [element.left, element.right])),
                     static_normal_force: (TABLE[Quantity::NormalForce as usize].value)(&base),
                     $($field: extremes($value),)+
                     residual_slip: (TABLE[Quantity::MeanSlip as usize].value)(&base),
+                    residual_slip_across: (TABLE[Quantity::MeanSlipAcross as usize].value)(&base),
                     uplift: Uplift::default(),
                     sliding: Sliding::with_capacity(EVENTS),
                 }
@@ -158,7 +166,7 @@ quantities! {
         |base| base.pick(base.state.mean_slip, |own| own.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.contact().iter().fold(0.0, |largest, own| own.slip.hypot(own.slip_across).max(largest));
+        |base| base.contact().iter().fold(0.0, |largest, own| resultant(own.slip, own.slip_across).abs().max(largest));
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.pick(base.state.base_rotation, |own| own.base_rotation);
@@ -184,6 +192,33 @@ quantities! {
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
         |base| base.least(|_, footing| against_overturning(footing));
+    /// In plan: horizontal force on the soil along y, N.
+    ShearAcross shear_across, "base shear across", "N/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
+        |base| base.across(|own| own.shear_across);
+    /// In plan: resultant of the horizontal forces on the soil along x and y, N.
+    HorizontalForce horizontal_force, "horizontal force", "N/m", Scale::Unit, [Plan, Page, Comparison, ComparisonTime],
+        |base| base.across(|own| own.base_shear.hypot(own.shear_across));
+    /// In plan: moment on the soil about the axis along x, by the right-hand rule, static part included, N·m.
+    MomentAcross moment_across, "base moment across", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
+        |base| base.across(|own| own.moment_across);
+    /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
+    Torque torque, "torque", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
+        |base| base.across(|own| own.torque);
+    /// In plan: area of open elements inside the outline of the base, m².
+    UpliftedArea uplifted_area, "uplifted area", "m²", Scale::Unit, [Plan, Page],
+        open_area;
+    /// In plan: slip along y averaged over the base, m.
+    MeanSlipAcross mean_slip_across, "mean slip across", "m", Scale::Unit, [Plan, Foundations, Comparison],
+        |base| base.across(|own| own.mean_slip_across);
+    /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad.
+    RotationAcross rotation_across, "base rotation across", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
+        |base| base.across(|own| own.rotation_across);
+    /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
+    Twist twist, "base twist", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
+        |base| base.across(|own| own.twist);
+    /// In plan: mean displacement of the free field under the base along y, m.
+    FreeFieldAcross free_field_across, "free field, across", "m", Scale::Unit, [Plan],
+        |base| base.state.free_field_across;
 }
 
 /// Most slip events of a base that memory is reserved for.
@@ -204,22 +239,28 @@ impl Quantity {
         self.name().replace("factor of safety against", "safety,")
     }
 
-    /// SI unit of its values; empty for a ratio.
-    pub fn unit(self) -> &'static str {
-        self.row().unit
+    /// The quantities that there are: all on a ground in plan, in the plane those of two directions.
+    pub fn of(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
+        Self::ALL.into_iter().filter(move |own| in_plan || !own.is_shown(Place::Plan))
     }
 
-    /// Its column in files: the word and the unit, `base_shear_n_per_m`.
-    pub fn column(self) -> String {
-        column(self.row().word, self.unit())
+    /// SI unit of its values, per metre of thickness in the plane and of the whole body in plan; empty for a ratio.
+    pub fn unit(self, in_plan: bool) -> &'static str {
+        of_body(self.row().unit, in_plan)
+    }
+
+    /// Its column in files: the word and the unit, `base_shear_n_per_m` in the plane and `base_shear_n` in plan.
+    pub fn column(self, in_plan: bool) -> String {
+        column(self.row().word, self.unit(in_plan))
     }
 
     /// Factor and unit in which it is printed.
-    pub(crate) fn printed(self) -> (f64, &'static str) {
-        match self.row().scale {
+    pub(crate) fn printed(self, in_plan: bool) -> (f64, &'static str) {
+        let (factor, unit) = match self.row().scale {
             Scale::Percent => (1e2, "%"),
-            Scale::Unit | Scale::Safety(_) => printed(self.unit()),
-        }
+            Scale::Unit | Scale::Safety(_) => printed(self.row().unit),
+        };
+        (factor, of_body(unit, in_plan))
     }
 
     /// The label of the limit one, for a factor of safety.
@@ -231,8 +272,8 @@ impl Quantity {
     }
 
     /// The quantities that are shown at `place`.
-    pub(crate) fn shown(place: Place) -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(move |own| own.is_shown(place))
+    pub(crate) fn shown(place: Place, in_plan: bool) -> impl Iterator<Item = Self> {
+        Self::of(in_plan).filter(move |own| own.is_shown(place))
     }
 
     /// Whether it is shown at `place`.
@@ -254,7 +295,8 @@ impl FromStr for Quantity {
     fn from_str(text: &str) -> Result<Self> {
         let word = plain(text);
         let is = |own: &Self| {
-            own.row().word == word || own.column() == word || plain(own.name()) == word
+            let columns = [false, true].map(|in_plan| own.column(in_plan));
+            own.row().word == word || columns.contains(&word) || plain(own.name()) == word
         };
         Self::ALL.into_iter().find(is).ok_or_else(|| unknown("quantity", text, WORDS))
     }
@@ -281,6 +323,11 @@ impl<'a> Base<'a> {
     /// The whole base's number, or that of the foundation.
     fn pick(&self, whole: f64, own: fn(&Foundation) -> f64) -> f64 {
         self.foundation.map_or(whole, own)
+    }
+
+    /// The foundation's number of three directions; a base in plan is one foundation.
+    fn across(&self, own: fn(&Foundation) -> f64) -> f64 {
+        self.foundation.or(self.state.foundations.first()).map_or(0.0, own)
     }
 
     fn elements(&self) -> Range<usize> {
@@ -321,6 +368,14 @@ impl<'a> Base<'a> {
     }
 }
 
+/// Area of the open elements of a base.
+fn open_area(base: &Base<'_>) -> f64 {
+    let areas = base.state.context.elements.areas().get(base.elements()).unwrap_or_default();
+    let open = areas.iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
+    // An empty sum would be a negative zero.
+    open.fold(0.0, |sum, (area, _)| sum + area)
+}
+
 impl Summary {
     /// Takes in the state of a step that began at `begin`; `foundation` as at the start.
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
@@ -329,10 +384,12 @@ impl Summary {
             extremes.see((row.value)(&base), time);
         }
         let slip = (Quantity::MeanSlip.row().value)(&base);
+        let across = (Quantity::MeanSlipAcross.row().value)(&base);
         let uplifted = (Quantity::UpliftedFraction.row().value)(&base);
         self.uplift.see(uplifted, base.modes(), time - begin);
-        self.sliding.see(base.modes(), slip - self.residual_slip, [begin, time]);
-        self.residual_slip = slip;
+        let change = [slip - self.residual_slip, across - self.residual_slip_across];
+        self.sliding.see(base.modes(), change, [begin, time]);
+        (self.residual_slip, self.residual_slip_across) = (slip, across);
     }
 
     /// The extreme of `quantity` that matters: the least factor of safety, the furthest value of all else.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::peak::resultant;
 use crate::coupled::{Peak, State};
 use crate::error::{Error, Result, positive};
 use crate::text::column::{number, printed};
@@ -12,13 +13,13 @@ use crate::text::column::{number, printed};
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Criterion {
-    /// Slip averaged over a foundation, m, either way; tangential motion of open elements counts.
+    /// Slip averaged over a foundation, m, either way and in plan any way; tangential motion of open elements counts.
     Slip,
     /// Gap of an element, m.
     Gap,
     /// Uplifted fraction of a foundation.
     UpliftedFraction,
-    /// Rotation of a foundation's chord, rad, either way, static part included.
+    /// Rotation of a foundation's chord, rad, either way, static part included; in plan the tilt in any direction.
     Rotation,
 }
 
@@ -54,10 +55,14 @@ impl Criterion {
         let furthest = |far: f64, value: f64| if value.abs() > far.abs() { value } else { far };
         let foundations = state.foundations.iter();
         match self {
-            Self::Slip => foundations.map(|own| own.mean_slip).fold(0.0, furthest),
+            Self::Slip => foundations
+                .map(|own| resultant(own.mean_slip, own.mean_slip_across))
+                .fold(0.0, furthest),
             Self::Gap => state.contact.iter().fold(0.0, |far, own| own.gap.max(far)),
             Self::UpliftedFraction => foundations.map(|f| f.uplifted_fraction).fold(0.0, furthest),
-            Self::Rotation => foundations.map(|own| own.base_rotation).fold(0.0, furthest),
+            Self::Rotation => foundations
+                .map(|own| resultant(own.base_rotation, own.rotation_across))
+                .fold(0.0, furthest),
         }
     }
 }

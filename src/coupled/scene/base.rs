@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::faces::Faces;
-use super::transformation::{Rows, Terms, Transformation, Weights};
+use super::faces::{Faces, mean_rotations};
+use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
 use crate::geometry::{ContactLayout, PLANE, Patch};
@@ -29,12 +29,12 @@ pub(crate) struct Base {
     nodes: Vec<FaceNode>,
 }
 
-/// One foundation: its nodes, its elements, and the rotation of its chord.
+/// One foundation: its nodes, its elements, and the rotation of its chord; in plan those about the other axes too.
 #[derive(Debug, Clone)]
 struct Outline {
     nodes: Range<usize>,
     elements: Range<usize>,
-    rotation: Weights,
+    rotations: Vec<Weights>,
 }
 
 impl Base {
@@ -74,8 +74,8 @@ impl Base {
                 accumulate(&mut rows[across], &nodes[node].across, weight);
             }
         }
-        let rotation = Weights::Sparse(mean_rotation(&nodes));
-        let whole = Outline { nodes: 0..nodes.len(), elements: 0..patch.len(), rotation };
+        let rotations = mean_rotations(&nodes).map(Weights::Sparse).into();
+        let whole = Outline { nodes: 0..nodes.len(), elements: 0..patch.len(), rotations };
         Ok(Self::from_rows(rows, vec![whole], nodes, patch))
     }
 
@@ -104,7 +104,7 @@ impl Base {
             });
             let footing = Outline {
                 elements: element..end,
-                rotation: Weights::Sparse(chord_rotation(&nodes[own.clone()])),
+                rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
                 nodes: own,
             };
             if end <= element {
@@ -133,9 +133,9 @@ impl Base {
     /// The same base of the coordinates that are stepped.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
-        for footing in &mut foundations {
-            if let Weights::Sparse(terms) = &footing.rotation {
-                footing.rotation = transformation.row(terms);
+        for rotation in foundations.iter_mut().flat_map(|footing| &mut footing.rotations) {
+            if let Weights::Sparse(terms) = rotation {
+                *rotation = transformation.row(terms);
             }
         }
         Self { rows: transformation.rows(&self.rows), foundations, ..self.clone() }
@@ -206,9 +206,10 @@ impl Base {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation (counter-clockwise), from the chord between its ends.
-    pub(crate) fn rotation(&self, foundation: usize, u: &[f64]) -> f64 {
-        self.foundations[foundation].rotation.of(u)
+    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan then those about x and the
+    /// vertical, by the right-hand rule.
+    pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
+        self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }
 
     /// Largest error of N r for translations of 1 to the right, 1 up and 1 away, N the displacements of the
@@ -289,32 +290,6 @@ fn chord_rotation(nodes: &[FaceNode]) -> Terms {
     terms
 }
 
-/// Rise to the right per distance, of the plane that fits the nodes best.
-fn mean_rotation(nodes: &[FaceNode]) -> Terms {
-    let mean =
-        |of: &dyn Fn(&FaceNode) -> f64| nodes.iter().map(of).sum::<f64>() / nodes.len() as f64;
-    let (x, y) = (mean(&|node| node.x), mean(&|node| node.y));
-    let product = |one: fn([f64; 2]) -> f64| mean(&|node| one([node.x - x, node.y - y]));
-    let (xx, xy, yy) =
-        (product(|d| d[0] * d[0]), product(|d| d[0] * d[1]), product(|d| d[1] * d[1]));
-    let scale = nodes.len() as f64 * (xx * yy - xy * xy);
-    let mut terms = Terms::new();
-    for node in nodes {
-        let weight = yy * (node.x - x) - xy * (node.y - y);
-        accumulate(&mut terms, &node.vertical, weight / scale);
-    }
-    terms
-}
-
-fn accumulate(row: &mut Terms, terms: &DofCombination, factor: f64) {
-    for &(index, weight) in terms {
-        match row.iter_mut().find(|(j, _)| *j == index) {
-            Some((_, sum)) => *sum += factor * weight,
-            None => row.push((index, factor * weight)),
-        }
-    }
-}
-
 /// (node, weight) of the mean over `element` of the piecewise linear interpolation.
 fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
     let mut weights = Vec::new();
@@ -375,7 +350,7 @@ mod tests {
             assert!((means[e] + (1.0 - 0.5 * x)).abs() < 1e-14);
             assert!((means[4 + e] - (2.0 + 3.0 * x)).abs() < 1e-14);
         }
-        assert!((base.rotation(0, &u) + 0.5).abs() < 1e-14);
+        assert!((base.rotations(0, &u).next().unwrap() + 0.5).abs() < 1e-14);
         // The transpose does the same work: (BᵀAτ)·u = Σ A τ·(B u).
         let traction: Vec<f64> = (0..8).map(|i| f64::from(i).cos()).collect();
         let mut force = vec![0.0; 8];

@@ -8,9 +8,20 @@ use std::sync::Arc;
 
 use crate::linalg::matrix::{SparseMatrix, spread};
 use crate::linalg::{dense_multiply_add, dot, largest, transposed_multiply_add};
+use crate::structure::DofCombination;
 
 /// (coordinate, weight) pairs.
 pub(crate) type Terms = Vec<(usize, f64)>;
+
+/// Adds `factor` times a weighted sum.
+pub(super) fn accumulate(row: &mut Terms, terms: &DofCombination, factor: f64) {
+    for &(index, weight) in terms {
+        match row.iter_mut().find(|(j, _)| *j == index) {
+            Some((_, sum)) => *sum += factor * weight,
+            None => row.push((index, factor * weight)),
+        }
+    }
+}
 
 /// Which coordinates are stepped: chosen once, while building.
 #[derive(Debug, Clone)]

@@ -189,14 +189,25 @@ impl StoreyBuilding {
     /// [`Error::Index`] when there is no such storey.
     pub fn drift_at(&self, storey: usize, place: [f64; 2]) -> Result<[DofCombination; 3]> {
         self.floor(storey, place)?;
-        let height = self.storeys[storey].height;
-        let [along, across, twist] = sway(storey, place);
-        // The tilt of the mat carries the upper floor by r × (0, 0, h).
-        Ok([
-            along - DofCombination::from((ABOUT_Y, height)),
-            across + DofCombination::from((ABOUT_X, height)),
-            twist,
-        ])
+        Ok(self.deformation([storey, storey + 1], place))
+    }
+
+    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the mat's
+    /// base) less the rigid motion of the mat there: the sum of the drifts below.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn total_drift(&self, storey: usize, place: [f64; 2]) -> Result<[DofCombination; 3]> {
+        self.floor(storey, place)?;
+        Ok(self.deformation([0, storey + 1], place))
+    }
+
+    /// Motion of the second level less that of the first, whose tilt with the mat carries the other by r × (0, 0, h).
+    fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
+        let height = self.storeys[levels[0]..levels[1]].iter().map(|own| own.height).sum();
+        let [along, across, twist] = sway(levels, place);
+        let tilt = |dof: usize| DofCombination::from((dof, height));
+        [along - tilt(ABOUT_Y), across + tilt(ABOUT_X), twist]
     }
 
     /// Forces along x and y (N) that the floor on top of `storey` exerts on what is below, and their torque (N m) about
@@ -253,10 +264,10 @@ fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     [point(along, -y), point(across, x), twist.into()]
 }
 
-/// Motion of the upper level of a storey less that of the lower one, the tilt of the mat left in.
-fn sway(storey: usize, place: [f64; 2]) -> [DofCombination; 3] {
-    let mut below = level(storey, place).into_iter();
-    level(storey + 1, place).map(|above| above - below.next().unwrap_or_default())
+/// Motion of the second level less that of the first, the tilt of the mat left in.
+fn sway([lower, upper]: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
+    let mut below = level(lower, place).into_iter();
+    level(upper, place).map(|above| above - below.next().unwrap_or_default())
 }
 
 impl Structure for StoreyBuilding {
@@ -297,7 +308,7 @@ impl Structure for StoreyBuilding {
         })?;
         for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             for floor in &self.storeys[index..] {
-                let [along, across, twist] = sway(index, floor.mass_center);
+                let [along, across, twist] = sway([index, index + 1], floor.mass_center);
                 let softening = -self.gravity / storey.height;
                 matrix.add_outer(along, softening * floor.mass);
                 matrix.add_outer(across, softening * floor.mass);

@@ -1,0 +1,70 @@
+//! States of elements, as pictures show them.
+
+use crate::interface::{ContactState, Mode};
+use crate::results::ContactFrame;
+use plotters::style::RGBColor;
+
+/// State of an element, as drawn; where several share a column the greater shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Shown {
+    Stick,
+    Open,
+    /// Touching without a pressure: what "slip" is with infinite friction, the one state between
+    /// stick and open.
+    Weightless,
+    SlipLeft,
+    SlipRight,
+}
+
+impl Shown {
+    pub(super) const ALL: [Self; 5] =
+        [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open, Self::Weightless];
+
+    /// Mode and tractions of an element, of a base whose largest pressure is `scale`.
+    pub(super) fn of(mode: Mode, state: &ContactState, scale: f64) -> Self {
+        match mode.elastic() {
+            Mode::Open => Self::Open,
+            _ if state.pressure.abs() <= 1e-9 * scale => Self::Weightless,
+            Mode::SlipLeft => Self::SlipLeft,
+            Mode::Slip if state.shear < 0.0 => Self::SlipLeft,
+            Mode::SlipRight | Mode::Slip => Self::SlipRight,
+            _ => Self::Stick,
+        }
+    }
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Stick => "stick",
+            Self::SlipLeft => "slip to the left",
+            Self::SlipRight => "slip to the right",
+            Self::Open => "open",
+            Self::Weightless => "touching without pressure",
+        }
+    }
+
+    pub(super) fn color(self) -> RGBColor {
+        match self {
+            Self::Stick => RGBColor(214, 222, 228),
+            Self::SlipLeft => RGBColor(255, 166, 43),
+            Self::SlipRight => RGBColor(214, 39, 40),
+            Self::Open => RGBColor(22, 72, 120),
+            Self::Weightless => RGBColor(118, 172, 214),
+        }
+    }
+}
+
+/// State of every element in every frame, and the states that the key shows: the modes always,
+/// touching without pressure where it occurs.
+pub(super) fn shown(frames: &[ContactFrame<'_>]) -> (Vec<Vec<Shown>>, Vec<Shown>) {
+    let pressures = frames.iter().flat_map(|frame| frame.states).map(|state| state.pressure.abs());
+    let scale = pressures.fold(0.0, f64::max);
+    let of_frame = |frame: &ContactFrame<'_>| -> Vec<Shown> {
+        let both = frame.modes.iter().zip(frame.states);
+        both.map(|(mode, state)| Shown::of(*mode, state, scale)).collect()
+    };
+    let all: Vec<Vec<Shown>> = frames.iter().map(of_frame).collect();
+    let occurs = |what: Shown| all.iter().flatten().any(|shown| *shown == what);
+    let key = Shown::ALL.into_iter().filter(|what| *what != Shown::Weightless || occurs(*what));
+    let key = key.collect();
+    (all, key)
+}
