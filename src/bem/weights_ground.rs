@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::plan::Unions;
 use super::{Ground, SharedKernels, WeightsSource};
-use crate::error::{CheckpointError, Error, Observer, Result};
+use crate::error::{CheckpointError, Error, Observer, Progress, Result, Watch};
 use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
@@ -174,6 +174,39 @@ impl Prepared {
         Ok(history.any_mut())
     }
 
+    /// Makes ready for `steps` steps. What is stopped leaves no trace.
+    fn reserve(
+        &mut self,
+        options: HistoryOptions,
+        steps: usize,
+        observer: Option<&mut Observer<'_>>,
+    ) -> Result<()> {
+        let before = self.history.as_mut().map(|history| match history {
+            Kept::Chosen(history) => *history.expected(),
+            Kept::Own(_) => None,
+        });
+        let mut watch = observer.map_or_else(Watch::nobody, |observer| Watch::new("", 1, observer));
+        let mut outcome = Ok(());
+        if steps > 0 {
+            let history = self.history(options, Some(steps))?;
+            if steps <= history.steps().saturating_add(RESERVED_STEPS) {
+                outcome = match watch.observer() {
+                    Some(observer) => history.reserve_observed(steps, observer),
+                    None => history.reserve(steps),
+                };
+            }
+        }
+        let outcome = outcome.and_then(|()| watch.reach(1));
+        if let Err(Error::Stopped(_)) = outcome {
+            match (before, &mut self.history) {
+                (Some(before), Some(Kept::Chosen(history))) => *history.expected() = before,
+                (Some(_), _) => {}
+                (None, history) => *history = None,
+            }
+        }
+        outcome
+    }
+
     /// What was chosen.
     fn choice(&self) -> Option<HistoryChoice> {
         match &self.history {
@@ -278,24 +311,40 @@ impl Ground for WeightsGround {
 
     fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
+        let Some(observer) = observer else { return prepared.reserve(self.options, steps, None) };
         let exponentials =
             prepared.choice().is_some_and(|choice| choice.kind == HistoryMethod::Exponentials);
+        let kernel = Arc::clone(&prepared.kernel);
+        let method = HistoryMethod::RelaxedFft;
+        let lags = self.options.prepared_steps(method, &*kernel, steps.max(1))?;
+        // As many as a history takes, by a power of two.
+        let lags = lags.checked_next_power_of_two().unwrap_or(lags);
+        let spectra = lags.saturating_mul(kernel.classes().count()) / SPECTRA + 1;
+        let mut whole = Progress { task: "step coefficients", done: 0, total: spectra };
         // Exponentials have all weights that they need.
-        if let Some(observer) = observer.filter(|_| !exponentials) {
-            let kernel = &*prepared.kernel;
-            let method = HistoryMethod::RelaxedFft;
-            let lags = self.options.prepared_steps(method, kernel, steps.max(1))?;
-            // As many as a history takes, by a power of two.
-            kernel.prepare_observed(lags.checked_next_power_of_two().unwrap_or(lags), observer)?;
-        }
-        if steps == 0 {
-            return Ok(());
-        }
-        let history = prepared.history(self.options, Some(steps))?;
-        if steps > history.steps().saturating_add(RESERVED_STEPS) {
-            return Ok(());
-        }
-        history.reserve(steps)
+        let weights = if exponentials {
+            Ok(())
+        } else {
+            kernel.prepare_observed(lags, &mut |Progress { done, total, task }| {
+                whole = Progress { task, done, total: total + spectra };
+                observer(whole)
+            })
+        };
+        let done = whole.total - spectra;
+        let outcome = weights.and_then(|()| {
+            prepared.reserve(
+                self.options,
+                steps,
+                Some(&mut |part| {
+                    whole.done = done + spectra * part.done / part.total.max(1);
+                    observer(whole)
+                }),
+            )
+        });
+        outcome.map_err(|error| match error {
+            Error::Stopped(_) => Error::Stopped(whole),
+            other => other,
+        })
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
@@ -382,6 +431,9 @@ impl Ground for WeightsGround {
         }
     }
 }
+
+/// Lags of a class of which spectra are made in the time of a sample of layered ground.
+const SPECTRA: usize = 8192;
 
 const NOT_PREPARED: Error = Error::Scene {
     quantity: "ground",
