@@ -112,7 +112,7 @@ fn main() -> Result<()> {
         1e3 * largest(&sway_full),
         largest(&apart) / largest(&sway_full)
     );
-    // Any unknown of the full model, whenever it is wanted.
+    // Any degree of freedom of the full model, whenever it is wanted.
     let everything = recovery.full(small.state().absolute_displacement())?;
     println!(
         "all {} degrees of freedom at the end: the top at {:.3} mm",

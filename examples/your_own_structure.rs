@@ -26,7 +26,7 @@ struct Building {
 const BASE: [usize; 3] = [0, 1, 2];
 
 impl Building {
-    /// Drift of a storey as (unknown, weight) pairs: `u_j − u_(j−1) + h θ`, for a base that turns
+    /// Drift of a storey as (degree of freedom, weight) pairs: `u_j − u_(j−1) + h θ`, for a base that turns
     /// counter-clockwise moves what is above it to the left.
     fn drift(&self, storey: usize) -> [(usize, f64); 3] {
         let below = if storey == 0 { BASE[0] } else { storey + 2 };

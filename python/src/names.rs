@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, refuse};
 
 /// All modes, in the order of their numbers in arrays.
-const MODES: [(Mode, &str); 7] = [
+const MODES: [(Mode, &str); 9] = [
     (Mode::Stick, "stick"),
     (Mode::SlipLeft, "slip left"),
     (Mode::SlipRight, "slip right"),
@@ -14,6 +14,8 @@ const MODES: [(Mode, &str); 7] = [
     (Mode::Yield, "yield"),
     (Mode::YieldLeft, "yield left"),
     (Mode::YieldRight, "yield right"),
+    (Mode::Slip, "slip"),
+    (Mode::YieldSlip, "yield slip"),
 ];
 
 /// Names of the modes, in the order of their numbers in arrays.

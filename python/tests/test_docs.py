@@ -112,9 +112,7 @@ def test_docstrings_are_pythons() -> None:
     rust = r"::(?!`)|\bOption\b|\bVec\b|\b[fiu](64|32)\b|\busize\b|&|\bResult\b|\btraits?\b|\bstruct\b|\bunknowns?\b"
     found = {name: re.findall(rust, inspect.getdoc(value) or "") for name, value in PUBLIC.items()}
     assert {name: words for name, words in found.items() if words} == {}
-    lines = [line for line in STUBS.splitlines() if re.search(rust, line)]
-    # A method of finite-element models is called so.
-    assert [line for line in lines if "def unknown(" not in line] == []
+    assert [line for line in STUBS.splitlines() if re.search(rust, line)] == []
 
 
 def test_references_lead_somewhere() -> None:
@@ -208,7 +206,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),
     "_Mass": lambda word: bm.FemModel(mesh(), mass=word),
     "_Formulation": lambda word: bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3), formulation=word),
-    "_Direction": lambda word: bm.FemModel(mesh()).unknown(0, word),
+    "_Direction": lambda word: bm.FemModel(mesh()).dof(0, word),
     "_SpringDirection": lambda word: mesh().add_dashpots([[0, 1]], word, 1.0),
 }
 LITERALS = {

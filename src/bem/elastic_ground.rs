@@ -15,7 +15,7 @@ use crate::geometry::{ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Soil, SoilProfile};
-use crate::structure::{FaceNode, Structure};
+use crate::structure::Structure;
 
 /// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
 /// its surface.
@@ -131,10 +131,10 @@ impl ElasticGround {
         profile.check()?;
         let (elements, depths) = plan.sides();
         check_count(elements.len())?;
-        let unions = plan.unions();
+        let (unions, inside) = (plan.unions(), plan.fractions_inside());
         let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
         let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
-        let ground = WeightsGround::in_plan(source.clone(), elements, depths, unions);
+        let ground = WeightsGround::in_plan(source.clone(), elements, (depths, inside), unions);
         Ok(Self { source, used: None, ground })
     }
 
@@ -150,15 +150,10 @@ impl ElasticGround {
         structure: &dyn Structure,
         count: usize,
     ) -> Result<Self> {
-        let faces = structure.contact_faces();
-        if faces.is_empty() {
-            return Self::new(profile, Strip::under(structure, count, Grading::Cosine)?);
+        match Plan::of_base(structure, count)? {
+            Some(plan) => Self::in_plan(profile, plan),
+            None => Self::new(profile, Strip::under(structure, count, Grading::Cosine)?),
         }
-        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
-        Self::in_plan(
-            profile,
-            Plan::on_faces(&faces.iter().map(corners).collect::<Vec<_>>(), count)?,
-        )
     }
 
     fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
@@ -319,6 +314,7 @@ impl Ground for ElasticGround {
         fn elements(&self) -> &[ContactElement];
         fn directions(&self) -> usize;
         fn depth(&self, element: usize) -> [f64; 2];
+        fn fraction_inside(&self, element: usize) -> f64;
         fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;

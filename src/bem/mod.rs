@@ -69,6 +69,12 @@ pub trait Ground: Any + Send {
         [0.0, 1.0]
     }
 
+    /// Part of an element's area that is inside the outline of the mat, above 0 and at most 1 (the default): pressures,
+    /// shear tractions and strengths of a simulation refer to it. Tractions of a ground are those of the whole element.
+    fn fraction_inside(&self, _element: usize) -> f64 {
+        1.0
+    }
+
     /// Prepares for steps of `time_step` seconds and forgets all tractions. Called once, first.
     ///
     /// # Errors
@@ -185,7 +191,8 @@ pub trait Ground: Any + Send {
 pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     let elements = ground.elements().to_vec();
     let depths = (0..elements.len()).map(|element| ground.depth(element)).collect();
-    Patch::new(ground.directions(), elements, depths)
+    let inside = (0..elements.len()).map(|element| ground.fraction_inside(element)).collect();
+    Patch::new(ground.directions(), elements, depths, inside)
 }
 
 /// A soil that knows its step coefficients and its static compliance: all that

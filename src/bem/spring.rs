@@ -1,13 +1,14 @@
 //! Winkler's spring bed: a ground without memory.
 
+use super::plan::Plan;
 use super::{Grading, Ground, Strip};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
-use crate::geometry::{ContactElement, ContactLayout, PLANE, check_order};
+use crate::geometry::{ContactElement, ContactLayout, PLANE, SPACE, check_count, check_order};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// Per unit of area, traction = stiffness · s + dashpot · ds/dt, normal and tangential alike,
+/// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction,
 /// stepped by a θ rule: θ = ½ (the default) takes nothing from the springs' energy, θ = 1 damps the
 /// ringing that a bed without dashpots keeps after it was let go.
 ///
@@ -23,10 +24,12 @@ use crate::structure::Structure;
 #[derive(Debug, Clone)]
 pub struct SpringGround {
     elements: Vec<ContactElement>,
-    /// `[normal, tangential]`, Pa/m.
-    stiffness: [f64; 2],
-    /// `[normal, tangential]`, Pa·s/m.
-    dashpot: [f64; 2],
+    /// Front and back end of each along y, m, in plan.
+    depths: Option<Vec<[f64; 2]>>,
+    /// Down, along x and in plan along y, Pa/m.
+    stiffness: [f64; SPACE],
+    /// The same, Pa·s/m.
+    dashpot: [f64; SPACE],
     theta: f64,
     time_step: f64,
     displacement: Vec<f64>,
@@ -46,16 +49,22 @@ impl SpringGround {
         Self::on_strips(&[Strip::uniform(range, count)?], normal_stiffness, tangential_stiffness)
     }
 
-    /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements.
+    /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements. Under a structure
+    /// with [faces](Structure::contact_faces) it is a bed [in plan](SpringGround::in_plan), with `count` cells along
+    /// the shorter side of them all, and the tangential stiffness in both directions.
     ///
     /// # Errors
-    /// As for [`Strip::under`] and [`SpringGround::new`].
+    /// As for [`Strip::under`] and [`SpringGround::new`], or [`Plan::on_faces`] and [`SpringGround::in_plan`].
     pub fn under(
         structure: &dyn Structure,
         count: usize,
         normal_stiffness: f64,
         tangential_stiffness: f64,
     ) -> Result<Self> {
+        if let Some(plan) = Plan::of_base(structure, count)? {
+            let stiffness = [normal_stiffness, tangential_stiffness, tangential_stiffness];
+            return Self::in_plan(plan, stiffness);
+        }
         let strips = Strip::under(structure, count, Grading::Uniform)?;
         Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
     }
@@ -72,27 +81,59 @@ impl SpringGround {
     ) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
-        positive("normal stiffness of the spring bed", normal_stiffness)?;
-        positive("tangential stiffness of the spring bed", tangential_stiffness)?;
+        Self::bed(elements, None, [normal_stiffness, tangential_stiffness, tangential_stiffness])
+    }
+
+    /// Bed in three dimensions under the contact elements of a [`Plan`], with a `stiffness` (Pa/m) down, along x and
+    /// along y. Springs are independent of each other, so that cells end where the outline does
+    /// ([`Plan::without_overhang`]).
+    ///
+    /// ```
+    /// use basemat::bem::plan::Plan;
+    /// use basemat::bem::{Ground, SpringGround};
+    /// let mat = Plan::rectangle(-4.0..4.0, -3.0..3.0, 6)?;
+    /// let bed = SpringGround::in_plan(mat, [30.0e6, 20.0e6, 20.0e6])?;
+    /// assert_eq!((bed.directions(), bed.elements().len()), (3, 8 * 6));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a stiffness not finite and above zero; [`Error::Memory`] for more elements than matrices
+    /// between them allow; as for [`Plan::without_overhang`].
+    pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
+        let (elements, depths) = plan.without_overhang()?.sides();
+        check_count(elements.len())?;
+        Self::bed(elements, Some(depths), stiffness)
+    }
+
+    fn bed(
+        elements: Vec<ContactElement>,
+        depths: Option<Vec<[f64; 2]>>,
+        stiffness: [f64; SPACE],
+    ) -> Result<Self> {
+        positive("normal stiffness of the spring bed", stiffness[0])?;
+        positive("tangential stiffness of the spring bed", stiffness[1])?;
+        positive("tangential stiffness of the spring bed along y", stiffness[2])?;
+        let components = if depths.is_some() { SPACE } else { PLANE };
         Ok(Self {
-            displacement: vec![0.0; ContactLayout::new(PLANE, elements.len()).len()],
+            displacement: vec![0.0; ContactLayout::new(components, elements.len()).len()],
             elements,
-            stiffness: [normal_stiffness, tangential_stiffness],
-            dashpot: [0.0; 2],
+            depths,
+            stiffness,
+            dashpot: [0.0; SPACE],
             theta: 0.5,
             time_step: 0.0,
         })
     }
 
-    /// With dashpots (Pa·s/m) beside the springs.
+    /// With dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
     ///
     /// # Errors
     /// [`Error::Input`] unless both are finite and not below zero.
     pub fn with_dashpots(mut self, normal: f64, tangential: f64) -> Result<Self> {
-        self.dashpot = [
-            not_negative("normal dashpot of the spring bed", normal)?,
-            not_negative("tangential dashpot of the spring bed", tangential)?,
-        ];
+        let normal = not_negative("normal dashpot of the spring bed", normal)?;
+        let tangential = not_negative("tangential dashpot of the spring bed", tangential)?;
+        self.dashpot = [normal, tangential, tangential];
         Ok(self)
     }
 
@@ -135,13 +176,21 @@ impl SpringGround {
     }
 
     fn component(&self, index: usize) -> usize {
-        ContactLayout::new(PLANE, self.elements.len()).origin(index)[0]
+        index / self.elements.len()
     }
 }
 
 impl Ground for SpringGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
+    }
+
+    fn directions(&self) -> usize {
+        if self.depths.is_some() { SPACE } else { PLANE }
+    }
+
+    fn depth(&self, element: usize) -> [f64; 2] {
+        self.depths.as_ref().and_then(|depths| depths.get(element)).map_or([0.0, 1.0], |ends| *ends)
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {

@@ -107,8 +107,8 @@ use crate::history::{
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
-    /// Front and back ends of elements in plan, m.
-    depths: Option<Vec<[f64; 2]>>,
+    /// Front and back ends of elements in plan, m, and their parts inside the outline.
+    depths: Option<(Vec<[f64; 2]>, Vec<f64>)>,
     /// Cells of elements in plan that are more than one.
     unions: Option<Unions>,
     options: HistoryOptions,
@@ -224,14 +224,15 @@ impl WeightsGround {
     /// or have no length.
     pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
-        Ok(Self { depths: None, ..Self::in_plan(source, elements, Vec::new(), None) })
+        Ok(Self { depths: None, ..Self::in_plan(source, elements, Default::default(), None) })
     }
 
-    /// The same for elements in plan, whose source knows where they are.
+    /// The same for elements in plan, whose source knows where they are: `depths` are front and back ends along y (m), and
+    /// parts of their areas inside the outline.
     pub(super) fn in_plan(
         source: impl WeightsSource,
         elements: Vec<ContactElement>,
-        depths: Vec<[f64; 2]>,
+        depths: (Vec<[f64; 2]>, Vec<f64>),
         unions: Option<Unions>,
     ) -> Self {
         Self {
@@ -300,7 +301,13 @@ impl Ground for WeightsGround {
     }
 
     fn depth(&self, element: usize) -> [f64; 2] {
-        self.depths.as_ref().and_then(|depths| depths.get(element)).map_or([0.0, 1.0], |ends| *ends)
+        let ends = self.depths.as_ref().and_then(|(depths, _)| depths.get(element));
+        ends.map_or([0.0, 1.0], |ends| *ends)
+    }
+
+    fn fraction_inside(&self, element: usize) -> f64 {
+        let inside = self.depths.as_ref().and_then(|(_, inside)| inside.get(element));
+        inside.map_or(1.0, |inside| *inside)
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {

@@ -40,6 +40,7 @@ pub(super) fn local_mode(
             slip: -tangential,
             pressure: fixed[0] + change[0],
             shear: fixed[1] + change[1],
+            ..ContactState::default()
         };
         match input.next_mode(e, mode, &state, tolerance) {
             Ok(next) if next == mode => {

@@ -3,16 +3,18 @@
 //! A [`Simulation`](crate::Simulation) solves it in every step. Codes with an integrator of their own
 //! take a [`Ground`](crate::bem::Ground) and a [`ContactProblem`].
 
+mod cone;
 mod delassus;
 mod element;
+mod method;
 mod path;
 mod problem;
 mod search;
 
 pub(crate) use delassus::Delassus;
+pub use method::{ContactSearch, SearchMethod};
 pub(crate) use problem::{ContactInput, ContactSolver};
 pub(crate) use search::ModeSearch;
-pub use search::{ContactSearch, SearchMethod};
 
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::geometry::{ContactLayout, PLANE};
@@ -20,17 +22,6 @@ use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
 };
 use crate::linalg::largest;
-
-words_with_numbers! {
-    /// One of its words, or an [`Error::Word`](crate::Error::Word).
-    ///
-    /// ```
-    /// use basemat::contact::ContactSearch;
-    /// assert_eq!("flow_chart(50)".parse(), Ok(ContactSearch::FlowChart { iterations: 50 }));
-    /// assert!("flow_chart(0.5)".parse::<ContactSearch>().is_err());
-    /// ```
-    ContactSearch, "contact search", { Robust = "robust"; FlowChart { iterations } = "flow_chart" }
-}
 
 // The contact problem for codes with a time integrator of their own.
 
@@ -168,7 +159,7 @@ impl ContactProblem {
             laws,
             static_traction: vec![0.0; layout.len()],
             solver: ContactSolver::new(layout),
-            search: ModeSearch::new(count, ContactSearch::default()),
+            search: ModeSearch::new(layout, &[], ContactSearch::default()),
             modes: vec![Mode::Stick; count],
             steps: 0,
         })
@@ -280,8 +271,9 @@ fn check_start(start: &PreviousContacts, count: usize, memory_ends: &[usize]) ->
 }
 
 fn check_element(start: &PreviousContact<'_>) -> Result<()> {
-    let ContactState { gap, slip, pressure, shear } = start.state;
-    check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])
+    check_finite("state of an element", &start.state.jump())?;
+    check_finite("state of an element", &start.state.traction())?;
+    check_finite("state of an element", &[start.slip_rate])
 }
 
 fn check_finite(quantity: &'static str, values: &[f64]) -> Result<()> {

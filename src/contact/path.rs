@@ -169,8 +169,11 @@ impl Path {
             let (law, start) = (input.law(e), &input.start_of(e));
             *mode = law.modes()[0];
             let pressed = (10.0 + 5.0 * spread(e)) * pressure;
-            let mut wanted =
-                ContactState { gap: 0.0, slip: start.state.slip, pressure: pressed, shear: 0.0 };
+            let mut wanted = ContactState {
+                slip: start.state.slip,
+                pressure: pressed,
+                ..ContactState::default()
+            };
             for condition in law.conditions(*mode, start) {
                 if let Some(gap) = condition.gap_at(pressed) {
                     wanted.gap = gap;
@@ -277,6 +280,7 @@ impl ContactState {
             slip: self.slip + distance * rate.slip,
             pressure: self.pressure + distance * rate.pressure,
             shear: self.shear + distance * rate.shear,
+            ..*self
         }
     }
 

@@ -150,34 +150,36 @@ pub(crate) struct ContactSolver {
     pub(crate) traction: Vec<f64>,
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
-    /// In plan: slip and total shear traction along y of the last trial, per element.
-    pub(crate) across: [Vec<f64>; 2],
     jump: Vec<f64>,
     /// A law that returned a number that is not finite since this was taken last.
     pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
     pub(crate) factorings: usize,
+    /// Number of operators W before this one.
+    pub(super) generation: usize,
 }
 
 impl ContactSolver {
     pub(crate) fn new(layout: ContactLayout) -> Self {
         let (size, count) = (layout.len(), layout.elements());
+        // In plan the search has a system of its own.
+        let system = if layout.components() == PLANE { size } else { 0 };
         Self {
             layout,
             conditions: vec![[Condition::default(); 2]; count],
             factored: vec![[Condition::default(); 2]; count],
-            factor: DenseFactor::with_capacity(size),
+            factor: DenseFactor::with_capacity(system),
             valid: false,
-            matrix: Vec::with_capacity(layout.square()),
+            matrix: Vec::with_capacity(system * system),
             rhs: Vec::with_capacity(size),
             rows: Vec::with_capacity(size),
             dofs: Vec::with_capacity(size),
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
-            across: [(); 2].map(|()| vec![0.0; size - PLANE * count]),
             jump: vec![0.0; size],
             fault: None,
             factorings: 0,
+            generation: 0,
         }
     }
 
@@ -189,6 +191,7 @@ impl ContactSolver {
     /// Forgets the factors: to be called when W has changed.
     pub(crate) fn invalidate(&mut self) {
         self.valid = false;
+        self.generation += 1;
     }
 
     /// Condition of the system with every element in its law's mode of rest; infinite if singular.
@@ -240,9 +243,6 @@ impl ContactSolver {
         let same = |a: &Condition, b: &Condition| {
             (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
         };
-        if self.is_plan() {
-            return self.bonded(input);
-        }
         let unchanged = self.valid
             && self
                 .conditions
@@ -254,21 +254,6 @@ impl ContactSolver {
             return false;
         }
         self.solve(input);
-        self.evaluate(input);
-        self.traction.iter().all(|t| t.is_finite())
-    }
-
-    /// Solves for a base in plan, which is bonded: no jump is left.
-    fn bonded(&mut self, input: &ContactInput<'_>) -> bool {
-        if !self.valid {
-            self.factorings += 1;
-            self.valid = self.factor.factor(input.delassus, self.layout.len());
-        }
-        if !self.valid {
-            return false;
-        }
-        self.traction.iter_mut().zip(input.free_jump).for_each(|(t, jump)| *t = -jump);
-        self.factor.solve(&mut self.traction);
         self.evaluate(input);
         self.traction.iter().all(|t| t.is_finite())
     }
@@ -354,7 +339,7 @@ impl ContactSolver {
                 + condition.shear * (input.static_traction[t] + self.traction[t]);
             self.rhs.push(scale * (condition.value - known));
         }
-        self.factor.solve(&mut self.rhs);
+        self.factor.solve_small(&mut self.rhs);
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
             self.traction[i] = *value;
         }
@@ -364,20 +349,12 @@ impl ContactSolver {
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
         self.jump.copy_from_slice(input.free_jump);
         input.delassus.multiply_add(&self.traction, &mut self.jump);
-        for (e, state) in self.states.iter_mut().enumerate() {
-            let [n, t] = self.layout.places(e);
-            *state = ContactState {
-                gap: self.jump[n],
-                slip: -self.jump[t],
-                pressure: input.static_traction[n] + self.traction[n],
-                shear: input.static_traction[t] + self.traction[t],
-            };
-        }
-        let [slip, shear] = &mut self.across;
-        for (e, (slip, shear)) in slip.iter_mut().zip(shear).enumerate() {
-            let across = self.layout.place(PLANE, e);
-            *slip = -self.jump[across];
-            *shear = input.static_traction[across] + self.traction[across];
+        let (layout, plan) = (self.layout, self.is_plan());
+        let Self { jump, traction, states, .. } = self;
+        for (e, state) in states.iter_mut().enumerate() {
+            let total = |i: usize| input.static_traction[i] + traction[i];
+            let place = |component| layout.place(component, e);
+            *state = ContactState::from_components(|k| jump[place(k)], |k| total(place(k)), plan);
         }
     }
 

@@ -15,10 +15,13 @@
 //! problems is not solved, all bonds break: what glue carries where friction alone sticks is within its
 //! strength, so that the solution without bonds satisfies the law, too.
 
+use super::cone::Cone;
 use super::element::local_mode;
+use super::method::{ContactSearch, SearchMethod};
 use super::path::Path;
 use super::problem::{Bond, ContactInput, ContactSolver};
 use crate::error::StepError;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::Mode;
 
 /// Trials of the active set before it counts as cycling.
@@ -34,46 +37,6 @@ const MOST_SETS: usize = 1 << 16;
 /// spite of rounding.
 const SHARE: f64 = 0.5;
 
-/// Search for the contact modes of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-#[non_exhaustive]
-pub enum ContactSearch {
-    /// Active set, then Gauss–Seidel, then path following, then, if there are no more than 65 536 sets
-    /// of modes, all of them: finds what there is to find.
-    #[default]
-    Robust,
-    /// The flow chart in the Appendix of Patel & Spyrakos alone: assume the modes of the step
-    /// before, solve, ask every element, change modes, repeat until nothing changes. Where it
-    /// comes back to modes it has tried, or needs more than `iterations` of them, the step is an
-    /// error.
-    FlowChart {
-        /// Solves per step, at most; one or more.
-        iterations: usize,
-    },
-}
-
-/// Method that found the modes of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum SearchMethod {
-    /// The active set converged.
-    ActiveSet,
-    /// Gauss–Seidel with local enumeration was needed.
-    GaussSeidel,
-    /// The solution was followed from a known one, or found among all sets of modes.
-    Path,
-}
-
-words! { SearchMethod, "search method", {
-    ActiveSet = "active_set",
-    GaussSeidel = "gauss_seidel",
-    Path = "path",
-} }
-
 /// Memory of the mode search.
 pub(crate) struct ModeSearch {
     visited: Vec<Mode>,
@@ -85,11 +48,17 @@ pub(crate) struct ModeSearch {
     /// Number of all sets of modes, if the last search has tried them in vain.
     sets: Option<usize>,
     search: ContactSearch,
+    /// In plan: the search for forces.
+    cone: Option<Box<Cone>>,
 }
 
 impl ModeSearch {
-    pub(crate) fn new(count: usize, search: ContactSearch) -> Self {
+    /// For elements of these areas (m²), which a ground in the plane does not need.
+    pub(crate) fn new(layout: ContactLayout, areas: &[f64], search: ContactSearch) -> Self {
+        let is_plan = layout.components() != PLANE;
+        let count = if is_plan { 0 } else { layout.elements() };
         Self {
+            cone: is_plan.then(|| Box::new(Cone::new(areas))),
             search,
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],
@@ -124,14 +93,14 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
+        if let Some(cone) = &mut self.cone {
+            return cone.solve(solver, input, modes);
+        }
         let mut trials = 0;
         // Laws with a single mode skip the search: one solve, with factors made once.
         let bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
-        }
-        if solver.is_plan() {
-            return Err(StepError::Singular { matrix: "Delassus operator" });
         }
         let mut bonds = std::mem::take(&mut self.bonds);
         let found = self.break_bonds(solver, input, modes, &mut bonds, &mut trials);

@@ -18,11 +18,10 @@ impl State {
         let (model, count) = (&scene.model, scene.count());
         let at = &scene.static_state;
         let contact: Vec<_> = (0..count)
-            .map(|e| ContactState {
-                gap: at.gap[e],
-                slip: 0.0,
-                pressure: at.traction[e],
-                shear: at.traction[scene.layout().place(1, e)],
+            .map(|e| {
+                let jump = |component| if component == 0 { at.gap[e] } else { -0.0 };
+                let traction = |component| at.traction[scene.layout().place(component, e)];
+                ContactState::from_components(jump, traction, scene.elements.is_plan())
             })
             .collect();
         let modes = at.modes_with(&scene.laws);
@@ -45,8 +44,6 @@ impl State {
             }),
             motion: Motion::new(model),
             contact,
-            slip_across: vec![0.0; count * usize::from(scene.elements.is_plan())],
-            shear_across: at.traction[2 * count..].to_vec(),
             modes,
             transitions: Vec::with_capacity(count),
             probes: vec![0.0; scene.probes.len()],
@@ -82,11 +79,6 @@ impl State {
         let [right, up, away] = scene.base.mean(&forcing.free_field);
         (self.free_field, self.free_field_across) = ([right, up], away);
         self.contact.copy_from_slice(&increment.contact);
-        for (own, new) in
-            [&mut self.slip_across, &mut self.shear_across].into_iter().zip(&increment.across)
-        {
-            own.copy_from_slice(new);
-        }
         self.transitions.clear();
         let (step, time) = (self.step, self.time);
         for (element, (from, &to)) in self.modes.iter_mut().zip(&increment.modes).enumerate() {
@@ -134,7 +126,7 @@ impl State {
                 let [x, y] = scene.foundation_arms[k];
                 let [mut across, mut moment, mut torque] = [0.0; 3];
                 for e in foundation.elements.clone() {
-                    let (contact, shear) = (&state.contact[e], state.shear_across[e]);
+                    let (contact, shear) = (&state.contact[e], state.contact[e].shear_across);
                     let [dx, dy] = [scene.arms[e][0] - x, scene.arms[e][1] - y];
                     across += areas[e] * shear;
                     moment -= areas[e] * contact.pressure * dy;

@@ -10,7 +10,7 @@ use crate::bem::Ground;
 use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::SPACE;
-use crate::interface::ContactState;
+use crate::interface::{ContactState, Mode};
 use crate::structure::{Structure, restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
@@ -172,7 +172,7 @@ pub(super) fn save(
         .iter()
         .enumerate()
         .map(|(e, start)| {
-            let known = scene.law(e).modes();
+            let known = modes_of(scene, e);
             let number = known.iter().position(|mode| *mode == start.mode);
             let unknown = CheckpointError::Unsupported { part: "interface law" };
             Ok((number.ok_or(unknown)?, start.has_opened))
@@ -258,6 +258,11 @@ pub(super) fn restore(
     Ok((state, books))
 }
 
+/// Modes by their numbers: those of an element's law, or in plan all.
+fn modes_of(scene: &Scene, element: usize) -> &[Mode] {
+    if scene.elements.is_plan() { &Mode::ALL } else { scene.law(element).modes() }
+}
+
 /// Takes over modes and whether elements have been open, from their numbers.
 fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> Result<()> {
     let corrupt = CheckpointError::Corrupt { quantity: "contact modes" };
@@ -265,7 +270,7 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
         return Err(corrupt.into());
     }
     for (e, &(number, has_opened)) in saved.iter().enumerate() {
-        let mode = scene.law(e).modes().get(number).copied().ok_or_else(|| corrupt.clone())?;
+        let mode = modes_of(scene, e).get(number).copied().ok_or_else(|| corrupt.clone())?;
         state.modes[e] = mode;
         state.start.restore(e, state.contact[e], mode, has_opened);
     }
@@ -315,16 +320,7 @@ fn numbers<'a>(
     books: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
-    let State {
-        motion,
-        contact,
-        start,
-        free_field,
-        free_field_across,
-        slip_across,
-        shear_across,
-        ..
-    } = state;
+    let State { motion, contact, start, free_field, free_field_across, .. } = state;
     for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
         all.extend(values.iter_mut());
     }
@@ -336,13 +332,15 @@ fn numbers<'a>(
             all.extend(values.iter_mut().take(directions));
         }
     }
-    for ContactState { gap, slip, pressure, shear } in contact {
+    let mut across = Vec::new();
+    for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in contact {
         all.extend([gap, slip, pressure, shear]);
+        across.extend([slip_across, shear_across]);
     }
     all.extend(start.slip_rates_mut());
     if directions == SPACE {
         all.push(free_field_across);
-        all.extend(slip_across.iter_mut().chain(shear_across));
+        all.extend(across);
     }
     all.extend(books.into_iter().flat_map(|books| books.numbers(directions)));
     all

@@ -127,7 +127,7 @@ impl EnergyAccumulator {
         let layout = scene.layout();
         let energy = |(i, traction): (usize, &f64)| {
             let [component, e] = layout.origin(i);
-            let compliance = self.compliance.get(e).map_or(0.0, |c| c[component]);
+            let compliance = self.compliance.get(e).map_or(0.0, |c| c[component.min(1)]);
             0.5 * scene.base.area(i) * compliance * traction * traction
         };
         let interfaces: f64 = at_rest.traction.iter().enumerate().map(energy).sum();
@@ -291,20 +291,15 @@ impl EnergyAccumulator {
             let change = increment.traction[i];
             let at_rest = scene.static_state.traction[i];
             let end = &increment.contact[e];
-            let jump = match k {
-                0 => end.gap,
-                1 => -end.slip,
-                _ => -increment.across[0][e],
-            };
+            let jump = end.jump()[k];
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
             energy_balance.soil += area * change * (soil[i] - self.soil_displacement[i]);
             energy_balance.soil_error_bound += area * change.abs() * doubt;
             let mut elastic = 0.0;
             if !self.compliance.is_empty() {
-                let (c0, c1) = (self.compliance[e][k], increment.compliance[e][k]);
-                let start = state.start.state(e);
-                let t0 = [start.pressure, start.shear][k];
+                let (c0, c1) = (self.compliance[e][k.min(1)], increment.compliance[e][k.min(1)]);
+                let t0 = state.start.state(e).traction()[k];
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;
                 energy_balance.interface += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);

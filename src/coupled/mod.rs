@@ -89,6 +89,7 @@ mod scheme;
 pub(crate) mod simulation;
 mod state;
 mod step;
+mod variation;
 mod warning;
 
 pub use advance::Observed;

@@ -246,7 +246,7 @@ impl Load {
     /// Refuses a row with other degrees of freedom than the structure's, and a value at t = 0 that is not finite;
     /// `index` is the load's number.
     pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
-        self.row.check("unknown of a load", dofs)?;
+        self.row.check("degree of freedom of a load", dofs)?;
         let (quantity, value) = ("external load at t = 0", self.value(0.0));
         if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
     }

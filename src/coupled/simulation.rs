@@ -67,7 +67,9 @@ impl Simulation {
             state.energy_balance = books.energy_balance;
         }
         state.advance(scene, forcing, increment);
-        ground.commit(&increment.traction);
+        increment.spread.copy_from_slice(&increment.traction);
+        scene.elements.spread_inside(&mut increment.spread);
+        ground.commit(&increment.spread);
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&increment.seen);
         }
@@ -330,7 +332,7 @@ impl Simulation {
 const HALVINGS: usize = 10;
 
 /// The longest step, `time_step` (s) or that halved once or more, with which the simulation that
-/// `make` builds runs for `duration` (s) without [`StepError::Contact`] or [`StepError::Newton`];
+/// `make` builds runs for `duration` (s) without [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`];
 /// `None` if the tenth halving fails, too.
 ///
 /// A simulation cannot change its step: the soil's coefficients and its memory belong to one. So
@@ -377,7 +379,8 @@ pub fn largest_convergent_step(
         match simulation.run(simulation.steps_for(duration), |_| {}) {
             Ok(_) => return Ok(Some(step)),
             Err(Error::Step {
-                source: StepError::Contact { .. } | StepError::Newton { .. },
+                source:
+                    StepError::Contact { .. } | StepError::Cone { .. } | StepError::Newton { .. },
                 ..
             }) => step *= 0.5,
             Err(other) => return Err(other),

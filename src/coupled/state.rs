@@ -145,10 +145,6 @@ pub struct State {
     pub time: f64,
     /// Opening and total traction of each element.
     pub contact: Vec<ContactState>,
-    /// In plan: slip of the structure over the soil along y of each element, m; empty in the plane.
-    pub slip_across: Vec<f64>,
-    /// In plan: shear traction along y that the structure exerts on the soil, Pa; empty in the plane.
-    pub shear_across: Vec<f64>,
     /// Mode of each element.
     pub modes: Vec<Mode>,
     /// Changes of mode in this step.
@@ -262,6 +258,6 @@ impl State {
 
     /// Largest |slip| of any element, m.
     pub fn largest_slip(&self) -> f64 {
-        self.contact.iter().fold(0.0, |m, c| m.max(c.slip.abs()))
+        self.contact.iter().fold(0.0, |m, c| m.max(c.slip.hypot(c.slip_across)))
     }
 }

@@ -71,11 +71,21 @@ pub enum Warning {
         /// [`UnresolvedPeriod`](Self::UnresolvedPeriod).
         error: f64,
     },
+    /// In plan, a body vibrates by itself, and shear waves cross its base in less than four steps: they damp its rocking
+    /// more than radiation does.
+    UnresolvedRadiation {
+        /// Time in which shear waves cross the shorter side of the base, s.
+        crossing: f64,
+        /// The time step, s.
+        time_step: f64,
+        /// One that resolves it, s.
+        needed: f64,
+    },
     /// Fewer elements under a foundation than its rocking stiffness takes.
     FewElements {
         /// The foundation, from the left, from 0.
         foundation: usize,
-        /// Its elements.
+        /// Its elements; in plan those of a row or of a column.
         elements: usize,
         /// Fewest that it needs.
         needed: usize,
@@ -104,9 +114,10 @@ pub enum Warning {
         /// Its largest component at any step, m/s².
         acceleration: f64,
     },
-    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear.
+    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear, where waves run along
+    /// the base; in plan cells longer than a twelfth.
     LongElements {
-        /// Longest element, m.
+        /// Longest element, m; in plan the narrowest along x or along y.
         element_length: f64,
         /// Wavelength at the root-mean-square frequency of the base shear, m.
         wavelength: f64,
@@ -232,6 +243,11 @@ impl fmt::Display for Warning {
                 "base shear off by about {:.0} %: steps of {time_step:.2e} s, ground {frequency:.3} Hz; \
                  take {needed:.1e} s",
                 100.0 * error
+            ),
+            Self::UnresolvedRadiation { crossing, time_step, needed } => write!(
+                f,
+                "steps of {time_step:.2e} s damp rocking: shear waves cross the base in {crossing:.2e} s; \
+                 take {needed:.1e} s"
             ),
             Self::FewElements { foundation, elements, needed } => write!(
                 f,

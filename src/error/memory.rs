@@ -162,3 +162,20 @@ mod tests {
         assert!(text(f64::INFINITY).contains("about inf GB of"));
     }
 }
+
+impl Error {
+    /// [`Error::Name`] for a name that none of `known` is.
+    pub(crate) fn no_name<T: Into<String>>(
+        quantity: &'static str,
+        name: &str,
+        known: impl Iterator<Item = T>,
+    ) -> Self {
+        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
+    }
+}
+
+/// The first twelve of the names that there are.
+pub(crate) fn names(known: &[String]) -> String {
+    let listed = known[..known.len().min(12)].join(", ");
+    if known.is_empty() { listed } else { format!(", only {listed}") }
+}

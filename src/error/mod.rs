@@ -22,7 +22,8 @@ pub use input_file::{MatrixFileError, MeshFileError};
 pub use layered::{KernelFileError, LayeredError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use memory::{
-    all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
+    all_finite, damping_ratio, finite, names, not_finite, not_negative, positive, same_length,
+    write_file,
 };
 pub use part::{LawError, ReducedError};
 pub use plan::PlanError;
@@ -38,8 +39,9 @@ pub type Result<T> = std::result::Result<T, Error>;
 /// Faults of this crate, with the quantity, its value and the requirement.
 ///
 /// Printed, an error is complete: its text contains that of the error behind it, which is in a field
-/// and not in [`source`](std::error::Error::source), so that chains of sources do not repeat it.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// and not in [`source`](std::error::Error::source), so that chains of sources do not repeat it. `Debug` prints the same
+/// text: that is what `unwrap` and a `main` that returns [`Result`] show.
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A number out of its range (NaN and infinities included).
@@ -148,7 +150,7 @@ pub enum Error {
     #[error(
         "node {node} has no degree of freedom in direction {direction}: no element needs one there"
     )]
-    NoUnknown {
+    NoDof {
         /// The node.
         node: usize,
         /// The direction.
@@ -213,7 +215,7 @@ pub enum Error {
     /// A structure with stiffness to a fixed point: the ground alone must hold it up.
     #[error(
         "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
-         {force:.2e} N at degree of freedom {unknown}, {share:.1e} of the stiffness around (entries of a \
+         {force:.2e} N at degree of freedom {dof}, {share:.1e} of the stiffness around (entries of a \
          stiffness matrix in a file need eleven digits or more)"
     )]
     Restrained {
@@ -222,8 +224,8 @@ pub enum Error {
         /// Force per metre of it at the degree of freedom, N/m; where the structure is held so that it can
         /// hardly translate, that at the contact nodes.
         force: f64,
-        /// The unknown where the force is largest beside the stiffness around.
-        unknown: usize,
+        /// The degree of freedom where the force is largest beside the stiffness around.
+        dof: usize,
         /// Its size beside that.
         share: f64,
     },
@@ -376,21 +378,10 @@ pub enum Error {
     },
 }
 
-impl Error {
-    /// [`Error::Name`] for a name that none of `known` is.
-    pub(crate) fn no_name<T: Into<String>>(
-        quantity: &'static str,
-        name: &str,
-        known: impl Iterator<Item = T>,
-    ) -> Self {
-        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
+impl std::fmt::Debug for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(self, f)
     }
-}
-
-/// The first twelve of the names that there are.
-fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(12)].join(", ");
-    if known.is_empty() { listed } else { format!(", only {listed}") }
 }
 
 /// A line of a file, or the file as a whole.

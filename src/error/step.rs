@@ -24,6 +24,21 @@ pub enum StepError {
         /// there are more than 65 536 of them.
         sets: Option<usize>,
     },
+    /// In plan: no contact forces were found that satisfy the interface laws.
+    #[error(
+        "contact forces not found in {iterations} iterations, residual {residual:e}, elements {} \
+         (`coupled::largest_convergent_step` finds a time step that gets through)",
+        elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+    )]
+    Cone {
+        /// Sweeps and Newton's iterations made, those of the proximal method included.
+        iterations: usize,
+        /// Largest distance of an element's force from what its law allows for the displacement that it makes, relative
+        /// to the largest force.
+        residual: f64,
+        /// Elements whose distance is too large.
+        elements: Vec<usize>,
+    },
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
         "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \

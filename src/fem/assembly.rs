@@ -156,7 +156,7 @@ impl Numbering {
     }
 
     /// Index of the degree of freedom of `node` in `direction`, if there is one.
-    pub(crate) fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
+    pub(crate) fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
         self.numbers.get(node)?[slot(direction)]
     }
 
@@ -165,7 +165,7 @@ impl Numbering {
         indices.clear();
         for &node in element.nodes() {
             for &direction in element.directions() {
-                indices.push(self.unknown(node, direction).unwrap_or(usize::MAX));
+                indices.push(self.dof(node, direction).unwrap_or(usize::MAX));
             }
         }
     }

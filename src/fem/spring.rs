@@ -175,7 +175,7 @@ pub struct LumpedMass {
 }
 
 impl LumpedMass {
-    /// Point mass (kg per metre of thickness) at `node`; it makes no rotation unknown.
+    /// Point mass (kg per metre of thickness) at `node`; it makes no rotation degree of freedom.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the mass is positive.
@@ -184,7 +184,7 @@ impl LumpedMass {
     }
 
     /// The same mass with rotary inertia about the node, kg m² per metre of thickness. Above
-    /// zero, the node gets a rotation unknown, which other elements should hold.
+    /// zero, the node gets a rotation degree of freedom, which other elements should hold.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative.

@@ -108,17 +108,26 @@ pub(crate) struct Patch {
     elements: Vec<ContactElement>,
     /// Front and back end of each along y, m.
     depths: Vec<[f64; 2]>,
+    /// Part of the area of each that is inside the outline of the mat, and that area, m²; in the plane its length.
+    inside: Vec<f64>,
+    areas: Vec<f64>,
     components: usize,
 }
 
 impl Patch {
-    /// Elements of a ground with so many directions, that reach from front to back along y (m); an error unless they
-    /// have a size and do not overlap, in the plane from left to right.
+    /// Elements of a ground with so many directions, that reach from front to back along y (m), and of whose areas
+    /// these parts are inside the outline; an error unless they have a size and do not overlap, in the plane from left
+    /// to right.
     pub(crate) fn new(
         components: usize,
         elements: Vec<ContactElement>,
         depths: Vec<[f64; 2]>,
+        inside: Vec<f64>,
     ) -> Result<Self> {
+        if let Some(&value) = inside.iter().find(|part| !(**part > 0.0 && **part <= 1.0)) {
+            let quantity = "fraction of an element inside the outline";
+            return Err(Error::Input { quantity, value, needed: "above 0 and at most 1" });
+        }
         match components {
             PLANE => check_order(&elements)?,
             SPACE => check_cells(&elements, &depths)?,
@@ -127,7 +136,10 @@ impl Patch {
                 return Err(Error::Input { quantity, value, needed: "2 in the plane, 3 in plan" });
             }
         }
-        Ok(Self { elements, depths, components })
+        let sides = elements.iter().zip(&depths);
+        let areas = sides.map(|(along, [front, back])| along.length() * (back - front));
+        let areas = areas.zip(&inside).map(|(area, part)| area * part).collect();
+        Ok(Self { elements, depths, inside, areas, components })
     }
 
     /// Order of the numbers of a contact vector.
@@ -151,10 +163,24 @@ impl Patch {
         [self.elements[element].length(), back - front]
     }
 
-    /// Areas of the elements, m²; in the plane their lengths.
-    pub(crate) fn areas(&self) -> Vec<f64> {
-        let sides = (0..self.elements.len()).map(|element| self.sides(element));
-        sides.map(|[along, across]| along * across).collect()
+    /// Areas of the elements inside the outline, to which tractions refer, m²; in the plane their lengths.
+    pub(crate) fn areas(&self) -> &[f64] {
+        &self.areas
+    }
+
+    /// Changes a matrix from tractions of whole elements to displacements into one from those inside the outline.
+    pub(crate) fn refer_inside(&self, matrix: &mut [f64]) {
+        let layout = self.layout();
+        for row in matrix.chunks_exact_mut(layout.len()) {
+            self.spread_inside(row);
+        }
+    }
+
+    /// Changes tractions inside the outline into those of whole elements.
+    pub(crate) fn spread_inside(&self, traction: &mut [f64]) {
+        for component in traction.chunks_exact_mut(self.elements.len()) {
+            component.iter_mut().zip(&self.inside).for_each(|(value, part)| *value *= part);
+        }
     }
 
     /// The middle `[x, y]` between the farthest ends of all, m.

@@ -1,6 +1,8 @@
 //! Contact that is glued until it breaks.
 
-use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
+use super::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+};
 use crate::error::{Result, not_negative};
 
 /// Adhesion that breaks once: an element sticks up to a tensile strength and a cohesion, and is one of
@@ -136,6 +138,16 @@ impl InterfaceLaw for Cohesive {
         }
     }
 
+    /// In plan an element whose strength is exceeded bears it to the end of the step, unless it opens.
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        let broken = self.broken.limits(start)?;
+        if is_glued(start) {
+            Ok(Limits { tension: self.tension, shear_strength: self.cohesion, ..broken })
+        } else {
+            Ok(broken)
+        }
+    }
+
     /// That of the broken interface: adhesion is left out.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction())
@@ -158,5 +170,9 @@ impl InterfaceLaw for Bonded {
 
     fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         Mode::Stick
+    }
+
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        Ok(Limits { bonded: true, gap_offset: start.state.gap, ..Limits::default() })
     }
 }

@@ -1,6 +1,6 @@
 //! Hard unilateral contact with Coulomb friction, constant or variable.
 
-use super::{Condition, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance};
+use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 use crate::error::{Error, Result, not_negative};
 
 /// On what the contact conditions of a closed element act.
@@ -206,6 +206,17 @@ impl InterfaceLaw for Coulomb {
         }
     }
 
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        let tension = self.strength(start);
+        Ok(Limits {
+            friction: self.friction,
+            attraction: tension,
+            tension,
+            gap_offset: self.closed_gap(start).unwrap_or(f64::NEG_INFINITY),
+            ..Limits::default()
+        })
+    }
+
     /// That of the law; what a tensile strength adds is left out.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
@@ -313,6 +324,10 @@ impl InterfaceLaw for VariableFriction {
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
         Coulomb::new(self.at(start).friction()).map(|_| ())
     }
+
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        self.at(start).limits(start)
+    }
 }
 
 #[cfg(test)]
@@ -331,7 +346,7 @@ mod tests {
         let start = start(Mode::Stick);
         let state = ContactState { pressure: 2.0, shear: 0.99, ..Default::default() };
         assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Stick);
-        let state = ContactState { pressure: 2.0, shear: 1.0, slip: 0.1, gap: 0.0 };
+        let state = ContactState { pressure: 2.0, shear: 1.0, slip: 0.1, ..Default::default() };
         assert_eq!(law.next_mode(Mode::SlipRight, &start, &state, TOLERANCE), Mode::SlipRight);
         let state = ContactState { gap: 0.1, ..Default::default() };
         assert_eq!(law.next_mode(Mode::Open, &start, &state, TOLERANCE), Mode::Open);
@@ -342,7 +357,8 @@ mod tests {
         let law = Coulomb::new(0.5).unwrap();
         let start = start(Mode::Stick);
         let next = |mode, gap, slip, pressure, shear| {
-            law.next_mode(mode, &start, &ContactState { gap, slip, pressure, shear }, TOLERANCE)
+            let state = ContactState { gap, slip, pressure, shear, ..Default::default() };
+            law.next_mode(mode, &start, &state, TOLERANCE)
         };
         assert_eq!(next(Mode::Stick, 0.0, 0.0, -1.0, 0.0), Mode::Open);
         assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, 0.6), Mode::SlipRight);

@@ -6,18 +6,20 @@
 
 mod cohesive;
 mod coulomb;
+mod limits;
 mod previous_contact;
 mod thin_layer;
 mod yielding;
 
 pub use cohesive::{Bonded, Cohesive};
 pub use coulomb::{Coulomb, UnilateralCondition, VariableFriction};
+pub use limits::Limits;
 pub(crate) use previous_contact::memory_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use yielding::Yielding;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -39,6 +41,10 @@ pub enum Mode {
     YieldLeft,
     /// The same; the structure slides to the right.
     YieldRight,
+    /// In plan: closed; the structure slides over the soil in the direction of the shear traction on it.
+    Slip,
+    /// In plan: the same; the soil yields under the pressure.
+    YieldSlip,
 }
 
 words! { Mode, "contact mode", {
@@ -49,6 +55,8 @@ words! { Mode, "contact mode", {
     Yield = "yield",
     YieldLeft = "yield_left",
     YieldRight = "yield_right",
+    Slip = "slip",
+    YieldSlip = "yield_slip",
 } }
 
 impl Mode {
@@ -59,12 +67,12 @@ impl Mode {
 
     /// Whether the element slides.
     pub fn is_slip(self) -> bool {
-        matches!(self.elastic(), Mode::SlipLeft | Mode::SlipRight)
+        matches!(self.elastic(), Mode::SlipLeft | Mode::SlipRight | Mode::Slip)
     }
 
     /// Whether the soil under the element yields.
     pub(crate) fn is_yield(self) -> bool {
-        matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight)
+        matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight | Mode::YieldSlip)
     }
 
     /// The same mode on soil that does not yield.
@@ -74,6 +82,7 @@ impl Mode {
             Mode::Yield => Mode::Stick,
             Mode::YieldLeft => Mode::SlipLeft,
             Mode::YieldRight => Mode::SlipRight,
+            Mode::YieldSlip => Mode::Slip,
             mode => mode,
         }
     }
@@ -85,6 +94,16 @@ impl Mode {
             Mode::Stick => Mode::Yield,
             Mode::SlipLeft => Mode::YieldLeft,
             Mode::SlipRight => Mode::YieldRight,
+            Mode::Slip => Mode::YieldSlip,
+            mode => mode,
+        }
+    }
+
+    /// The same mode on a ground in plan, where slip has any direction.
+    pub(crate) fn in_plan(self) -> Self {
+        match self {
+            Mode::SlipLeft | Mode::SlipRight => Mode::Slip,
+            Mode::YieldLeft | Mode::YieldRight => Mode::YieldSlip,
             mode => mode,
         }
     }
@@ -113,6 +132,41 @@ pub struct ContactState {
     pub pressure: f64,
     /// Shear traction that the structure exerts on the soil, Pa; positive to the right.
     pub shear: f64,
+    /// In plan: slip along y, m; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub slip_across: f64,
+    /// In plan: shear traction along y, Pa; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub shear_across: f64,
+}
+
+impl ContactState {
+    /// Gap, slip and tractions of an element by their components: down, along x, and in plan along y.
+    pub(crate) fn from_components(
+        jump: impl Fn(usize) -> f64,
+        traction: impl Fn(usize) -> f64,
+        plan: bool,
+    ) -> Self {
+        let [slip_across, shear_across] = if plan { [-jump(2), traction(2)] } else { [0.0; 2] };
+        Self {
+            gap: jump(0),
+            slip: -jump(1),
+            pressure: traction(0),
+            shear: traction(1),
+            slip_across,
+            shear_across,
+        }
+    }
+
+    /// Jump between soil and structure: down, along x, along y, m.
+    pub(crate) fn jump(&self) -> [f64; 3] {
+        [self.gap, -self.slip, -self.slip_across]
+    }
+
+    /// Total traction of the structure on the soil: down, along x, along y, Pa.
+    pub(crate) fn traction(&self) -> [f64; 3] {
+        [self.pressure, self.shear, self.shear_across]
+    }
 }
 
 /// One linear condition on the end of a step:
@@ -364,6 +418,21 @@ pub trait InterfaceLaw: Send {
     /// [`Error::part`](crate::Error::part).
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
+    }
+
+    /// Limits of the tractions of an element on a ground in plan, in the step after `start`: modes and conditions are for
+    /// the plane. The direction of slip is mechanics there, along the shear traction, and the law says how far tractions
+    /// go. Asked once per attempted step.
+    ///
+    /// The default is an error that names the law: it is one of the plane alone.
+    ///
+    /// # Errors
+    /// If the law has none for this element, as [`Error::Scene`](crate::Error::Scene),
+    /// [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part).
+    fn limits(&self, _start: &PreviousContact) -> Result<Limits> {
+        let quantity = std::any::type_name::<Self>();
+        let quantity = quantity.rsplit("::").next().unwrap_or(quantity);
+        Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
     /// This law without friction and adhesion, for setting the structure down on the ground; hard

@@ -16,7 +16,7 @@ pub struct PreviousContact<'a> {
     /// Whether the element has been open at any time since the start of the run, or its bond
     /// ([`InterfaceLaw::bond_overload`]) has broken in this step.
     pub has_opened: bool,
-    /// Slip velocity of the step before, m/s: its change of slip over its length.
+    /// Slip velocity of the step before, m/s: its change of slip over its length; in plan the magnitude of that.
     pub slip_rate: f64,
     /// Pressure of the static state, Pa.
     pub static_pressure: f64,
@@ -235,7 +235,10 @@ impl PreviousContacts {
     /// left `memory`.
     pub(crate) fn advance(&mut self, states: &[ContactState], modes: &[Mode], memory: &[f64]) {
         for ((past, state), mode) in self.past.iter_mut().zip(states).zip(modes) {
-            past.slip_rate = (state.slip - past.state.slip) / self.time_step;
+            let along = state.slip - past.state.slip;
+            let across = state.slip_across - past.state.slip_across;
+            let in_plan = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
+            past.slip_rate = if in_plan { along.hypot(across) } else { along } / self.time_step;
             past.has_opened |= !mode.is_closed();
             (past.state, past.mode) = (*state, *mode);
         }

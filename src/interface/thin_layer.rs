@@ -12,7 +12,7 @@
 //! element's means, with no degrees of freedom of its own.
 
 use super::{
-    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Condition, ContactScene, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 use crate::error::{Error, Result, not_negative, positive};
 use crate::soil::Soil;
@@ -356,6 +356,21 @@ impl InterfaceLaw for ThinLayer {
             Mode::Open => self.stiffness().map(|k| 1.0 / (self.debonded * k)),
             _ => self.stiffness().map(f64::recip),
         }
+    }
+
+    /// In plan an open element carries nothing, and slip is what goes beyond the elastic one.
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        let refuse = |needed| Err(Error::Scene { quantity: "thin layer in plan", needed });
+        if self.debonded > 0.0 {
+            return refuse("`with_debonded_ratio(0.0)`: an open element carries nothing there");
+        }
+        if self.sense != SlipSense::Inelastic || self.slip_stiffness > 0.0 {
+            return refuse("slip that is inelastic, without a stiffness of its own");
+        }
+        Ok(match self.known_limit(start) {
+            Some(limit) => Limits { shear_strength: limit, ..Limits::default() },
+            None => Limits { friction: self.friction, ..Limits::default() },
+        })
     }
 
     /// That of the law, whatever its [`FrictionLimit`].

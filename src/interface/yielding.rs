@@ -1,6 +1,8 @@
 //! Contact on soil that yields under its bearing pressure.
 
-use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
+use super::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+};
 use crate::error::{Result, positive};
 
 /// Coulomb friction and uplift on soil whose contact pressure is bounded: where it reaches the
@@ -94,7 +96,15 @@ impl InterfaceLaw for Yielding {
             // Its slip modes have no pressure.
             &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open, Mode::Yield]
         } else {
-            &Mode::ALL
+            &[
+                Mode::Stick,
+                Mode::SlipLeft,
+                Mode::SlipRight,
+                Mode::Open,
+                Mode::Yield,
+                Mode::YieldLeft,
+                Mode::YieldRight,
+            ]
         }
     }
 
@@ -144,6 +154,14 @@ impl InterfaceLaw for Yielding {
 
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction())
+    }
+
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        Ok(Limits {
+            pressure_cap: self.bearing_pressure,
+            gap_offset: -indentation(start),
+            ..self.contact.limits(start)?
+        })
     }
 
     /// The same bearing pressure without friction.

@@ -96,6 +96,8 @@ fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) 
         Mode::Yield => 4.0,
         Mode::YieldLeft => 5.0,
         Mode::YieldRight => 6.0,
+        Mode::Slip => 7.0,
+        Mode::YieldSlip => 8.0,
     };
     let grid = Grid {
         points: ends.collect(),

@@ -17,7 +17,7 @@ pub(crate) fn check_order(
     memory::check(quantity, order as f64, BYTES_PER_UNKNOWN * order as f64)
 }
 
-/// Weights by unknown, zero where there is no (unknown, weight) term.
+/// Weights by degree of freedom, zero where there is no (degree of freedom, weight) term.
 pub(crate) fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
     let mut weights = vec![0.0; length];
     for &(i, weight) in terms {

@@ -35,7 +35,8 @@ impl Shown {
             Mode::Open => Self::Open,
             _ if state.pressure.abs() <= 1e-9 * scale => Self::Weightless,
             Mode::SlipLeft => Self::SlipLeft,
-            Mode::SlipRight => Self::SlipRight,
+            Mode::Slip if state.shear < 0.0 => Self::SlipLeft,
+            Mode::SlipRight | Mode::Slip => Self::SlipRight,
             _ => Self::Stick,
         }
     }

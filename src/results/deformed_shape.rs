@@ -160,7 +160,7 @@ impl DeformedShape {
         let sum = |row: &DofCombination| {
             row.iter().try_fold(0.0, |sum, &(index, weight)| {
                 let value = dofs.get(index).ok_or(Error::Index {
-                    quantity: "unknown of a deformed shape",
+                    quantity: "degree of freedom of a deformed shape",
                     index,
                     bound: dofs.len(),
                 })?;

@@ -255,7 +255,7 @@ impl Recorder {
     }
 
     /// Keeps displacement and velocity of the structure at every `steps`th step: 16 bytes per
-    /// unknown and frame.
+    /// degree of freedom and frame.
     #[must_use]
     pub fn motion(self, steps: usize) -> Self {
         Self { motion: Some(steps), ..self }

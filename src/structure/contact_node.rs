@@ -20,7 +20,7 @@ pub struct ContactNode {
 }
 
 impl ContactNode {
-    /// A node with a horizontal and a vertical unknown of its own.
+    /// A node with a horizontal and a vertical degree of freedom of its own.
     pub fn free(x: f64, horizontal: usize, vertical: usize) -> Self {
         Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
     }
@@ -60,6 +60,11 @@ pub struct FaceNode {
 }
 
 impl FaceNode {
+    /// A point `[x, y]` (m) with degrees of freedom of its own: displacements along x, along y and up.
+    pub fn free([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
+        Self { x, y, horizontal: along.into(), across: across.into(), vertical: up.into() }
+    }
+
     /// A point `[x, y]` (m) of a rigid flat base with degrees of freedom at `center`: displacements along x, along y
     /// and up, and rotations about the same axes by the right-hand rule.
     pub fn rigid([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
@@ -72,6 +77,13 @@ impl FaceNode {
             across: [(across, 1.0), (about_z, dx)].into(),
             vertical: [(up, 1.0), (about_x, dy), (about_y, -dx)].into(),
         }
+    }
+
+    /// The face of a rigid flat base with these corners (m from `center`), degrees of freedom as for
+    /// [`FaceNode::rigid`].
+    pub fn rigid_base(corners: &[[f64; 2]], center: [f64; 2], dofs: [usize; 6]) -> Vec<Self> {
+        let corner = |[x, y]: &[f64; 2]| Self::rigid([center[0] + x, center[1] + y], center, dofs);
+        corners.iter().map(corner).collect()
     }
 
     /// Displacements to the right, upwards and away; a node of the plane has none of the last.
@@ -87,7 +99,7 @@ impl FaceNode {
     /// The degrees of freedom that move it.
     pub(crate) fn dofs(&self) -> impl Iterator<Item = usize> {
         let terms = self.rows().into_iter().flatten();
-        terms.filter(|(_, weight)| *weight != 0.0).map(|(unknown, _)| *unknown)
+        terms.filter(|(_, weight)| *weight != 0.0).map(|(dof, _)| *dof)
     }
 
     /// Refuses a place and weights that are not finite, and degrees of freedom at `bound` or beyond.
@@ -97,7 +109,7 @@ impl FaceNode {
         for &(index, weight) in self.rows().into_iter().flatten() {
             finite("weight of a contact node", weight)?;
             if index >= bound {
-                let quantity = "unknown of a contact node";
+                let quantity = "degree of freedom of a contact node";
                 return Err(Error::Index { quantity, index, bound });
             }
         }

@@ -55,12 +55,12 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     let n = stiffness.order();
     let Some(&first) = base.first() else { return Ok(Vec::new()) };
     let mut by_stiffness = Partition::new(n);
-    for &unknown in base {
-        by_stiffness.join(first, unknown);
+    for &dof in base {
+        by_stiffness.join(first, dof);
     }
     by_stiffness.couple(stiffness);
     let ground = by_stiffness.root(first);
-    if (0..n).all(|unknown| by_stiffness.root(unknown) == ground) {
+    if (0..n).all(|dof| by_stiffness.root(dof) == ground) {
         return Ok(Vec::new());
     }
     let parts = by_stiffness.sets();
@@ -70,7 +70,7 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
 
     let mut place = vec![(0, 0); n];
     for (part, dofs) in parts.iter().enumerate() {
-        dofs.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = (part, k));
+        dofs.iter().enumerate().for_each(|(k, &dof)| place[dof] = (part, k));
     }
     let base_part = place[first].0;
     let mut own: Vec<_> = parts.iter().map(|part| Triplets::new(part.len())).collect();
@@ -84,7 +84,7 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     let massless = MASSLESS * largest(&masses);
     let mut found = Vec::new();
     for (part, dofs) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
-        let has_mass = dofs.iter().any(|&unknown| masses[unknown].abs() > massless);
+        let has_mass = dofs.iter().any(|&dof| masses[dof].abs() > massless);
         let is_mode = dofs.len() == 1 && (masses[dofs[0]] - 1.0).abs() <= NORMALISED;
         let takes_part = !has_mass || is_mode || by_any.root(dofs[0]) == ground;
         let is_empty = !has_mass && own[part].entries().is_empty();

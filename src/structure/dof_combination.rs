@@ -7,8 +7,8 @@ use crate::error::{Error, Result, finite, positive};
 
 /// A weighted sum of a structure's degrees of freedom: a displacement of a point, a drift, a rotation.
 ///
-/// It is kept as (unknown, weight) terms, in the order they were given; a degree of freedom that comes more
-/// than once counts with the sum of its weights. Whatever takes a row takes a bare unknown (with
+/// It is kept as (degree of freedom, weight) terms, in the order they were given; a degree of freedom that comes more
+/// than once counts with the sum of its weights. Whatever takes a row takes a bare degree of freedom (with
 /// weight one), a term, or a list of terms too.
 ///
 /// ```
@@ -112,9 +112,9 @@ fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 2]> {
 }
 
 impl From<usize> for DofCombination {
-    /// One unknown, with weight one.
-    fn from(unknown: usize) -> Self {
-        Self(vec![(unknown, 1.0)])
+    /// One degree of freedom, with weight one.
+    fn from(dof: usize) -> Self {
+        Self(vec![(dof, 1.0)])
     }
 }
 

@@ -23,8 +23,8 @@ pub use hysteresis::{
     WithSprings,
 };
 pub use models::{
-    FemModel, IsolationLevel, MatrixModel, RigidBlock, RigidBody, Section, SectionRows,
-    ShearBuilding, Storey, StructureGroup,
+    FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section, SectionRows,
+    ShearBuilding, Storey, StoreyBuilding, StructureGroup,
 };
 pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{

@@ -125,7 +125,7 @@ pub(crate) fn check(probes: &[Probe], dofs: usize) -> Result<()> {
         let name = || probe.name.clone();
         for row in probe.rows() {
             let named = |source| Error::Probe { name: name(), source: Box::new(source) };
-            row.check("unknown", dofs).map_err(named)?;
+            row.check("degree of freedom", dofs).map_err(named)?;
         }
         if !names.insert(&probe.name) {
             return Err(Error::DuplicateName { quantity: "probe", name: name() });

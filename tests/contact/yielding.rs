@@ -108,6 +108,7 @@ impl Problem {
                 slip: -jump(COUNT + e),
                 pressure: self.pressed[e] + traction[e],
                 shear: traction[COUNT + e],
+                ..ContactState::default()
             })
             .collect()
     }
@@ -167,7 +168,7 @@ fn the_search_finds_a_solution_of_brute_force() {
                     gap: -problem.indentation[e],
                     slip: problem.slip[e],
                     pressure: problem.pressed[e],
-                    shear: 0.0,
+                    ..ContactState::default()
                 };
                 let mut start = PreviousContact::new(state, law.modes()[0], 1.0);
                 start.memory = &problem.indentation[e..=e];

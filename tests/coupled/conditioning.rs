@@ -178,8 +178,8 @@ impl Structure for Wheels {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        for (unknown, mass) in [1e4, 1e4, 5e4, 10.0, 10.0].into_iter().enumerate() {
-            matrix.add(unknown, unknown, mass);
+        for (dof, mass) in [1e4, 1e4, 5e4, 10.0, 10.0].into_iter().enumerate() {
+            matrix.add(dof, dof, mass);
         }
         Ok(())
     }

@@ -253,14 +253,14 @@ fn schemes_dampings_strips_and_limits() {
 
 #[test]
 fn choices_are_their_words() {
-    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
+    use Mode::{Open, Slip, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
 
     fn words<T: Serialize + DeserializeOwned + PartialEq + Debug + ToString>(all: &[T]) {
         for choice in all {
             written(choice, json!(choice.to_string()));
         }
     }
-    words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
+    words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight, Slip, YieldSlip]);
     words(&[
         HistoryMethod::Direct,
         HistoryMethod::RelaxedFft,

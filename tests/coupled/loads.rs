@@ -203,7 +203,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     mesh.add(basemat::fem::Truss::new([hinge, top], 30.0e9, 0.5, 2400.0).unwrap()).unwrap();
     let model = FemModel::new(mesh, &line).unwrap();
     let own = [basemat::fem::Direction::X, basemat::fem::Direction::Y]
-        .map(|direction| model.unknown(top, direction).unwrap());
+        .map(|direction| model.dof(top, direction).unwrap());
     let StabilityError::Mechanism { dofs, place } = refused(on_half_plane(model).interface(law()))
     else {
         panic!()
@@ -395,7 +395,7 @@ fn initial_motions_and_loads_that_make_no_sense_are_refused() {
         "gap of an element",
         "gap of an element",
         "does not open",
-        "unknown of a load",
+        "degree of freedom of a load",
         "weight of a degree of freedom",
         "external load at t = 0",
     ]) {

@@ -66,7 +66,7 @@ fn total_drift(travel: f64, period: f64) -> impl Fn(f64) -> [f64; 2] + Clone {
     }
 }
 
-/// Largest displacement of any unknown, relative to the ground.
+/// Largest displacement of any degree of freedom, relative to the ground.
 fn largest(simulation: &Simulation) -> f64 {
     simulation.state().displacement().iter().fold(0.0_f64, |m, u| m.max(u.abs()))
 }

@@ -54,11 +54,14 @@ fn choices_are_read_as_they_are_shown() {
     use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use GravityStage::{Frictional, Frictionless, Unloaded};
-    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
-    use SearchMethod::{ActiveSet, GaussSeidel, Path};
+    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
+    use SearchMethod::{ActiveSet, GaussSeidel, Newton, Path, Proximal};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
-    check("contact mode", &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
+    check(
+        "contact mode",
+        &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight, Mode::Slip, YieldSlip],
+    );
     let histories = [
         HistoryMethod::Direct,
         HistoryMethod::RelaxedFft,
@@ -68,7 +71,7 @@ fn choices_are_read_as_they_are_shown() {
     check("history", &histories);
     check("grading", &[Grading::Uniform, Grading::Cosine]);
     check("gravity stage", &[Frictionless, Frictional, Unloaded]);
-    check("search method", &[ActiveSet, GaussSeidel, Path]);
+    check("search method", &[ActiveSet, GaussSeidel, Path, Newton, Proximal]);
     check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
     check("friction limit", &[Total, Lagged, Static, Dynamic]);
     check("sense of slip", &[Inelastic, Velocity, LastVelocity]);

@@ -77,7 +77,7 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
         // u_x = x: σ_xx ε_xx = λ + 2μ.
         let mut strain = vec![0.0; model.dofs()];
         for (node, [x, _]) in model.mesh().nodes().iter().enumerate() {
-            strain[model.unknown(node, Direction::X).unwrap()] = *x;
+            strain[model.dof(node, Direction::X).unwrap()] = *x;
         }
         let modulus = |young: f64, nu: f64| young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
         let expected = modulus(2.0e9, 0.25) * 12.0 + modulus(0.5e9, 0.3) * 18.0;
@@ -88,7 +88,7 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
             let inside = x.abs() < 2.99 && y > 0.01 && y < 4.99 && (y - 2.0).abs() > 0.01;
             if inside {
                 for direction in [Direction::X, Direction::Y] {
-                    let force = force[model.unknown(node, direction).unwrap()];
+                    let force = force[model.dof(node, direction).unwrap()];
                     assert!(force.abs() < 1e-6 * modulus(2.0e9, 0.25), "{name} {node}: {force}");
                 }
             }

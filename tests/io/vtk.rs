@@ -134,7 +134,7 @@ fn deformed_shapes_move_as_their_structures() {
     let shape = DeformedShape::of_model(&model);
     assert_eq!(shape.cells(), [[0, 1], [1, 2]]);
     let mut dofs = vec![0.0; 9];
-    dofs[model.unknown(1, Direction::Y).unwrap()] = 0.25;
+    dofs[model.dof(1, Direction::Y).unwrap()] = 0.25;
     let moved = shape.displacements(&dofs).unwrap();
     assert_eq!(moved, [[0.0; 2], [0.0, 0.25], [0.0; 2], [0.0; 2]]);
 

@@ -51,7 +51,7 @@ fn own_element() {
         mesh.add(Column([foot, top])).unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();
-    let tip = model.unknown(top, Direction::X).unwrap();
+    let tip = model.dof(top, Direction::X).unwrap();
     let scene = shaken().structure(model).ground(bed(4)).interface(Coulomb::new(0.6).unwrap());
     let (_, simulation) = run(scene);
     assert!(simulation.state().absolute_displacement()[tip].is_finite());

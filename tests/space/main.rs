@@ -8,3 +8,7 @@ mod equations;
 mod march;
 mod mast;
 mod refused;
+mod springs;
+mod storeys;
+mod uplift;
+mod warnings;

@@ -360,8 +360,8 @@ fn rows_and_probes_stay_within_their_member() {
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
     assert_eq!(group.row(0, tower().roof()).unwrap(), DofCombination::from(6));
     assert_eq!(group.row(1, 2).unwrap(), DofCombination::from(9));
-    // The tower's eighth unknown would be the block's first.
-    let quantity = "unknown of a structure of the group";
+    // The tower's eighth degree of freedom would be the block's first.
+    let quantity = "degree of freedom of a structure of the group";
     assert_eq!(group.row(0, 7), Err(Error::Index { quantity, index: 7, bound: 7 }));
     for index in [3, usize::MAX] {
         assert_eq!(group.row(1, index), Err(Error::Index { quantity, index, bound: 3 }));
@@ -386,7 +386,10 @@ fn rows_and_probes_stay_within_their_member() {
     }
     assert!(moved.acceleration.is_empty());
     let error = group.probe(0, alone).unwrap_err();
-    let source =
-        Error::Index { quantity: "unknown of a structure of the group", index: 4, bound: 3 };
+    let source = Error::Index {
+        quantity: "degree of freedom of a structure of the group",
+        index: 4,
+        bound: 3,
+    };
     assert_eq!(error, Error::Probe { name: "shear".to_owned(), source: Box::new(source) });
 }

@@ -115,12 +115,14 @@ impl PyState {
         self.0.foundations.iter().map(own).collect()
     }
 
-    /// Method that found the modes: "active set", "gauss-seidel" or "path".
+    /// Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal".
     #[getter]
     fn method(&self) -> &'static str {
         match self.0.method {
             SearchMethod::GaussSeidel => "gauss-seidel",
             SearchMethod::Path => "path",
+            SearchMethod::Newton => "newton",
+            SearchMethod::Proximal => "proximal",
             _ => "active set",
         }
     }

@@ -94,12 +94,12 @@ impl PyFemModel {
 
     /// Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
     /// has none of its own.
-    fn unknown(
+    fn dof(
         &self,
         #[pyo3(from_py_with = whole)] node: usize,
         direction: &str,
     ) -> PyResult<Option<usize>> {
-        Ok(self.0.unknown(node, self::direction(direction)?))
+        Ok(self.0.dof(node, self::direction(direction)?))
     }
 
     /// Number of the node at (``x``, ``y``), m, to a millionth of the model's size.

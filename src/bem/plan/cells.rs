@@ -8,6 +8,7 @@ use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, finite, memory, positive};
 use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
+use crate::structure::{FaceNode, Structure};
 
 /// How far outer cells reach beyond the outline, of their side: piecewise constant tractions under a rigid base behave
 /// like a mat whose edge lies so far inside them.
@@ -163,14 +164,33 @@ impl Plan {
         Ok(Self { owners, ..self })
     }
 
-    /// The same outline with cells that end where it does. For given pressures that is exact; of the response of a
-    /// rigid mat it leaves an error of first order. Discs and masks are as they were.
+    /// The same outline with cells that end where it does. For given pressures, and on springs, that is exact; of the
+    /// response of a rigid mat on soil it leaves an error of first order. Discs and masks are as they were.
     ///
     /// # Errors
-    /// As for [`Plan::on_faces`].
+    /// [`Error::Scene`] for a plan with unions, whose cells would be others; as for [`Plan::on_faces`].
     pub fn without_overhang(self) -> Result<Self> {
-        let (faces, cells) = self.faces.clone();
-        if faces.is_empty() { Ok(self) } else { Self::under(faces, cells, 0.0) }
+        if self.overhang == 0.0 {
+            return Ok(self);
+        }
+        if self.owners.is_some() {
+            return Err(Error::Scene {
+                quantity: "plan with unions",
+                needed: "`without_overhang` before `with_unions`",
+            });
+        }
+        let (faces, cells) = self.faces;
+        Self::under(faces, cells, 0.0)
+    }
+
+    /// Cells under the faces of a structure, `cells` along the shorter side of them all; none without faces.
+    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
+        let faces = structure.contact_faces();
+        if faces.is_empty() {
+            return Ok(None);
+        }
+        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+        Self::on_faces(&faces.iter().map(corners).collect::<Vec<_>>(), cells).map(Some)
     }
 
     fn under(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
@@ -263,6 +283,19 @@ impl Plan {
             }
         }
         (elements, depths)
+    }
+
+    /// Part of the area of each contact element that is inside the outline.
+    pub(in crate::bem) fn fractions_inside(&self) -> Vec<f64> {
+        let [a, b] = self.lattice.pitch;
+        let mut sums: Vec<[f64; 2]> = vec![];
+        for (number, inside) in self.inside().into_iter().enumerate() {
+            let owner = self.owners.as_ref().map_or(number, |owners| owners[number]);
+            sums.resize(sums.len().max(owner + 1), [0.0; 2]);
+            sums[owner][0] += inside;
+            sums[owner][1] += a * b;
+        }
+        sums.into_iter().map(|[inside, all]| inside / all).collect()
     }
 
     /// Numbers that say which cells of which lattice they are.

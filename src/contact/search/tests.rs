@@ -184,7 +184,7 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
                 gap,
                 slip: length * random.within(-1.0, 1.0),
                 pressure: if open { 0.0 } else { static_traction[e] },
-                shear: 0.0,
+                ..ContactState::default()
             };
             let mut start = PreviousContact::new(state, mode, 1e-3);
             start.has_opened = open || random.chance(0.5);

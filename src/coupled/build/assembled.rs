@@ -147,10 +147,10 @@ impl Assembled {
         for (nodes, _) in self.base.foundations() {
             let mut dofs = nodes.iter().flat_map(FaceNode::dofs);
             if let Some(first) = dofs.next() {
-                dofs.for_each(|unknown| parts.join(first, unknown));
+                dofs.for_each(|dof| parts.join(first, dof));
             }
         }
-        let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();
+        let roots: Vec<usize> = (0..n).map(|dof| parts.root(dof)).collect();
         let influence = Influence::split(&self.base, &translations, &roots);
         supports::check_parts(&influence, &self.base, n)?;
         Ok((influence, factor))

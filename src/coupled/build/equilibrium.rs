@@ -6,7 +6,7 @@ use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::scene::operators::condense;
 use crate::error::{Error, Result, StepError};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
@@ -74,7 +74,16 @@ impl StaticState {
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
             let known = law_of(laws, e).modes();
-            if known.contains(mode) && !mode.is_closed() { *mode } else { known[0] }
+            let opens = known.contains(mode) && !mode.is_closed();
+            if opens {
+                *mode
+            } else {
+                if self.traction.len() > PLANE * self.modes.len() {
+                    known[0].in_plan()
+                } else {
+                    known[0]
+                }
+            }
         });
         modes.collect()
     }
@@ -119,7 +128,7 @@ impl Standing<'_> {
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, soil } = *self;
         let base = &assembled.base;
-        let (n, count) = (assembled.dofs(), base.areas().len());
+        let n = assembled.dofs();
         let size = base.layout().len();
         let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
@@ -128,7 +137,7 @@ impl Standing<'_> {
         let stiffest = epsilon;
 
         let mut solver = ContactSolver::new(base.layout());
-        let mut search = ModeSearch::new(count, ContactSearch::Robust);
+        let mut search = ModeSearch::new(base.layout(), base.areas(), ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
         let mut tangent = Tangent::new(n);
         let mut compliance: Option<Compliance> = None;

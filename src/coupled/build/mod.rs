@@ -27,7 +27,7 @@ use super::step::newton::Solver;
 use super::step::{Forcing, Increment};
 use super::warning::Warning;
 use crate::bem::Ground;
-use crate::contact::{ContactSearch, ModeSearch};
+use crate::contact::ContactSearch;
 use crate::coupled::run::Serviceability;
 use crate::error::{Observer, Result};
 use crate::interface::InterfaceLaw;
@@ -259,8 +259,7 @@ impl SimulationBuilder {
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
         let Parts { mut structure, ground, given, .. } = parts;
-        let mut solver =
-            Solver::new(&scene, operators, ModeSearch::new(scene.count(), given.search));
+        let mut solver = Solver::new(&scene, operators, given.search);
         let mut state = State::at_rest(&scene)?;
         let compliant = scene.is_compliant(&state.start)?;
         let mass = &assembled.mass;

@@ -11,9 +11,7 @@ use crate::error::{
     Error, Observer, Result, all_finite, finite, memory, not_negative, positive, same_length,
 };
 use crate::geometry::Patch;
-use crate::interface::{
-    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact,
-};
+use crate::interface::{ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact};
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
@@ -173,7 +171,9 @@ impl Parts {
         let (layout, count) = (elements.layout(), elements.len());
         let gravity = given.static_gravity();
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
-        check_bonded(&given.laws, &elements, time_step)?;
+        if elements.is_plan() {
+            check_limits(&given.laws, given.search, time_step)?;
+        }
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let dofs = structure.dofs();
         check_dofs(dofs, layout.len())?;
@@ -240,6 +240,7 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
     ground.step_compliance(&mut operator)?;
+    elements.refer_inside(&mut operator);
     all_finite(NAME, &operator)?;
     let area = |i: usize| areas[layout.origin(i)[1]];
     let scale: Vec<f64> = (0..size)
@@ -287,21 +288,25 @@ fn check_laws(
     laws.iter().try_for_each(|law| law.check(scene))
 }
 
-/// Refuses laws that do not bond an element of a ground in plan to the structure whatever happens.
-fn check_bonded(laws: &[Box<dyn InterfaceLaw>], elements: &Patch, time_step: f64) -> Result<()> {
-    let start = PreviousContact::new(ContactState::default(), Mode::Stick, time_step);
-    let bonded = |law: &dyn InterfaceLaw| {
-        law.modes() == [Mode::Stick]
-            && law.conditions(Mode::Stick, &start)
-                == [Condition::gap_is(0.0), Condition::slip_is(0.0)]
-            && law.compliance(Mode::Stick, &start) == [0.0; 2]
-            && law.state_variables() == 0
-    };
-    if !elements.is_plan() || laws.iter().all(|law| bonded(law.as_ref())) {
-        return Ok(());
+/// Refuses laws without limits on a ground in plan, and the search of the plane.
+fn check_limits(
+    laws: &[Box<dyn InterfaceLaw>],
+    search: ContactSearch,
+    time_step: f64,
+) -> Result<()> {
+    if search != ContactSearch::Robust {
+        let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
+        return Err(Error::Scene { quantity: "contact search", needed });
     }
-    let needed = "must be `Bonded` on a ground in plan: elements open and slide in the plane alone";
-    Err(Error::Scene { quantity: "interface law", needed })
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, time_step);
+    for law in laws {
+        let mut memory = vec![0.0; law.state_variables()];
+        if !memory.is_empty() {
+            law.initial_state_variables(&start, &mut memory);
+        }
+        law.limits(&start.with_memory(&memory))?;
+    }
+    Ok(())
 }
 
 /// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one

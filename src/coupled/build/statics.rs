@@ -8,6 +8,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
 use crate::error::{Error, Result, all_finite, finite};
+use crate::geometry::{PLANE, SPACE};
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
 };
@@ -46,6 +47,7 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
         all_finite("load at t = 0", &load)?;
         let mut soil = vec![0.0; assembled.base.layout().square()];
         ground.static_compliance(&mut soil)?;
+        elements.refer_inside(&mut soil);
         let stage = Standing { assembled, structure: structure.as_ref(), soil: &soil };
         state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
         state.load = own;
@@ -212,6 +214,9 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             let [down, along] = layout.places(e);
             contact.gap = -moved[down];
             contact.slip = moved[along];
+            if layout.components() == SPACE {
+                contact.slip_across = moved[layout.place(PLANE, e)];
+            }
             if contact.gap < -closed {
                 return Err(Error::Input {
                     quantity: "gap of an element under the initial displacement, m",
@@ -232,11 +237,11 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             starts.push(PreviousContact::new(*contact, *mode, scene.time_step));
         }
         state.start = PreviousContacts::new(&scene.laws, &starts)?;
-        let [_, _, across] = layout.split(&moved);
-        state.slip_across.copy_from_slice(across);
     }
-    let [_, rate] = layout.split(&rate);
-    state.start.slip_rates_mut().zip(rate).for_each(|(own, rate)| *own = *rate);
+    let [_, along, across] = layout.split(&rate);
+    for (e, own) in state.start.slip_rates_mut().enumerate() {
+        *own = across.get(e).map_or(along[e], |across| along[e].hypot(*across));
+    }
     Ok(())
 }
 

@@ -65,8 +65,8 @@ pub(crate) fn check(
     for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
         let resistance = Resistance::new(stiffness, translation);
         if resistance.holds(lag) {
-            let Resistance { force, unknown, share, .. } = resistance;
-            return Err(Error::Restrained { direction, force, unknown, share });
+            let Resistance { force, dof, share, .. } = resistance;
+            return Err(Error::Restrained { direction, force, dof, share });
         }
         if resistance.is_free {
             for r in translation.iter_mut() {
@@ -140,21 +140,21 @@ pub(crate) fn joined_by_force(
             let moved: Vec<f64> = pairs.map(|(u, r)| u + distance * r).collect();
             force.fill(0.0);
             own.force(&moved, &mut force)?;
-            for (unknown, (force, before)) in force.iter().zip(static_force).enumerate() {
+            for (dof, (force, before)) in force.iter().zip(static_force).enumerate() {
                 let force = force - before;
-                let scale = distance.abs() * around[unknown] + before.abs();
+                let scale = distance.abs() * around[dof] + before.abs();
                 let rounding = f64::EPSILON * stiffest * distance.abs();
                 if force.is_nan() || force.abs() > ROW * scale + rounding {
                     let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
-                    return Ok(Some((force, unknown, share)));
+                    return Ok(Some((force, dof, share)));
                 }
             }
         }
         Ok(None)
     };
     for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
-        if let Some((force, unknown, share)) = resistance(translation)? {
-            return Err(Error::Restrained { direction, force, unknown, share });
+        if let Some((force, dof, share)) = resistance(translation)? {
+            return Err(Error::Restrained { direction, force, dof, share });
         }
     }
     if parts.len() > 1 {
@@ -178,7 +178,7 @@ struct Resistance {
     is_free: bool,
     /// Where the force is largest beside the stiffness around: the force, its row and its share.
     force: f64,
-    unknown: usize,
+    dof: usize,
     share: f64,
 }
 
@@ -197,16 +197,15 @@ impl Resistance {
         let is_free = (0..translation.len())
             .all(|i| force[i].abs() <= ROW * around[i] + DIAGONAL * diagonal[i].abs());
         let share = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
-        let unknown =
-            (0..translation.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
+        let dof = (0..translation.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
         Self {
             work: over(scale),
             reaction: over(stiffest(stiffness, &diagonal)),
             bent,
             is_free: is_whole && is_free,
-            force: force.get(unknown).copied().unwrap_or(0.0),
-            unknown,
-            share: share(unknown),
+            force: force.get(dof).copied().unwrap_or(0.0),
+            dof,
+            share: share(dof),
         }
     }
 

@@ -30,12 +30,18 @@ pub struct Fallbacks {
     pub gauss_seidel: usize,
     /// Steps that needed a path of solutions to be followed.
     pub path: usize,
+    /// In plan: steps that needed Newton's method.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub newton: usize,
+    /// In plan: steps that needed the proximal point method.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub proximal: usize,
 }
 
 impl Fallbacks {
-    /// Steps that needed either.
+    /// Steps that needed any of them.
     pub fn total(&self) -> usize {
-        self.gauss_seidel + self.path
+        self.gauss_seidel + self.path + self.newton + self.proximal
     }
 }
 
@@ -188,6 +194,8 @@ impl Run {
             SearchMethod::ActiveSet => {}
             SearchMethod::GaussSeidel => self.fallbacks.gauss_seidel += 1,
             SearchMethod::Path => self.fallbacks.path += 1,
+            SearchMethod::Newton => self.fallbacks.newton += 1,
+            SearchMethod::Proximal => self.fallbacks.proximal += 1,
         }
     }
 

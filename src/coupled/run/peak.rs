@@ -16,16 +16,17 @@ pub(super) struct Footing<'a> {
     pub(super) elements: &'a [ContactElement],
     /// Front and back end of each element, m.
     pub(super) depths: &'a [[f64; 2]],
+    /// Area of each element, m²; in the plane its length.
+    pub(super) areas: &'a [f64],
     pub(super) contact: &'a [ContactState],
-    /// In plan: shear tractions along y; empty in the plane.
-    pub(super) shear_across: &'a [f64],
+    /// Whether they are of a ground in plan.
+    pub(super) is_plan: bool,
 }
 
 impl Footing<'_> {
     /// Area and state of each element.
     fn areas(&self) -> impl Iterator<Item = (f64, &ContactState)> {
-        let sides = self.elements.iter().zip(self.depths);
-        sides.map(|(along, [front, back])| along.length() * (back - front)).zip(self.contact)
+        self.areas.iter().copied().zip(self.contact)
     }
 
     /// Ends of an element along x (0) or y (1), m.
@@ -50,7 +51,7 @@ pub(super) fn against_sliding(friction: &[f64], footing: Footing<'_>) -> f64 {
         }
         normal += pressed;
         shear += area * state.shear;
-        across += area * footing.shear_across.get(e).copied().unwrap_or(0.0);
+        across += area * state.shear_across;
     }
     ratio(normal, resistance, shear.hypot(across))
 }
@@ -60,7 +61,7 @@ pub(super) fn against_overturning(footing: Footing<'_>) -> f64 {
     if footing.elements.is_empty() {
         return f64::INFINITY;
     }
-    let axes = if footing.shear_across.is_empty() { 0..1 } else { 0..2 };
+    let axes = if footing.is_plan { 0..2 } else { 0..1 };
     let about = |axis: usize| {
         let ends = (0..footing.elements.len()).map(|e| footing.ends(e, axis));
         let [low, high] = far_ends(ends);
@@ -189,7 +190,13 @@ mod tests {
         [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }];
 
     fn on(contact: &[ContactState; 2]) -> Footing<'_> {
-        Footing { elements: &BASE, depths: &[[0.0, 1.0]; 2], contact, shear_across: &[] }
+        Footing {
+            elements: &BASE,
+            depths: &[[0.0, 1.0]; 2],
+            areas: &[2.0, 1.0],
+            contact,
+            is_plan: false,
+        }
     }
 
     fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {
@@ -214,9 +221,12 @@ mod tests {
     /// 180·0 + 10·(−1) and along x 180·(−0.5) + 10·1.
     #[test]
     fn by_hand_in_plan() {
-        let state = contact([30.0, 10.0], [-10.0, 6.0]);
+        let mut state = contact([30.0, 10.0], [-10.0, 6.0]);
+        [state[0].shear_across, state[1].shear_across] = [5.0, 10.0];
         let depths = [[0.0, 3.0], [0.0, 1.0]];
-        let footing = Footing { depths: &depths, shear_across: &[5.0, 10.0], ..on(&state) };
+        let in_plan =
+            |state| Footing { depths: &depths, areas: &[6.0, 1.0], is_plan: true, ..on(state) };
+        let footing = in_plan(&state);
         let expected = 0.4 * 190.0 / 54.0_f64.hypot(40.0);
         assert!((against_sliding(&[0.4], footing) - expected).abs() < 1e-14);
         assert!((against_overturning(footing) - 190.0 * 1.5 / 80.0).abs() < 1e-14);

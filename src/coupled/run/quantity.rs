@@ -308,8 +308,9 @@ impl<'a> Base<'a> {
             let footing = Footing {
                 elements: context.elements.get(own.clone()).unwrap_or_default(),
                 depths: context.elements.depths().get(own.clone()).unwrap_or_default(),
-                contact: self.state.contact.get(own.clone()).unwrap_or_default(),
-                shear_across: self.state.shear_across.get(own).unwrap_or_default(),
+                areas: context.elements.areas().get(own.clone()).unwrap_or_default(),
+                contact: self.state.contact.get(own).unwrap_or_default(),
+                is_plan: context.elements.is_plan(),
             };
             factor(friction, footing)
         };

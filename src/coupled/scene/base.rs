@@ -86,7 +86,7 @@ impl Base {
         patch: &Patch,
     ) -> Self {
         let middles = patch.iter().map(ContactElement::center).collect();
-        let (layout, areas) = (patch.layout(), patch.areas());
+        let (layout, areas) = (patch.layout(), patch.areas().to_vec());
         Self { rows: Rows::Sparse(rows), foundations, layout, areas, middles, nodes }
     }
 
@@ -342,7 +342,11 @@ mod tests {
         let depths = vec![[0.0, 1.0]; elements.len()];
         let nodes = on_line(nodes);
         check_base_nodes(&nodes, dofs)?;
-        Base::on_line(nodes, &[], &Patch::new(PLANE, elements.to_vec(), depths)?)
+        Base::on_line(
+            nodes,
+            &[],
+            &Patch::new(PLANE, elements.to_vec(), depths, vec![1.0; elements.len()])?,
+        )
     }
 
     #[test]

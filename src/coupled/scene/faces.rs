@@ -162,7 +162,7 @@ mod tests {
     fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
         let [left, right, front, back] = cell;
         let cell = ContactElement { left, right };
-        let patch = Patch::new(SPACE, vec![cell], vec![[front, back]]).unwrap();
+        let patch = Patch::new(SPACE, vec![cell], vec![[front, back]], vec![1.0]).unwrap();
         let (nodes, mut sum) = (nodes(corners), 0.0);
         let faces = Faces::new(&nodes, faces).unwrap();
         for (node, weight) in faces.mean_weights(0, &patch).unwrap() {

@@ -36,10 +36,10 @@ impl Influence {
     pub(crate) fn split(base: &Base, translations: &[Vec<f64>], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
-            let Some(unknown) = nodes.iter().find_map(|node| node.dofs().next()) else {
+            let Some(dof) = nodes.iter().find_map(|node| node.dofs().next()) else {
                 continue;
             };
-            let root = roots[unknown];
+            let root = roots[dof];
             if let Some((_, part)) = parts.iter_mut().find(|(own, _)| *own == root) {
                 part.elements.extend(elements);
                 continue;

@@ -172,12 +172,12 @@ pub(crate) struct ModalBasis {
     pub(crate) stiffness: Vec<f64>,
     /// c.
     pub(crate) damping: Vec<f64>,
-    /// Φ, row-major: a row per unknown.
+    /// Φ, row-major: a row per degree of freedom.
     vectors: Vec<f64>,
 }
 
 impl ModalBasis {
-    /// The modes with these λ, c and Φ (row-major, a row per unknown), rigid translations of λ = 0
+    /// The modes with these λ, c and Φ (row-major, a row per degree of freedom), rigid translations of λ = 0
     /// among them.
     pub(crate) fn of(stiffness: Vec<f64>, damping: Vec<f64>, vectors: Vec<f64>) -> Self {
         Self { stiffness, damping, vectors }
@@ -187,8 +187,8 @@ impl ModalBasis {
     pub(crate) fn row(&self, terms: &[(usize, f64)]) -> Vec<f64> {
         let n = self.count();
         let mut weights = vec![0.0; n];
-        for &(unknown, weight) in terms {
-            let displacements = &self.vectors[unknown * n..(unknown + 1) * n];
+        for &(dof, weight) in terms {
+            let displacements = &self.vectors[dof * n..(dof + 1) * n];
             weights.iter_mut().zip(displacements).for_each(|(w, phi)| *w += weight * phi);
         }
         weights

@@ -12,7 +12,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::{Forcing, Increment};
-use crate::contact::{ContactInput, ContactSolver, ModeSearch};
+use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::Operators;
@@ -36,12 +36,12 @@ pub(super) struct LinearStep {
 }
 
 impl LinearStep {
-    pub(super) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
+    pub(super) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
         let n = scene.model.coordinates;
         Self {
             operators,
             contact: ContactSolver::new(scene.layout()),
-            search,
+            search: ModeSearch::new(scene.layout(), scene.base.areas(), search),
             known: vec![0.0; n],
             free_jump: vec![0.0; scene.layout().len()],
             means: vec![0.0; scene.layout().len()],
@@ -152,9 +152,6 @@ impl LinearStep {
         (increment.trials, increment.method) = (trials, method);
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);
-        for (own, new) in increment.across.iter_mut().zip(&contact.across) {
-            own.copy_from_slice(new);
-        }
         Ok(())
     }
 }

@@ -135,10 +135,10 @@ pub(crate) struct Increment {
     pub(crate) acceleration: Vec<f64>,
     /// Change of traction against the static state, 2Q or 3Q.
     pub(crate) traction: Vec<f64>,
+    /// The same as tractions of whole elements, for the ground.
+    pub(crate) spread: Vec<f64>,
     /// Openings and total tractions at the end, per element.
     pub(crate) contact: Vec<ContactState>,
-    /// In plan: slip and shear traction along y at the end, per element.
-    pub(crate) across: [Vec<f64>; 2],
     /// Mode of each element.
     pub(crate) modes: Vec<Mode>,
     /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
@@ -167,8 +167,8 @@ impl Increment {
             velocity: vec![0.0; n],
             acceleration: vec![0.0; n],
             traction: vec![0.0; scene.layout().len()],
+            spread: vec![0.0; scene.layout().len()],
             contact: vec![ContactState::default(); count],
-            across: [state.slip_across.clone(), state.shear_across.clone()],
             modes: vec![Mode::Stick; count],
             compliance: vec![[0.0; 2]; compliant],
             memory: state.start.memory().to_vec(),

@@ -2,7 +2,7 @@
 
 use super::linear::LinearStep;
 use super::{Forcing, Increment};
-use crate::contact::{ContactSolver, ModeSearch, SearchMethod};
+use crate::contact::{ContactSearch, ContactSolver, SearchMethod};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::{Factor, Operators};
@@ -267,7 +267,7 @@ pub(crate) struct Solver {
 }
 
 impl Solver {
-    pub(crate) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
+    pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
             newton: (!scene.model.linear).then(|| Newton::new(scene.model.coordinates)),

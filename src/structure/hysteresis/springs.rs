@@ -32,7 +32,7 @@ impl Springs {
         law: Box<dyn Hysteresis>,
         dofs: usize,
     ) -> Result<()> {
-        row.check("unknown of a spring", dofs)?;
+        row.check("degree of freedom of a spring", dofs)?;
         self.0.push(Spring { row, law });
         Ok(())
     }

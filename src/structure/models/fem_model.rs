@@ -79,13 +79,13 @@ impl FemModel {
             if let Some(left) = nodes.last() {
                 positive("distance between contact nodes", x - left.x)?;
             }
-            let unknown = |direction| {
-                numbering.unknown(index, direction).ok_or(Error::Scene {
+            let dof = |direction| {
+                numbering.dof(index, direction).ok_or(Error::Scene {
                     quantity: "contact node",
                     needed: "must have horizontal and vertical degrees of freedom from some element",
                 })
             };
-            nodes.push(ContactNode::free(x, unknown(Direction::X)?, unknown(Direction::Y)?));
+            nodes.push(ContactNode::free(x, dof(Direction::X)?, dof(Direction::Y)?));
         }
         Ok(Self {
             mesh,
@@ -181,7 +181,7 @@ impl FemModel {
     ///
     /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their degrees of freedom,
     /// and the structure's are numbered anew, node by node:
-    /// [`unknown`](FemModel::unknown) gives `None` for them and [`row`](FemModel::row) what
+    /// [`dof`](FemModel::dof) gives `None` for them and [`row`](FemModel::row) what
     /// they do. Their masses and stiffnesses stay where they are. Contact nodes may follow.
     ///
     /// ```
@@ -198,7 +198,7 @@ impl FemModel {
     /// }
     /// let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &[left, right])?;
     /// assert_eq!(model.dofs(), 6);
-    /// assert_eq!(model.unknown(top, Direction::X), Some(3));
+    /// assert_eq!(model.dof(top, Direction::X), Some(3));
     /// // The right end rises with the foot and by 2 m times its rotation.
     /// assert_eq!(model.row(right, Direction::Y)?[..], [(1, 1.0), (2, 2.0)]);
     /// # Ok::<(), basemat::Error>(())
@@ -232,32 +232,32 @@ impl FemModel {
 
     /// Index of the degree of freedom of `node` in `direction`, if it has one of its own: a follower of a rigid
     /// link has none. What a probe or a spring needs is its [`row`](FemModel::row).
-    pub fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
-        let unknown = self.numbering.unknown(node, direction)?;
-        self.links.as_ref().map_or(Some(unknown), |links| links.remaining(node, unknown))
+    pub fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
+        let dof = self.numbering.dof(node, direction)?;
+        self.links.as_ref().map_or(Some(dof), |links| links.remaining(node, dof))
     }
 
     /// Motion of `node` in `direction` as a weighted sum of degrees of freedom: the degree of freedom itself, or what
     /// the rigid link of a follower makes of its leader's.
     ///
     /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::NoUnknown`] for one that no element
+    /// [`Error::Index`] for a node that does not exist, [`Error::NoDof`] for one that no element
     /// moves in this direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
         let bound = self.mesh.nodes().len();
         if node >= bound {
             return Err(Error::Index { quantity: "node", index: node, bound });
         }
-        let unknown = self.numbering.unknown(node, direction);
-        let unknown = unknown.ok_or(Error::NoUnknown { node, direction: direction.word() })?;
-        let own = [(unknown, 1.0)];
+        let dof = self.numbering.dof(node, direction);
+        let dof = dof.ok_or(Error::NoDof { node, direction: direction.word() })?;
+        let own = [(dof, 1.0)];
         Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
     }
 
     /// Degrees of freedom of a unit rigid motion: 1 m in x or y, or a small rotation of 1 rad about `point`.
     pub fn rigid_motion(&self, direction: Direction, point: [f64; 2]) -> Vec<f64> {
         let mut motion = vec![0.0; self.dofs()];
-        self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.unknown(node, own));
+        self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.dof(node, own));
         motion
     }
 
@@ -276,8 +276,8 @@ impl FemModel {
                 Direction::Rotation => [point[1] - y, x - point[0], 1.0],
             };
             for (own, value) in Direction::ALL.into_iter().zip(values) {
-                if let Some(unknown) = number(node, own) {
-                    motion[unknown] = value;
+                if let Some(dof) = number(node, own) {
+                    motion[dof] = value;
                 }
             }
         }
@@ -326,7 +326,7 @@ impl Structure for FemModel {
 
     /// Nodes with their places, and whether one of the rest lies where one of them does.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        describe(self.mesh(), &|node, direction| self.unknown(node, direction), dofs)
+        describe(self.mesh(), &|node, direction| self.dof(node, direction), dofs)
     }
 
     fn has_active_damping(&self) -> bool {

@@ -38,7 +38,7 @@ struct Member {
 ///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
 ///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
 /// assert_eq!(group.row(1, RigidBlock::HORIZONTAL)?[..], [(3, 1.0)]);
-/// // The first block has no fourth unknown: that is one of the other block.
+/// // The first block has no fourth degree of freedom: that is one of the other block.
 /// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)
 ///     .ground(ElasticGround::under(Soil::new(40.0e6, 0.33, 1800.0)?, &group, 6)?)
@@ -117,7 +117,7 @@ impl StructureGroup {
         let quantity = "structure of the group";
         let own = self.members.get(member);
         let own = own.ok_or(Error::Index { quantity, index: member, bound })?;
-        row.check("unknown of a structure of the group", own.dofs)?;
+        row.check("degree of freedom of a structure of the group", own.dofs)?;
         Ok(row.map_dofs(|index| own.first_dof.saturating_add(index)))
     }
 

@@ -8,6 +8,7 @@ mod rigid_body;
 mod rigid_links;
 mod section;
 mod shear_building;
+mod storey_building;
 mod storey_laws;
 
 pub use fem_model::FemModel;
@@ -16,4 +17,5 @@ pub use rigid_block::{MatrixModel, RigidBlock};
 pub use rigid_body::RigidBody;
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};
+pub use storey_building::{PlanStorey, StoreyBuilding};
 pub use storey_laws::IsolationLevel;

@@ -104,10 +104,10 @@ impl FemModel {
         let mut weight = vec![0.0; n];
         mass.multiply_add(-gravity, &self.rigid_motion(Direction::Y, [0.0; 2]), &mut weight);
         let held = HeldStructure::new(self)?;
-        let load: Vec<f64> = held.free.iter().map(|&unknown| weight[unknown]).collect();
+        let load: Vec<f64> = held.free.iter().map(|&dof| weight[dof]).collect();
         let mut displacement = vec![0.0; n];
-        for (&unknown, value) in held.free.iter().zip(held.solve(load)?) {
-            displacement[unknown] = value;
+        for (&dof, value) in held.free.iter().zip(held.solve(load)?) {
+            displacement[dof] = value;
         }
         Ok(displacement)
     }
@@ -132,9 +132,9 @@ impl HeldStructure {
                 is_held[index] = true;
             }
         }
-        let free: Vec<usize> = (0..n).filter(|&unknown| !is_held[unknown]).collect();
+        let free: Vec<usize> = (0..n).filter(|&dof| !is_held[dof]).collect();
         let mut place = vec![None; n];
-        free.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = Some(k));
+        free.iter().enumerate().for_each(|(k, &dof)| place[dof] = Some(k));
         let part = |quantity| {
             let mut all = Triplets::new(n);
             model.condensed(&mut all, |matrix| {

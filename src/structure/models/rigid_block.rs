@@ -4,7 +4,8 @@ use crate::error::{Error, Result, finite, not_negative, positive, same_length};
 use crate::linalg::SparseMatrix;
 use crate::structure::detached::{check_damping, check_mass};
 use crate::structure::{
-    ContactNode, DofCombination, RayleighDamping, Structure, Triplets, check_base_nodes, on_line,
+    ContactNode, DofCombination, FaceNode, RayleighDamping, Structure, Triplets, check_base_nodes,
+    on_line,
 };
 
 /// Rigid body with a flat base: degrees of freedom `[u_x, u_y, θ]` at the middle of the base.
@@ -151,7 +152,7 @@ const DAMPING: &str = "damping matrix";
 /// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure
 /// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
 /// force beyond rounding (entries of ten digits may leave too much, those of twelve do not).
-/// Matrices are per metre of thickness. They may come from Matrix Market files
+/// Matrices are per metre of thickness, but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed
 /// rows ([`Triplets::from_csr`]); large models march faster after a
 /// [`CraigBampton`](crate::structure::CraigBampton) reduction.
@@ -179,6 +180,7 @@ pub struct MatrixModel {
     damping: Triplets,
     stiffness: Triplets,
     contact: Vec<ContactNode>,
+    faces: Vec<Vec<FaceNode>>,
     /// Whether the damping is taken as it is.
     active: bool,
 }
@@ -193,15 +195,47 @@ impl MatrixModel {
     /// of range or not finite, [`Error::Scene`] for a mass matrix that is not symmetric,
     /// [`Error::Indefinite`] for one with a negative mass, more than rounding.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
+        check_base_nodes(&on_line(contact.clone()), Self::check(&mass, &stiffness)?)?;
+        let damping = Triplets::new(mass.order());
+        Ok(Self { mass, damping, stiffness, contact, faces: Vec::new(), active: false })
+    }
+
+    /// Structure with mass (kg) and stiffness (N/m) that touches a ground in plan with `faces`, as
+    /// [`Structure::contact_faces`] has them. No damping; its forces are those of the whole body.
+    ///
+    /// ```
+    /// use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
+    ///
+    /// // A slab of one square element: u_x, u_y and u_z of its four nodes.
+    /// let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
+    /// let node = |k: usize| FaceNode::free(corners[k], [3 * k, 3 * k + 1, 3 * k + 2]);
+    /// let mass = Triplets::from_entries(12, (0..12).map(|k| (k, k, 20.0e3)));
+    /// let mut stiffness = Triplets::new(12);
+    /// // What resists twisting of the corners out of their plane; this slab has nothing else.
+    /// stiffness.add_outer([(2, 1.0), (5, -1.0), (8, 1.0), (11, -1.0)], 5.0e6);
+    /// let slab = MatrixModel::in_plan(mass, stiffness, vec![(0..4).map(node).collect()])?;
+    /// assert_eq!((slab.dofs(), slab.contact_faces()[0].len()), (12, 4));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`MatrixModel::new`], of the faces' corners. Whether faces are flat, convex and apart is checked when a
+    /// simulation is built.
+    pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<FaceNode>>) -> Result<Self> {
+        check_base_nodes(&faces.concat(), Self::check(&mass, &stiffness)?)?;
+        let damping = Triplets::new(mass.order());
+        Ok(Self { mass, damping, stiffness, contact: Vec::new(), faces, active: false })
+    }
+
+    /// Number of degrees of freedom of matrices that are those of a structure.
+    fn check(mass: &Triplets, stiffness: &Triplets) -> Result<usize> {
         let order = mass.order();
         if order == 0 {
             return Err(Error::Size { quantity: "mass matrix", found: 0, needed: 1 });
         }
-        let inertia = SparseMatrix::new("mass matrix", &mass)?;
-        check_mass(&inertia)?;
-        check("stiffness matrix", &stiffness, order)?;
-        check_base_nodes(&on_line(contact.clone()), order)?;
-        Ok(Self { mass, damping: Triplets::new(order), stiffness, contact, active: false })
+        check_mass(&SparseMatrix::new("mass matrix", mass)?)?;
+        check("stiffness matrix", stiffness, order)?;
+        Ok(order)
     }
 
     /// The same structure with a damping matrix (N s/m per metre), in place of what it had.
@@ -262,6 +296,10 @@ impl Structure for MatrixModel {
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.contact.clone()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.faces.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -196,11 +196,7 @@ impl Structure for RigidBody {
     }
 
     fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
-        let [x, y] = self.center;
-        let corner = |[dx, dy]: &[f64; 2]| {
-            FaceNode::rigid([x + dx, y + dy], self.center, [0, 1, 2, 3, 4, 5])
-        };
-        vec![self.outline.iter().map(corner).collect()]
+        vec![FaceNode::rigid_base(&self.outline, self.center, [0, 1, 2, 3, 4, 5])]
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -7,13 +7,13 @@ use crate::fem::{Direction, Mesh, Numbering};
 use crate::structure::Triplets;
 use crate::structure::detached::{NAMED, listed};
 
-/// Every unknown of the mesh as a weighted sum of those that remain.
+/// Every degree of freedom of the mesh as a weighted sum of those that remain.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
     /// Leader of each follower.
     leader: Vec<Option<usize>>,
     is_leader: Vec<bool>,
-    /// For each degree of freedom of the mesh: (remaining unknown, weight) pairs.
+    /// For each degree of freedom of the mesh: (remaining degree of freedom, weight) pairs.
     rows: Vec<Vec<(usize, f64)>>,
     dofs: usize,
 }
@@ -24,7 +24,7 @@ impl RigidLinks {
     /// Nothing linked yet.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
         let (nodes, dofs) = (mesh.nodes().len(), numbering.dofs());
-        let rows = (0..dofs).map(|unknown| vec![(unknown, 1.0)]).collect();
+        let rows = (0..dofs).map(|dof| vec![(dof, 1.0)]).collect();
         Self { leader: vec![None; nodes], is_leader: vec![false; nodes], rows, dofs }
     }
 
@@ -43,7 +43,7 @@ impl RigidLinks {
                 return Err(Error::Index { quantity: "node of a rigid link", index, bound });
             }
         }
-        if DIRECTIONS.iter().any(|&direction| numbering.unknown(leader, direction).is_none()) {
+        if DIRECTIONS.iter().any(|&direction| numbering.dof(leader, direction).is_none()) {
             return Err(fault(
                 "its leader must have all three degrees of freedom, from a beam for example",
             ));
@@ -71,16 +71,16 @@ impl RigidLinks {
         let mut next = 0;
         let mut remaining = vec![None; numbering.dofs()];
         for node in (0..nodes.len()).filter(|&node| self.leader[node].is_none()) {
-            for unknown in DIRECTIONS.iter().filter_map(|&d| numbering.unknown(node, d)) {
-                remaining[unknown] = Some(next);
+            for dof in DIRECTIONS.iter().filter_map(|&d| numbering.dof(node, d)) {
+                remaining[dof] = Some(next);
                 next += 1;
             }
         }
         self.dofs = next;
-        let number = |node, direction| remaining[numbering.unknown(node, direction)?];
+        let number = |node, direction| remaining[numbering.dof(node, direction)?];
         for node in 0..nodes.len() {
             for direction in DIRECTIONS {
-                let Some(unknown) = numbering.unknown(node, direction) else { continue };
+                let Some(dof) = numbering.dof(node, direction) else { continue };
                 let leader = self.leader[node].unwrap_or(node);
                 let arm = [nodes[node][0] - nodes[leader][0], nodes[node][1] - nodes[leader][1]];
                 let turn = match direction {
@@ -91,7 +91,7 @@ impl RigidLinks {
                 let own = number(leader, direction).map(|index| (index, 1.0));
                 let turned = number(leader, Direction::Rotation).map(|index| (index, turn));
                 let row = own.into_iter().chain(turned.filter(|_| turn != 0.0));
-                self.rows[unknown] = row.collect();
+                self.rows[dof] = row.collect();
             }
         }
     }
@@ -101,17 +101,17 @@ impl RigidLinks {
         self.dofs
     }
 
-    /// The number of a mesh's unknown that remains as it is.
-    pub(super) fn remaining(&self, node: usize, unknown: usize) -> Option<usize> {
+    /// The number of a mesh's degree of freedom that remains as it is.
+    pub(super) fn remaining(&self, node: usize, dof: usize) -> Option<usize> {
         let free = self.leader.get(node)?.is_none();
-        self.rows.get(unknown)?.first().filter(|_| free).map(|&(index, _)| index)
+        self.rows.get(dof)?.first().filter(|_| free).map(|&(index, _)| index)
     }
 
     /// A weighted sum of the mesh's degrees of freedom by those that remain.
     pub(super) fn row(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let mut sums: Vec<(usize, f64)> = Vec::new();
-        for &(unknown, weight) in terms {
-            for &(index, share) in self.rows.get(unknown).into_iter().flatten() {
+        for &(dof, weight) in terms {
+            for &(index, share) in self.rows.get(dof).into_iter().flatten() {
                 match sums.iter_mut().find(|sum| sum.0 == index) {
                     Some(sum) => sum.1 += weight * share,
                     None => sums.push((index, weight * share)),
@@ -155,10 +155,10 @@ pub(super) fn describe(
 ) -> Option<String> {
     let limit = dofs.iter().copied().max()?;
     let mut is_meant = vec![false; limit.saturating_add(1).min(3 * mesh.nodes().len())];
-    for &unknown in dofs {
-        *is_meant.get_mut(unknown)? = true;
+    for &dof in dofs {
+        *is_meant.get_mut(dof)? = true;
     }
-    let meant = |unknown: usize| is_meant.get(unknown).copied().unwrap_or(false);
+    let meant = |dof: usize| is_meant.get(dof).copied().unwrap_or(false);
     let mut nodes = Vec::new();
     let mut texts = Vec::new();
     for (node, [x, y]) in mesh.nodes().iter().enumerate() {

@@ -99,13 +99,13 @@ impl FemModel {
         ];
         // The work of the cut's forces on a rigid motion is their resultant.
         let rows = |direction: Direction, sign: f64| {
-            let number = |node, own| self.numbering.unknown(node, own);
+            let number = |node, own| self.numbering.dof(node, own);
             let mut motion = vec![0.0; self.numbering.dofs()];
             self.fill_rigid_motion(direction, [reference, height], &mut motion, number);
             let mut weights = vec![0.0; motion.len()];
             for &node in &cut {
-                for unknown in Direction::ALL.iter().filter_map(|&d| number(node, d)) {
-                    weights[unknown] = sign * motion[unknown];
+                for dof in Direction::ALL.iter().filter_map(|&d| number(node, d)) {
+                    weights[dof] = sign * motion[dof];
                 }
             }
             let [displacement, velocity, acceleration] = [0, 1, 2].map(|order| {
@@ -168,7 +168,7 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for one that does not exist,
-    /// [`Error::Input`] for two in a row at one place, [`Error::NoUnknown`] for one that no element
+    /// [`Error::Input`] for two in a row at one place, [`Error::NoDof`] for one that no element
     /// moves in a direction that is pushed.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
         let mut row = DofCombination::default();

@@ -318,9 +318,9 @@ impl ShearBuilding {
         for (index, storey) in self.storeys.iter().enumerate() {
             let weight = self.weight_on(index);
             if self.isolated && index == 0 {
-                for (unknown, sign) in Self::sway_row(0) {
-                    matrix.add(unknown, Self::ROTATION, sign * weight);
-                    matrix.add(Self::ROTATION, unknown, sign * weight);
+                for (dof, sign) in Self::sway_row(0) {
+                    matrix.add(dof, Self::ROTATION, sign * weight);
+                    matrix.add(Self::ROTATION, dof, sign * weight);
                 }
                 // d = u_1 − u_0 + h θ: of d θ comes h θ² more.
                 matrix.add(Self::ROTATION, Self::ROTATION, weight * storey.height);

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::{Basis, Recovery};
 use crate::error::{Error, Result, damping_ratio, memory};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{SYMMETRIC, check_attached, numbers};
+use crate::structure::detached::{MASSLESS, SYMMETRIC, check_attached, numbers};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 
@@ -35,7 +35,7 @@ use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplet
 ///
 /// let reduced = CraigBampton::new(12).reduce(model)?;
 /// assert_eq!(reduced.dofs(), 2 * 9 + 12);
-/// // A probe on an unknown that is no longer there:
+/// // A probe on a degree of freedom that is no longer there:
 /// let row = reduced.recovery().row(roof)?;
 /// assert_eq!(row.len(), 30);
 /// # Ok::<(), basemat::Error>(())
@@ -93,13 +93,13 @@ impl CraigBampton {
     /// Reduces a linear structure.
     ///
     /// Damping is reduced as it is; see [`ReducedModel::with_damping_ratio`] for another. Takes one
-    /// sparse factorisation and about two solves for each kept unknown and mode, and keeps a number
+    /// sparse factorisation and about two solves for each kept degree of freedom and mode, and keeps a number
     /// for each of them and each degree of freedom of the full model.
     ///
     /// # Errors
     /// [`Error::Scene`] for a nonlinear structure or matrices that are not symmetric,
-    /// [`Error::Detached`] for a part that no stiffness joins to a kept unknown, [`Error::Index`] for a
-    /// kept unknown that does not exist, [`Error::Size`] for more modes than
+    /// [`Error::Detached`] for a part that no stiffness joins to a kept degree of freedom, [`Error::Index`] for a
+    /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than
     /// degrees of freedom are left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or its
     /// stiffness is not positive.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
@@ -143,7 +143,7 @@ impl CraigBampton {
         }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
-            damping: basis.congruence(&damping),
+            damping: without_rounding(basis.congruence(&damping), &basis, &damping),
             stiffness: basis.congruence(&stiffness),
             contact: contact.collect(),
             faces,
@@ -181,16 +181,16 @@ impl Parts {
         for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
             let bound = n;
             *is_kept.get_mut(index).ok_or(Error::Index {
-                quantity: "unknown to be kept",
+                quantity: "degree of freedom to be kept",
                 index,
                 bound,
             })? = true;
         }
         let (mut kept, mut interior) = (Vec::new(), Vec::new());
         let place = (0..n)
-            .map(|unknown| {
-                let list = if is_kept[unknown] { &mut kept } else { &mut interior };
-                list.push(unknown);
+            .map(|dof| {
+                let list = if is_kept[dof] { &mut kept } else { &mut interior };
+                list.push(dof);
                 list.len() - 1
             })
             .collect();
@@ -235,8 +235,8 @@ impl Parts {
             24.0 * kept * n as f64,
         )?;
         let mut rows = vec![0.0; nb * n];
-        for (k, &unknown) in self.kept.iter().enumerate() {
-            rows[k * n + unknown] = 1.0;
+        for (k, &dof) in self.kept.iter().enumerate() {
+            rows[k * n + dof] = 1.0;
         }
         if ni == 0 {
             return Ok((rows, Vec::new()));
@@ -255,8 +255,8 @@ impl Parts {
         rows.resize((nb + squares.len()) * n, 0.0);
         let inner = answers.chunks_exact(ni).chain(shapes.chunks_exact(ni));
         for (row, values) in rows.chunks_exact_mut(n).zip(inner) {
-            for (&unknown, value) in self.interior.iter().zip(values) {
-                row[unknown] = *value;
+            for (&dof, value) in self.interior.iter().zip(values) {
+                row[dof] = *value;
             }
         }
         if rows.iter().all(|value| value.is_finite()) {
@@ -296,6 +296,22 @@ impl ReducedModel {
         }
         Ok(self)
     }
+}
+
+/// The reduced damping matrix with zeros for motions that nothing damps, rigid ones as a rule: what cancellation leaves
+/// of them has no sign, and may be large beside the damping of modes, whose unit is another.
+fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -> Vec<f64> {
+    let order = basis.order();
+    for (i, motion) in basis.rows().enumerate() {
+        let terms = full.entries().map(|(row, column, c)| (motion[row] * c * motion[column]).abs());
+        if reduced[i * (order + 1)] <= MASSLESS * terms.sum::<f64>() {
+            for j in 0..order {
+                reduced[i * order + j] = 0.0;
+                reduced[j * order + i] = 0.0;
+            }
+        }
+    }
+    reduced
 }
 
 /// Adds a dense row-major matrix, zeros left out.
@@ -348,13 +364,13 @@ impl Structure for ReducedModel {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = self.basis.kept();
         let (own, modes): (Vec<usize>, Vec<usize>) =
-            dofs.iter().partition(|&&unknown| unknown < kept.len());
-        let own: Vec<usize> = own.into_iter().map(|unknown| kept[unknown]).collect();
+            dofs.iter().partition(|&&dof| dof < kept.len());
+        let own: Vec<usize> = own.into_iter().map(|dof| kept[dof]).collect();
         let mut texts = Vec::new();
         if !own.is_empty() {
             texts.push(full.structure.describe(&own).unwrap_or_else(|| numbers(&own)));
         }
-        let mode = |unknown: &usize| format!("mode {} of the reduction", unknown - kept.len());
+        let mode = |dof: &usize| format!("mode {} of the reduction", dof - kept.len());
         texts.extend(modes.first().map(mode));
         (!texts.is_empty()).then(|| texts.join("; "))
     }

@@ -102,7 +102,7 @@ impl Recovery {
     /// weight that is not finite.
     pub fn row(&self, row: impl Into<DofCombination>) -> Result<DofCombination> {
         let full = row.into();
-        full.check("unknown of the full model", self.basis.full)?;
+        full.check("degree of freedom of the full model", self.basis.full)?;
         if full.is_empty() {
             return Ok(full);
         }
@@ -122,7 +122,7 @@ impl Recovery {
     /// accelerations.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced unknown.
+    /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced degree of freedom.
     pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
         same_length("list of reduced degrees of freedom", reduced.len(), self.basis.order())?;
         let mut full = vec![0.0; self.basis.full];

@@ -226,6 +226,7 @@ fn admissible_states_stay_and_others_change() {
         slip,
         pressure,
         shear: traction,
+        ..ContactState::default()
     };
     let next = |law: &ThinLayer, mode, start: &PreviousContact, state: ContactState| {
         law.next_mode(mode, start, &state, tolerance)

@@ -6,7 +6,8 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
 use basemat::history::{ConvolutionHistory, HistoryChoice};
 use basemat::interface::{
-    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
+    Tolerance,
 };
 use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
@@ -114,6 +115,11 @@ impl InterfaceLaw for Double {
         Some(CORRECT)
     }
 
+    fn limits(&self, _: &PreviousContact) -> Result<Limits> {
+        self.0.asked("limits");
+        Ok(Limits { tension: CORRECT, ..Limits::default() })
+    }
+
     fn bond_overload(&self, _: &PreviousContact, _: &ContactState) -> Option<f64> {
         self.0.asked("bond_overload");
         Some(CORRECT)
@@ -168,6 +174,11 @@ impl Ground for Double {
     fn depth(&self, element: usize) -> [f64; 2] {
         self.0.asked("depth");
         [CORRECT, element as f64]
+    }
+
+    fn fraction_inside(&self, element: usize) -> f64 {
+        self.0.asked("fraction_inside");
+        1.0 / element as f64
     }
 
     fn prepare(&mut self, _: f64) -> Result<()> {

@@ -58,6 +58,7 @@ fn boxed_laws() {
         assert_eq!(part.friction_coefficient(), Some(CORRECT));
         assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
         assert_eq!(part.check_start(&start), Err(doubles::refusal()));
+        assert_eq!(part.limits(&start).unwrap().tension, CORRECT);
         assert_eq!(part.frictionless().modes(), [Mode::SlipRight]);
     }
     let log = Log::default();
@@ -80,6 +81,7 @@ fn boxed_grounds() {
         let mut matrix = [0.0; 4];
         assert_eq!((part.elements().len(), part.directions()), (1, 3));
         assert_eq!(part.depth(4), [CORRECT, 4.0]);
+        assert_eq!(part.fraction_inside(4), 0.25);
         assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
         assert_eq!(part.expect_steps(3, None), Err(doubles::refusal()));
         part.step_compliance(&mut matrix).unwrap();

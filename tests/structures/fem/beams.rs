@@ -47,7 +47,7 @@ fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
             let held: Vec<(usize, f64)> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
             let mut force = vec![0.0; n];
             let [x, y, turn] = [Direction::X, Direction::Y, Direction::Rotation]
-                .map(|direction| model.unknown(3, direction).unwrap());
+                .map(|direction| model.dof(3, direction).unwrap());
             // Across the beam, to the left: turns its tip counter-clockwise.
             force[x] = -load * angle.sin();
             force[y] = load * angle.cos();

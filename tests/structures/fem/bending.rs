@@ -28,7 +28,7 @@ fn tip_ratio(mesh: [usize; 2], nu: f64, kind: QuadFormulation) -> f64 {
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
     for (place, &node) in top.iter().enumerate() {
         let share = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
-        load[model.unknown(node, Direction::X).unwrap()] = share / (top.len() - 1) as f64;
+        load[model.dof(node, Direction::X).unwrap()] = share / (top.len() - 1) as f64;
     }
     let found = solve_held(&stiffness(&model), &load, &fixed_base(&model));
     let bending = length.powi(3) / (3.0 * E / (1.0 - nu * nu) / 12.0);
@@ -76,7 +76,7 @@ fn pure_bending_of_rectangles_is_exact() {
         let mut load = vec![0.0; model.dofs()];
         for (x, sign) in [(-0.5, -1.0), (0.5, 1.0)] {
             let node = model.mesh().node_at(x, length).unwrap();
-            load[model.unknown(node, Direction::Y).unwrap()] = sign;
+            load[model.dof(node, Direction::Y).unwrap()] = sign;
         }
         // The base may widen: only its left node is held sideways.
         let held: Vec<(usize, f64)> =

@@ -66,7 +66,7 @@ fn beam_columns_sway_by_their_closed_form() {
         let model = column(20, |beam| beam.with_compression(compression).unwrap());
         let n = model.dofs();
         let mut force = vec![0.0; n];
-        let tip = model.unknown(20, Direction::X).unwrap();
+        let tip = model.dof(20, Direction::X).unwrap();
         force[tip] = load;
         let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
         let found = solve_held(&stiffness(&model), &force, &held)[tip];
@@ -104,9 +104,9 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
                 if rotary { beam.with_rotary_inertia() } else { beam }
             });
             let held = [(0, Direction::X), (0, Direction::Y), (elements, Direction::X)]
-                .map(|(node, direction)| model.unknown(node, direction).unwrap());
+                .map(|(node, direction)| model.dof(node, direction).unwrap());
             let free: Vec<usize> =
-                (0..model.dofs() - 2).filter(|unknown| !held.contains(unknown)).collect();
+                (0..model.dofs() - 2).filter(|dof| !held.contains(dof)).collect();
             let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free));
             [1.0, 2.0, 3.0].map(|n| {
                 let k = n * std::f64::consts::PI / LENGTH;
@@ -188,7 +188,7 @@ fn arms_lengthen_a_cantilever() {
     // A beam between the arm and a free end strains nothing and checks the rotation.
     mesh.add(Beam::new([2, 3], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
     let model = FemModel::new(mesh, &[0, other]).unwrap().with_rigid_link(1, &[nodes[2]]).unwrap();
-    assert_eq!(model.unknown(2, Direction::X), None);
+    assert_eq!(model.dof(2, Direction::X), None);
     let n = model.dofs();
     let row = model.row(2, Direction::X).unwrap();
     // The leader's motion and its turn times the arm.
@@ -205,7 +205,7 @@ fn arms_lengthen_a_cantilever() {
     let exact = 1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (E * INERTIA);
     assert!((at(&row) / exact - 1.0).abs() < 1e-10);
     let turn = at(&model.row(2, Direction::Rotation).unwrap());
-    let tip = found[model.unknown(3, Direction::X).unwrap()];
+    let tip = found[model.dof(3, Direction::X).unwrap()];
     assert!((tip - (at(&row) - arm * turn)).abs() < 1e-10 * exact);
     // A rigid motion is still one.
     let shift = model.rigid_motion(Direction::Rotation, [0.0; 2]);

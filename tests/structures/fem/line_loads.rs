@@ -39,7 +39,7 @@ fn pressure_does_the_work_of_quadratic_displacements() {
     let row = model.pressure_row(&side).unwrap();
     let mut displacement = vec![0.0; model.dofs()];
     for (node, [_, y]) in model.mesh().nodes().iter().enumerate() {
-        displacement[model.unknown(node, Direction::X).unwrap()] = y * y;
+        displacement[model.dof(node, Direction::X).unwrap()] = y * y;
     }
     assert!((row.value(&displacement) - 9.0).abs() < 1e-12);
     // The other way round it pulls; without the middle node it takes the ends alone.

@@ -121,7 +121,7 @@ fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
         assert!((factor * share - 1.0).abs() < 1e-5, "{factor} {share}");
         // Statical condensation: the tip's flexibility.
         let free = part(&stiffness(&model), &above);
-        let at = model.unknown(8, Direction::X).unwrap() - above[0];
+        let at = model.dof(8, Direction::X).unwrap() - above[0];
         let mut load = vec![0.0; free.len()];
         load[at] = 1.0;
         let found = 1.0 / basemat_problems::dense::solve(&free, &load)[at] / tip;

@@ -36,8 +36,8 @@ fn patch(formulation: QuadFormulation, poisson: f64) -> FemModel {
 fn exact(model: &FemModel) -> Vec<f64> {
     let mut field = vec![0.0; model.dofs()];
     for (node, [x, y]) in POINTS.into_iter().enumerate() {
-        field[model.unknown(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
-        field[model.unknown(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
+        field[model.dof(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
+        field[model.dof(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
     }
     field
 }

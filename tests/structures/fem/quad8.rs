@@ -56,8 +56,8 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         let mut field = vec![0.0; model.dofs()];
         for (node, [x, y]) in nodes.iter().enumerate() {
-            field[model.unknown(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
-            field[model.unknown(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
+            field[model.dof(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
+            field[model.dof(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
         }
         // Corners and the middles of the outer edges, bulged or not.
         let on_edge = |[x, y]: [f64; 2]| [x, y, x - 0.24, y - 0.12].iter().any(|d| d.abs() < 0.01);
@@ -66,7 +66,7 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
             .enumerate()
             .filter(|(_, place)| on_edge(**place))
             .flat_map(|(node, _)| [2 * node, 2 * node + 1])
-            .map(|unknown| (unknown, field[unknown]))
+            .map(|dof| (dof, field[dof]))
             .collect();
         assert!(held.len() < field.len(), "something is free");
         let found = solve_held(&stiffness(&model), &vec![0.0; field.len()], &held);
@@ -128,7 +128,7 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
     let mut load = vec![0.0; model.dofs()];
     for (&node, share) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
-        load[model.unknown(node, Direction::X).unwrap()] = share;
+        load[model.dof(node, Direction::X).unwrap()] = share;
     }
     let found = solve_held(&stiffness(&model), &load, &held);
     let bending = length.powi(3) / (3.0 * young / (1.0 - nu * nu) / 12.0);

@@ -51,9 +51,9 @@ fn static_load_passes_through_every_section() {
     let [model, _] = frame_on_block();
     let top = model.mesh().node_at(3.5, 6.0).unwrap();
     let mut load = vec![0.0; model.dofs()];
-    load[model.unknown(top, Direction::X).unwrap()] = 700.0;
-    load[model.unknown(top, Direction::Y).unwrap()] = -300.0;
-    load[model.unknown(top, Direction::Rotation).unwrap()] = 50.0;
+    load[model.dof(top, Direction::X).unwrap()] = 700.0;
+    load[model.dof(top, Direction::Y).unwrap()] = -300.0;
+    load[model.dof(top, Direction::Rotation).unwrap()] = 50.0;
     let held: Vec<(usize, f64)> = (0..6).map(|index| (index, 0.0)).collect();
     let u = solve_held(&stiffness(&model), &load, &held);
     for height in [0.0, 1.0, CUT] {
@@ -86,7 +86,7 @@ fn moving_structure_keeps_the_balance_of_its_upper_part() {
     let mut on_upper = force[skip..].to_vec();
     for node in 0..3 {
         for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-            if let Some(index) = upper.unknown(node, direction) {
+            if let Some(index) = upper.dof(node, direction) {
                 on_upper[index] = 0.0;
             }
         }

@@ -93,7 +93,7 @@ fn laws_leave_the_damping_matrix_alone() {
     let isolated = linear(0.05).isolated(level, stiff()).unwrap();
     let matrix = damping(&strong(isolated, 1));
     let n = STOREYS + 4;
-    // The slab is unknown 3: the bearings' dampers and the columns above meet in it.
+    // The slab is degree of freedom 3: the bearings' dampers and the columns above meet in it.
     assert_eq!(matrix[3], -level.damping);
     let column = -expected[3 * (STOREYS + 3) + 4];
     assert!(((matrix[3 * n + 3] - level.damping) / column - 1.0).abs() < 1e-14);

@@ -101,13 +101,13 @@ fn refused(structure: impl Structure + 'static) {
 #[test]
 fn stiffness_to_a_fixed_point_is_refused() {
     let block = || RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
-    for (unknown, stiffness) in [(1, 1e-3), (1, 1.0), (1, 1e9), (0, 1e-3), (0, 1e9)] {
+    for (dof, stiffness) in [(1, 1e-3), (1, 1.0), (1, 1e9), (0, 1e-3), (0, 1e9)] {
         let [mut mass, mut spring] = [(); 2].map(|()| Triplets::new(3));
         block().mass(&mut mass).unwrap();
-        spring.add(unknown, unknown, stiffness);
+        spring.add(dof, dof, stiffness);
         refused(MatrixModel::new(mass, spring, block().contact_nodes()).unwrap());
         let law = Bilinear::new(stiffness, 1.0, 0.1).unwrap();
-        let held = WithSprings::new(block()).spring(vec![(unknown, 1.0)], law).unwrap();
+        let held = WithSprings::new(block()).spring(vec![(dof, 1.0)], law).unwrap();
         refused(held);
     }
     let roof = tower(4, 6).dofs() - 1;
@@ -153,7 +153,7 @@ impl Structure for Light {
 fn negative_masses_are_refused() {
     let of = |entries: &[(usize, usize, f64)]| {
         let mut mass = Triplets::new(4);
-        (0..3).for_each(|unknown| mass.add(unknown, unknown, 2.0e4));
+        (0..3).for_each(|dof| mass.add(dof, dof, 2.0e4));
         for &(i, j, value) in entries {
             mass.add(i, j, value);
         }
@@ -181,7 +181,7 @@ fn negative_masses_are_refused() {
 fn negative_stiffness_on_a_held_base_is_refused() {
     let mast = |load: f64| {
         let mut mass = Triplets::new(5);
-        (0..5).for_each(|unknown| mass.add(unknown, unknown, 1.0e4));
+        (0..5).for_each(|dof| mass.add(dof, dof, 1.0e4));
         let mut stiffness = Triplets::new(5);
         for (row, sway) in [
             ([(3, 1.0), (0, -1.0), (2, 5.0)], [(3, 1.0), (0, -1.0)]),

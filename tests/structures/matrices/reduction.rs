@@ -18,7 +18,7 @@ fn damped() -> FemModel {
 }
 
 fn top(model: &FemModel) -> usize {
-    model.unknown(model.mesh().node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
+    model.dof(model.mesh().node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
 }
 
 /// A x for a matrix of the structure.
@@ -35,7 +35,7 @@ fn product(
 
 /// Reduced degrees of freedom of a motion of the full model that static answers alone can make.
 fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
-    let mut reduced: Vec<f64> = recovery.kept().iter().map(|&unknown| full[unknown]).collect();
+    let mut reduced: Vec<f64> = recovery.kept().iter().map(|&dof| full[dof]).collect();
     reduced.resize(order, 0.0);
     reduced
 }
@@ -90,11 +90,11 @@ fn marches_like_the_full_model() {
     let mut last = f64::INFINITY;
     for (modes, limit) in [(1, 0.2), (4, 0.04), (16, 0.004), (interior, 1e-7)] {
         let model = damped();
-        let unknown = top(&model);
+        let dof = top(&model);
         let reduced = CraigBampton::new(modes).reduce(model).unwrap();
         assert_eq!(reduced.dofs(), 14 + modes);
         let recovery = reduced.recovery();
-        let probe = recovery.probe(Probe::displacement("top", unknown)).unwrap();
+        let probe = recovery.probe(Probe::displacement("top", dof)).unwrap();
         assert!(probe.velocity.is_empty() && probe.acceleration.is_empty());
         let mut simulation = on_soil(reduced).probe(probe).build().unwrap();
         let (mut apart, mut step) = ([0.0_f64; 2], 0);
@@ -111,7 +111,7 @@ fn marches_like_the_full_model() {
         assert!(apart[0] < limit && apart[0] < last, "{modes} modes: {apart:?}");
         last = apart[0];
         let back = recovery.full(simulation.state().displacement()).unwrap();
-        assert!((back[unknown] - simulation.state().probes[0]).abs() < 1e-12);
+        assert!((back[dof] - simulation.state().probes[0]).abs() < 1e-12);
         if modes == interior {
             let off: Vec<f64> = back.iter().zip(&full.1).map(|(a, b)| a - b).collect();
             assert!(largest(&off) < 1e-6 * peak(0), "{:e}", largest(&off));
@@ -124,17 +124,17 @@ fn marches_like_the_full_model() {
 fn springs_on_kept_dofs_are_those_of_the_full_model() {
     let law = || Bilinear::new(3.0e7, 2.0e4, 0.05).unwrap();
     let model = damped();
-    let (unknown, left) = (top(&model), model.unknown(0, Direction::X).unwrap());
-    let brace = vec![(unknown, 1.0), (left, -1.0)];
+    let (dof, left) = (top(&model), model.dof(0, Direction::X).unwrap());
+    let brace = vec![(dof, 1.0), (left, -1.0)];
     let march = |structure: WithSprings| {
         let mut simulation = on_soil(structure).build().unwrap();
         let run = simulation.run(300, |_| {}).unwrap();
         (run.energy_balance.hysteresis, run.whole.base_shear.largest().value)
     };
     let expected = march(WithSprings::new(damped()).spring(brace.clone(), law()).unwrap());
-    let reduced = CraigBampton::new(60).keep(&[unknown]).reduce(model).unwrap();
+    let reduced = CraigBampton::new(60).keep(&[dof]).reduce(model).unwrap();
     let recovery = reduced.recovery();
-    let place = recovery.kept().iter().position(|kept| *kept == unknown).unwrap();
+    let place = recovery.kept().iter().position(|kept| *kept == dof).unwrap();
     let row = recovery.row(&brace[..]).unwrap();
     for (index, weight) in &row {
         let is_end = *index == place || recovery.kept().get(*index) == Some(&left);
@@ -246,7 +246,7 @@ fn tall_meshes_stand() {
 fn without_mass_or_dofs_there_are_no_modes() {
     let mast = || {
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
-        (0..3).for_each(|unknown| mass.add(unknown, unknown, 1e4));
+        (0..3).for_each(|dof| mass.add(dof, dof, 1e4));
         stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
         let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
         MatrixModel::new(mass, stiffness, contact).unwrap()

@@ -20,9 +20,9 @@ fn on_base(mass: Triplets, stiffness: Triplets) -> Result<MatrixModel> {
     MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
 }
 
-/// Adds a column of stiffness `stiffness` from the base to the floor `unknown`.
-fn column(matrix: &mut Triplets, unknown: usize, stiffness: f64) {
-    matrix.add_outer([(unknown, 1.0), (0, -1.0), (2, HEIGHT)], stiffness);
+/// Adds a column of stiffness `stiffness` from the base to the floor `dof`.
+fn column(matrix: &mut Triplets, dof: usize, stiffness: f64) {
+    matrix.add_outer([(dof, 1.0), (0, -1.0), (2, HEIGHT)], stiffness);
 }
 
 /// Two floors at one height, with a spring between them, and a multiplier of coefficient
@@ -108,7 +108,7 @@ fn appended(entries: &[(usize, usize, f64)]) -> Result<MatrixModel> {
     on_base(mass, stiffness)
 }
 
-/// What a reduction or a file leaves of a massless unknown marches as without it.
+/// What a reduction or a file leaves of a massless degree of freedom marches as without it.
 #[test]
 fn masses_of_rounding_are_none() {
     let massless = history(appended(&[]).unwrap());

@@ -33,8 +33,8 @@ fn by_matrices(
             stiffness.add(column, row, change(value));
         }
     }
-    if let Some((unknown, share)) = support {
-        stiffness.add(unknown, unknown, share * largest);
+    if let Some((dof, share)) = support {
+        stiffness.add(dof, dof, share * largest);
     }
     MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap()
 }
@@ -68,18 +68,17 @@ fn weak_supports_are_refused_and_named() {
     for (place, direction, name) in
         [([0.0, 15.0], Direction::X, "to the right"), ([-1.0, 7.5], Direction::Y, "upwards")]
     {
-        let unknown = block
-            .unknown(block.mesh().nearest_node(place[0], place[1]).unwrap(), direction)
-            .unwrap();
+        let dof =
+            block.dof(block.mesh().nearest_node(place[0], place[1]).unwrap(), direction).unwrap();
         let stiffest = by_matrices(&block, |value| value, None);
         let mut entries = Triplets::new(block.dofs());
         stiffest.stiffness(&mut entries).unwrap();
         let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
         for share in [1e-9, 1e-7, 1e-5] {
-            let held = by_matrices(&block, |value| value, Some((unknown, share)));
+            let held = by_matrices(&block, |value| value, Some((dof, share)));
             match on_soil(held).build().err() {
-                Some(Error::Restrained { direction, force, unknown: found, share: beside }) => {
-                    assert_eq!((direction, found), (name, unknown), "{share:e}");
+                Some(Error::Restrained { direction, force, dof: found, share: beside }) => {
+                    assert_eq!((direction, found), (name, dof), "{share:e}");
                     assert!((force / (share * largest) - 1.0).abs() < 1e-3, "{share:e}: {force}");
                     assert!(beside > 0.2 * share && beside < 5.0 * share, "{share:e}: {beside:e}");
                 }
@@ -87,7 +86,7 @@ fn weak_supports_are_refused_and_named() {
             }
         }
     }
-    let top = wall().unknown(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
+    let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     for share in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
         let held = by_matrices(&wall(), |value| value, Some((top, share)));
         let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
@@ -107,7 +106,7 @@ fn rounding_is_no_support() {
     stands(wall_on_soil(by_matrices(&wall(), shuffled, None)));
     stands(wall_on_soil(by_matrices(&wall(), digits(12), None)));
     stands(wall_on_soil(wall()));
-    let top = wall().unknown(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
+    let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     let reduced = CraigBampton::new(10).keep(&[top]).reduce(wall()).unwrap();
     stands(wall_on_soil(reduced));
 }

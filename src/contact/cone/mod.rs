@@ -1,0 +1,310 @@
+//! Contact with uplift and friction in plan: Signorini's law and Coulomb's, whose shear is bounded by a disc.
+//!
+//! 1. Where nothing slid in the step before, its statuses are tried, with factors made once while they stay.
+//! 2. Sweeps over the elements, from the forces of the step before.
+//! 3. Newton's method, and both again from where it has led.
+//! 4. The proximal point method around both.
+//!
+//! W is symmetric and positive definite, so that a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); by small
+//! friction there is one. The shear of a sliding element lies on its disc against the slip of the same solution: its
+//! friction work is never negative.
+//!
+//! A bond bears tension, and shear without pressure, up to its strength. Elements that have opened beyond it lose it in the
+//! step, which is then solved again: at most once for each.
+
+mod newton;
+mod problem;
+mod proximal;
+mod sweeps;
+
+use super::method::SearchMethod;
+use super::problem::{ContactInput, ContactSolver};
+use crate::error::{LawError, StepError};
+use crate::geometry::{ContactLayout, SPACE};
+use crate::interface::{Limits, Mode};
+use crate::linalg::largest;
+use newton::{Newton, Normal, Status, Tangential};
+use problem::{Bounds, Problem};
+use proximal::Proximal;
+
+/// Most sweeps of a round.
+const SWEEPS: usize = 60;
+/// Rounds of sweeps and Newton's method, alone and within the proximal method.
+const ROUNDS: usize = 12;
+/// Gap of a bond that is gone, relative to the largest displacement.
+const GONE: f64 = 1e-12;
+
+/// The problem, the methods and what they have found.
+pub(super) struct Cone {
+    problem: Problem,
+    newton: Newton,
+    proximal: Proximal,
+    areas: Vec<f64>,
+    /// Compliance of each element's layer, in W.
+    layers: Vec<[f64; 2]>,
+    /// Number of the W that is held, if it is.
+    generation: Option<usize>,
+    /// Elements whose bonds have gone in this step.
+    broken: Vec<bool>,
+}
+
+impl Cone {
+    /// For elements of these areas, m².
+    pub(super) fn new(areas: &[f64]) -> Self {
+        let count = areas.len();
+        Self {
+            problem: Problem::new(count),
+            newton: Newton::new(count),
+            proximal: Proximal::new(count),
+            areas: areas.to_vec(),
+            layers: vec![[0.0; 2]; count],
+            generation: None,
+            broken: vec![false; count],
+        }
+    }
+
+    /// Finds `modes`, starting from those given; the solver then holds the solution. Returns the number of iterations
+    /// and the last method that was needed.
+    pub(super) fn solve(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+    ) -> Result<(usize, SearchMethod), StepError> {
+        self.take(solver.generation, input)?;
+        let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
+        modes.iter_mut().for_each(|mode| *mode = mode.in_plan());
+        let tried = self.repeat(modes);
+        if tried {
+            trials += 1;
+        }
+        if !(tried && self.problem.is_solved()) {
+            self.begin(input);
+            loop {
+                let (iterations, found) = self.search();
+                trials += iterations;
+                let Some(found) = found else { return Err(self.failure(trials)) };
+                method = method.max(found);
+                self.newton.classify(&self.problem, false);
+                if !self.break_bonds(GONE * input.length_scale) {
+                    break;
+                }
+            }
+            self.name(modes);
+        }
+        let layout = ContactLayout::new(SPACE, self.areas.len());
+        for (i, traction) in solver.traction.iter_mut().enumerate() {
+            let [_, e] = layout.origin(i);
+            *traction = self.problem.r[i] / self.areas[e] - input.static_traction[i];
+        }
+        StepError::check_finite("contact traction", &solver.traction)?;
+        solver.evaluate(input);
+        Ok((trials, method))
+    }
+
+    /// Takes over W, q and the limits of the laws.
+    fn take(&mut self, generation: usize, input: &ContactInput<'_>) -> Result<(), LawError> {
+        self.find_operator(generation, input)?;
+        let Self { problem, areas, layers, .. } = self;
+        self.broken.fill(false);
+        problem.scale = 0.0;
+        for (e, &area) in areas.iter().enumerate() {
+            let start = input.start.of(e);
+            let limits = limits(input, e)?;
+            let bounds = bounds(&limits, area);
+            problem.bounds[e] = bounds;
+            for own in [bounds.attraction, bounds.strength, -bounds.interval[0]] {
+                problem.scale = problem.scale.max(own);
+            }
+            let (jump, shear) = (start.state.jump(), start.state.traction());
+            for (component, i) in problem.places(e).into_iter().enumerate() {
+                problem.anchor[i] = area * input.static_traction[i];
+                problem.q[i] = input.free_jump[i];
+                // A layer begins where it was, and a slip counts from there.
+                let layer = layers[e][component.min(1)];
+                let begin = if component == 0 { 0.0 } else { shear[component] };
+                problem.q[i] += layer * (input.static_traction[i] - begin);
+                if component > 0 {
+                    problem.q[i] -= jump[component];
+                }
+            }
+        }
+        problem.scale = problem.scale.max(largest(&problem.anchor));
+        let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |most, rho| most.max(*rho));
+        problem.finest = 4.0 * f64::EPSILON * input.length_scale * stiffest;
+        Ok(())
+    }
+
+    /// Takes over W, with the layers of the laws, if either has changed.
+    fn find_operator(
+        &mut self,
+        generation: usize,
+        input: &ContactInput<'_>,
+    ) -> Result<(), LawError> {
+        for e in 0..self.areas.len() {
+            let layer = input.law(e).compliance(Mode::Stick, &input.start.of(e));
+            if layer != self.layers[e] {
+                for (value, quantity) in
+                    layer.into_iter().zip(["normal compliance", "shear compliance"])
+                {
+                    if !(value >= 0.0 && value.is_finite()) {
+                        let mode = Mode::Stick.word();
+                        return Err(LawError::NotFinite { element: e, mode, quantity, value });
+                    }
+                }
+                self.layers[e] = layer;
+                self.generation = None;
+            }
+        }
+        if self.generation == Some(generation) {
+            return Ok(());
+        }
+        let Self { problem, areas, layers, .. } = self;
+        let (size, count) = (problem.size(), areas.len());
+        for (row, values) in problem.w.chunks_exact_mut(size).enumerate() {
+            for (column, value) in values.iter_mut().enumerate() {
+                *value = input.delassus[row * size + column] / areas[column % count];
+            }
+            values[row] += layers[row % count][(row / count).min(1)] / areas[row % count];
+        }
+        problem.find_scales();
+        self.newton.forget();
+        self.generation = Some(generation);
+        Ok(())
+    }
+
+    /// Solves for the statuses of the step before; false if an element slid.
+    fn repeat(&mut self, modes: &[Mode]) -> bool {
+        let Self { newton, problem, .. } = self;
+        for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
+            let smooth = bounds.friction == 0.0 && !bounds.has_bond();
+            *status = match mode {
+                Mode::Open if !bounds.bonded => Status::OPEN,
+                _ if mode.is_slip() && !smooth && !bounds.bonded => return false,
+                _ => Status {
+                    normal: if mode.is_yield() { Normal::Capped } else { Normal::Closed },
+                    tangential: if smooth && !bounds.bonded {
+                        Tangential::Free
+                    } else {
+                        Tangential::Stick
+                    },
+                },
+            };
+            let capped = status.normal == Normal::Capped;
+            if capped && bounds.interval[1] == f64::INFINITY {
+                return false;
+            }
+        }
+        newton.step(problem)
+    }
+
+    /// The forces that the step begins with.
+    fn begin(&mut self, input: &ContactInput<'_>) {
+        for (e, area) in self.areas.iter().enumerate() {
+            let traction = input.start.state(e).traction();
+            for (i, traction) in self.problem.places(e).into_iter().zip(traction) {
+                self.problem.r[i] = area * traction;
+            }
+        }
+    }
+
+    /// One method after the other: iterations, and the last that was needed.
+    fn search(&mut self) -> (usize, Option<SearchMethod>) {
+        let Self { problem, newton, proximal, .. } = self;
+        let (iterations, found) = rounds(problem, newton);
+        if found.is_some() {
+            return (iterations, found);
+        }
+        let mut all = iterations;
+        let found = proximal.solve(problem, |problem| {
+            newton.forget();
+            let (iterations, found) = rounds(problem, newton);
+            all += iterations;
+            found.is_some()
+        });
+        newton.forget();
+        (all, found.then_some(SearchMethod::Proximal))
+    }
+
+    /// Takes the bonds of elements that have opened; whether there were any.
+    fn break_bonds(&mut self, gone: f64) -> bool {
+        let mut any = false;
+        for (e, status) in self.newton.statuses.iter().enumerate() {
+            let bounds = &mut self.problem.bounds[e];
+            let gap = self.problem.y[e] - bounds.offset;
+            if status.normal == Normal::Open && bounds.has_bond() && gap > gone {
+                *bounds = bounds.broken();
+                (self.broken[e], any) = (true, true);
+            }
+        }
+        any
+    }
+
+    /// Modes of the statuses.
+    fn name(&self, modes: &mut [Mode]) {
+        for (e, (mode, status)) in modes.iter_mut().zip(&self.newton.statuses).enumerate() {
+            // A bond at its strength holds, and one that is gone is gone for good.
+            let held = self.problem.bounds[e].has_bond();
+            let slides = status.tangential != Tangential::Stick || self.broken[e];
+            let closed = if slides { Mode::Slip } else { Mode::Stick };
+            *mode = match status.normal {
+                Normal::Open if !held => Mode::Open,
+                Normal::Capped => closed.yielding(),
+                _ => closed,
+            };
+        }
+    }
+
+    fn failure(&mut self, iterations: usize) -> StepError {
+        let problem = &mut self.problem;
+        let residual = problem.residual();
+        let tolerance = problem.tolerance();
+        let missed = |e: &usize| !(problem.miss(*e) <= tolerance);
+        let elements = (0..problem.count).filter(missed).collect();
+        let scale = largest(&problem.r).max(problem.scale).max(f64::MIN_POSITIVE);
+        StepError::Cone { iterations, residual: residual / scale, elements }
+    }
+}
+
+/// Sweeps and Newton's method in turn: iterations, and the last that was needed.
+fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMethod>) {
+    let mut all = 0;
+    for round in 0..ROUNDS {
+        let (sweeps, found) = problem.sweep(SWEEPS);
+        all += sweeps;
+        if found {
+            let alone = SearchMethod::GaussSeidel;
+            return (all, Some(if round == 0 { alone } else { SearchMethod::Newton }));
+        }
+        let (iterations, found) = newton.solve(problem, round % 2 == 1);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+        // From forces that are none.
+        if problem.r.iter().any(|r| !r.is_finite()) {
+            problem.r.fill(0.0);
+        }
+    }
+    (all, None)
+}
+
+/// Limits of an element's law, all of them numbers.
+fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
+    let (law, start) = (input.law(element), input.start.of(element));
+    let mode = start.mode.word();
+    let refused = |reason| LawError::Refused { element, mode, reason: Box::new(reason) };
+    law.limits(&start).and_then(Limits::checked).map_err(refused)
+}
+
+/// The same of an area, m².
+fn bounds(limits: &Limits, area: f64) -> Bounds {
+    Bounds {
+        friction: limits.friction,
+        attraction: limits.attraction * area,
+        strength: limits.shear_strength * area,
+        interval: [-limits.tension * area, limits.pressure_cap * area],
+        offset: limits.gap_offset,
+        bonded: limits.bonded,
+    }
+}

@@ -1,0 +1,75 @@
+//! Limits of an element's tractions, for contact in plan.
+
+use crate::error::{Error, Result, finite, not_negative};
+
+/// What bounds the tractions of an element in plan during a step: see [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
+///
+/// | | |
+/// |---|---|
+/// | pressure p | −`tension` ≤ p ≤ `pressure_cap` |
+/// | gap g | `gap_offset` or more where p = −`tension`, less where p is at the cap, else `gap_offset` |
+/// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
+/// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
+///
+/// An element that has opened with a tension, an attraction or a shear strength loses them in that step. Layers give way
+/// by [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick beside. The default is smooth and
+/// hard contact.
+///
+/// ```
+/// use basemat::interface::{Coulomb, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
+/// let start = PreviousContact::new(ContactState::default(), Mode::Stick, 0.01);
+/// let limits = Coulomb::new(0.4)?.limits(&start)?;
+/// assert_eq!(limits, Limits { friction: 0.4, ..Limits::default() });
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Friction coefficient; infinite where nothing slides.
+    pub friction: f64,
+    /// Pressure that friction acts on beside p, Pa.
+    pub attraction: f64,
+    /// Shear traction that is borne beside friction, Pa.
+    pub shear_strength: f64,
+    /// Tensile strength, Pa.
+    pub tension: f64,
+    /// Greatest pressure, Pa; infinite for none.
+    pub pressure_cap: f64,
+    /// Gap of a closed element, m; −∞ for one that cannot close in this step.
+    pub gap_offset: f64,
+    /// Whether base and soil neither separate nor slide, whatever the tractions.
+    pub bonded: bool,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            friction: 0.0,
+            attraction: 0.0,
+            shear_strength: 0.0,
+            tension: 0.0,
+            pressure_cap: f64::INFINITY,
+            gap_offset: 0.0,
+            bonded: false,
+        }
+    }
+}
+
+impl Limits {
+    /// The same, if all are possible.
+    pub(crate) fn checked(self) -> Result<Self> {
+        for (quantity, value) in
+            [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]
+        {
+            if value.is_nan() || value < 0.0 {
+                return Err(Error::Input { quantity, value, needed: "zero or more, or infinite" });
+            }
+        }
+        not_negative("attraction of the interface", self.attraction)?;
+        not_negative("shear strength of the interface", self.shear_strength)?;
+        not_negative("tensile strength of the interface", self.tension)?;
+        if self.gap_offset != f64::NEG_INFINITY {
+            finite("gap of a closed element", self.gap_offset)?;
+        }
+        Ok(self)
+    }
+}

@@ -1,0 +1,334 @@
+//! Storey building in plan on a rigid mat.
+
+use super::rigid_body::RigidBody;
+use super::section::SectionRows;
+use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::structure::hysteresis::{Hysteresis, Springs};
+use crate::structure::{
+    ContactNode, DofCombination, FaceNode, NonlinearForce, Structure, Triplets,
+};
+
+/// Storey of a [`StoreyBuilding`]: the columns and walls, and the rigid floor that they carry. Places are from the
+/// middle of the mat's base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct PlanStorey {
+    /// Height of the columns, m.
+    pub height: f64,
+    /// Mass of the floor on top, kg.
+    pub mass: f64,
+    /// Moments of inertia of that floor about axes along x, y and z through its centre of mass, kg m².
+    pub inertia: [f64; 3],
+    /// Centre of mass of that floor, `[x, y]` in m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mass_center: [f64; 2],
+    /// Sway stiffness along x and y (N/m), and stiffness against twist (N m) about the centre of stiffness.
+    pub stiffness: [f64; 3],
+    /// Centre of stiffness, `[x, y]` in m: a shear force through it does not twist the storey.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub stiffness_center: [f64; 2],
+    /// Dashpots beside the three stiffnesses, N s/m and N m s.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub damping: [f64; 3],
+}
+
+impl PlanStorey {
+    /// Storey with a homogeneous rectangular floor (sides along x and y, m) above the middle of the mat, without
+    /// eccentricities and dashpots.
+    pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
+        let [along, across] = [length, width].map(|side| mass * side * side / 12.0);
+        Self {
+            height,
+            mass,
+            inertia: [across, along, along + across],
+            mass_center: [0.0; 2],
+            stiffness,
+            stiffness_center: [0.0; 2],
+            damping: [0.0; 3],
+        }
+    }
+}
+
+/// Rigid floors on sway columns and walls, on a rigid mat in plan.
+///
+/// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from below,
+/// the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not shorten: all
+/// floors rise and tilt with the mat, and a storey deforms by what remains of the motion of one floor relative to the
+/// other after the tilt. Along one axis and without eccentricities it is a
+/// [`ShearBuilding`](crate::structure::ShearBuilding).
+///
+/// Modal damping is that of [`ModalDamping`](crate::structure::ModalDamping); single walls and dampers anywhere in plan
+/// are [`WithSprings`](crate::structure::WithSprings) on a [`drift_at`](StoreyBuilding::drift_at).
+///
+/// ```
+/// use basemat::structure::{ModalDamping, PlanStorey, RigidBody, StoreyBuilding};
+///
+/// let mat = RigidBody::cuboid([18.0, 12.0, 1.0], 2500.0)?;
+/// let storey = PlanStorey::new(3.2, 250.0e3, [18.0, 12.0], [4.0e8, 3.0e8, 2.0e10]);
+/// // Walls of a staircase draw the centre of stiffness to one end.
+/// let storey = PlanStorey { stiffness_center: [-4.0, 0.0], ..storey };
+/// let building = StoreyBuilding::new(mat, &[storey; 5])?;
+/// assert_eq!(building.drift(0)?[1][..], [(7, 1.0), (8, -4.0), (1, -1.0), (5, 4.0), (3, 3.2)]);
+/// let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
+/// // Along y and about z, coupled; along x; and so on.
+/// assert_eq!(damped.frequencies().len(), 15);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct StoreyBuilding {
+    mat: RigidBody,
+    storeys: Vec<PlanStorey>,
+    /// Whether a law takes the place of a storey's stiffness, by direction.
+    has_law: Vec<[bool; 3]>,
+    springs: Springs,
+    gravity: f64,
+}
+
+short_debug! { StoreyBuilding; self; storeys: self.storeys, laws: self.springs.len() }
+
+impl StoreyBuilding {
+    /// Direction along x of [`StoreyBuilding::with_law`].
+    pub const ALONG: usize = 0;
+    /// Direction along y.
+    pub const ACROSS: usize = 1;
+    /// Twist about the vertical.
+    pub const TWIST: usize = 2;
+
+    /// Building on a mat, with its place and P–Δ; storeys from below, the first one's columns stand at height 0.
+    ///
+    /// # Errors
+    /// [`Error::Size`] without storeys; [`Error::Input`] unless each storey's height, mass, inertia about the vertical
+    /// and stiffnesses are positive, other inertias and dashpots not negative, and all numbers finite.
+    pub fn new(mat: RigidBody, storeys: &[PlanStorey]) -> Result<Self> {
+        if storeys.is_empty() {
+            return Err(Error::Size { quantity: "storeys", found: 0, needed: 1 });
+        }
+        for storey in storeys {
+            positive("height of a storey", storey.height)?;
+            positive("mass of a floor", storey.mass)?;
+            let [about_x, about_y, about_z] = storey.inertia;
+            not_negative("moment of inertia of a floor about x", about_x)?;
+            not_negative("moment of inertia of a floor about y", about_y)?;
+            positive("moment of inertia of a floor about the vertical", about_z)?;
+            for k in 0..3 {
+                positive("stiffness of a storey", storey.stiffness[k])?;
+                not_negative("damping of a storey", storey.damping[k])?;
+            }
+            for place in storey.mass_center.iter().chain(&storey.stiffness_center) {
+                finite("centre of a storey", *place)?;
+            }
+        }
+        let (has_law, springs) = (vec![[false; 3]; storeys.len()], Springs::default());
+        let building = Self { mat, storeys: storeys.to_vec(), has_law, springs, gravity: 0.0 };
+        finite("mass of the building", building.total_mass())?;
+        Ok(building)
+    }
+
+    /// The same building with `storey` (0: the lowest) following `law` in one `direction`:
+    /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The law
+    /// sees the storey's [`drift`](StoreyBuilding::drift) and takes the place of its stiffness there.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
+    pub fn with_law(
+        mut self,
+        storey: usize,
+        direction: usize,
+        law: impl Hysteresis + 'static,
+    ) -> Result<Self> {
+        let fault = Error::Index { quantity: "direction of a storey", index: direction, bound: 3 };
+        let row = self.drift(storey)?.into_iter().nth(direction).ok_or(fault)?;
+        if std::mem::replace(&mut self.has_law[storey][direction], true) {
+            return Err(Error::Scene { quantity: "law of a storey", needed: "one law at most" });
+        }
+        let dofs = self.dofs();
+        self.springs.add(row, Box::new(law), dofs)?;
+        Ok(self)
+    }
+
+    /// The same building with the P–Δ effect of the floors' weight: inextensible columns lower what they carry by
+    /// δ²/(2 h), δ the sway of the point below it. Columns that buckle are an error when a simulation is built.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.
+    pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
+        Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
+    }
+
+    /// Mass of mat and floors, kg.
+    pub fn total_mass(&self) -> f64 {
+        self.mat.total_mass() + self.storeys.iter().map(|storey| storey.mass).sum::<f64>()
+    }
+
+    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the
+    /// mat's base), as weighted sums of degrees of freedom.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn floor(&self, storey: usize, place: [f64; 2]) -> Result<[DofCombination; 3]> {
+        let bound = self.storeys.len();
+        if storey < bound {
+            return Ok(level(storey + 1, place));
+        }
+        Err(Error::Index { quantity: "storey", index: storey, bound })
+    }
+
+    /// Deformation of `storey` (0: the lowest) at its centre of stiffness: drifts along x and y, and twist.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn drift(&self, storey: usize) -> Result<[DofCombination; 3]> {
+        let place = self.storeys.get(storey).map_or([0.0; 2], |own| own.stiffness_center);
+        self.drift_at(storey, place)
+    }
+
+    /// Deformation of `storey` at `place` (m from the middle of the mat's base): drifts along x and y, and twist.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn drift_at(&self, storey: usize, place: [f64; 2]) -> Result<[DofCombination; 3]> {
+        self.floor(storey, place)?;
+        let height = self.storeys[storey].height;
+        let [along, across, twist] = sway(storey, place);
+        // The tilt of the mat carries the upper floor by r × (0, 0, h).
+        Ok([
+            along - DofCombination::from((ABOUT_Y, height)),
+            across + DofCombination::from((ABOUT_X, height)),
+            twist,
+        ])
+    }
+
+    /// Forces along x and y (N) that the floor on top of `storey` exerts on what is below, and their torque (N m) about
+    /// the centre of stiffness: of storey 0, those on the mat.
+    ///
+    /// They are taken from the inertia of the floors above, exact for whatever is in the storey; with the midpoint rule
+    /// they are the mean over the step.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn shear(&self, storey: usize) -> Result<[SectionRows; 3]> {
+        self.floor(storey, [0.0; 2])?;
+        let about = self.storeys[storey].stiffness_center;
+        let mut sums: [DofCombination; 3] = Default::default();
+        for (index, floor) in self.storeys.iter().enumerate().skip(storey) {
+            let [x, y] = [0, 1].map(|k| floor.mass_center[k] - about[k]);
+            let [along, across, twist] = level(index + 1, floor.mass_center);
+            sums[2] -= floor.mass * (x * across.clone() - y * along.clone());
+            sums[2] -= floor.inertia[2] * twist;
+            sums[0] -= floor.mass * along;
+            sums[1] -= floor.mass * across;
+        }
+        let mut units = ["N", "N", "N·m"].into_iter();
+        Ok(sums.map(|acceleration| SectionRows {
+            unit: units.next().unwrap_or_default(),
+            acceleration,
+            ..SectionRows::default()
+        }))
+    }
+
+    /// Adds lᵀl of each storey's deformations times a factor.
+    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> [f64; 3]) -> Result<()> {
+        for storey in 0..self.storeys.len() {
+            for (row, factor) in self.drift(storey)?.iter().zip(factor(storey)) {
+                matrix.add_outer(row, factor);
+            }
+        }
+        Ok(())
+    }
+}
+
+// Degrees of freedom of the mat.
+const ABOUT_X: usize = 3;
+const ABOUT_Y: usize = 4;
+
+/// Motion of a level at a place: the mat's base 0, floors from 1.
+fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
+    let first = 3 * level + 3;
+    let [along, across, twist] = if level == 0 { [0, 1, 5] } else { [first, first + 1, first + 2] };
+    let point = |own: usize, lever: f64| {
+        let turned = Some((twist, lever)).filter(|_| lever != 0.0);
+        std::iter::once((own, 1.0)).chain(turned).collect()
+    };
+    [point(along, -y), point(across, x), twist.into()]
+}
+
+/// Motion of the upper level of a storey less that of the lower one, the tilt of the mat left in.
+fn sway(storey: usize, place: [f64; 2]) -> [DofCombination; 3] {
+    let mut below = level(storey, place).into_iter();
+    level(storey + 1, place).map(|above| above - below.next().unwrap_or_default())
+}
+
+impl Structure for StoreyBuilding {
+    fn dofs(&self) -> usize {
+        6 + 3 * self.storeys.len()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        Vec::new()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.mat.contact_faces()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.mat.mass(matrix)?;
+        for (index, floor) in self.storeys.iter().enumerate() {
+            let [x, y] = floor.mass_center;
+            let [along, across, twist] = level(index + 1, floor.mass_center);
+            let [_, _, up] = self.mat.displacement_at([x, y, 0.0]);
+            for row in [along, across, up] {
+                matrix.add_outer(row, floor.mass);
+            }
+            let turns = [ABOUT_X.into(), ABOUT_Y.into(), twist];
+            for (row, inertia) in turns.iter().zip(floor.inertia) {
+                matrix.add_outer(row, inertia);
+            }
+        }
+        Ok(())
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.mat.stiffness(matrix)?;
+        self.add_drifts(matrix, |storey| {
+            let (stiffness, has_law) = (self.storeys[storey].stiffness, self.has_law[storey]);
+            [0, 1, 2].map(|k| if has_law[k] { 0.0 } else { stiffness[k] })
+        })?;
+        for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
+            for floor in &self.storeys[index..] {
+                let [along, across, twist] = sway(index, floor.mass_center);
+                let softening = -self.gravity / storey.height;
+                matrix.add_outer(along, softening * floor.mass);
+                matrix.add_outer(across, softening * floor.mass);
+                matrix.add_outer(twist, softening * floor.inertia[2]);
+            }
+        }
+        Ok(())
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add_drifts(matrix, |storey| self.storeys[storey].damping)
+    }
+
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.springs.nonlinear()
+    }
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.springs.nonlinear_mut()
+    }
+
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
+        const NAMES: [&str; 3] = ["u_x", "u_y", "r_z"];
+        let name = |dof: &usize| match dof.checked_sub(6) {
+            None => self.mat.describe(&[*dof]),
+            Some(own) if *dof < self.dofs() => {
+                Some(format!("{} of floor {}", NAMES[own % 3], own / 3))
+            }
+            Some(_) => None,
+        };
+        let names: Option<Vec<_>> = dofs.iter().map(name).collect();
+        Some(names?.join(", "))
+    }
+}

@@ -1,0 +1,103 @@
+//! Warnings of cells and steps that miss what a body in plan and its ground do.
+
+use basemat::bem::ElasticGround;
+use basemat::coupled::Warning;
+use basemat::interface::Bonded;
+use basemat::motion::{Record, Triaxial, el_centro_1940};
+use basemat::results::Run;
+use basemat::structure::RigidBody;
+use basemat::{Simulation, Soil};
+
+fn motion(record: Record, along_y: bool) -> Triaxial {
+    let [x, y] = if along_y { [None, Some(record)] } else { [Some(record), None] };
+    Triaxial { x, y, ..Triaxial::default() }
+}
+
+/// Five seconds of a bonded body, its largest rotation about an axis on the surface and its largest base shear.
+fn run(sides: [f64; 3], speed: f64, motion: Triaxial, cells: usize, step: f64) -> (Run, f64, f64) {
+    let body = RigidBody::cuboid(sides, 2000.0).unwrap();
+    let soil = Soil::from_shear_wave_speed(speed, 1.0 / 3.0, 1900.0).unwrap();
+    let mut simulation = Simulation::builder(step)
+        .ground(ElasticGround::under(soil, &body, cells).unwrap())
+        .structure(body)
+        .interface(Bonded)
+        .motion(motion)
+        .build()
+        .unwrap();
+    let (mut rotation, mut shear) = (0.0_f64, 0.0_f64);
+    let mut run = simulation
+        .run(simulation.steps_for(5.0), |state| {
+            let u = state.displacement();
+            rotation = rotation.max(u[3].hypot(u[4]));
+            let own = &state.foundations[0];
+            shear = shear.max(own.base_shear.hypot(own.shear_across));
+        })
+        .unwrap();
+    run.warnings.retain(|warning| !matches!(warning, Warning::Tension { .. }));
+    (run, rotation, shear)
+}
+
+/// The one warning of a run.
+fn only(run: &Run) -> Warning {
+    let [warning] = run.warnings[..] else { panic!("{:?}", run.warnings) };
+    assert!(run.to_string().contains(&format!("warning: {warning}")));
+    warning
+}
+
+/// The same along x and along y.
+#[test]
+fn cells_longer_than_a_twelfth_of_waves() {
+    let sides = [20.0, 20.0, 8.0];
+    let shake = |along_y, cells| run(sides, 60.0, motion(el_centro_1940(), along_y), cells, 5e-3);
+    for along_y in [false, true] {
+        let [(coarse, angle, _), (fine, wanted, _)] = [4, 9].map(|cells| shake(along_y, cells));
+        assert_eq!(fine.warnings, []);
+        let Warning::LongElements { element_length, wavelength, needed } = only(&coarse) else {
+            panic!("{:?}", coarse.warnings)
+        };
+        assert!((element_length - 20.0 / 3.79).abs() < 1e-12, "{element_length}");
+        assert!((needed - wavelength / 12.0).abs() < 1e-12 && needed < element_length);
+        assert!((angle / wanted - 1.0).abs() > 0.005, "{angle} {wanted}");
+    }
+}
+
+/// Of a mat twice as long as wide, the side with the fewer cells counts; unions of many cells do not.
+#[test]
+fn rows_and_columns_are_counted() {
+    let tall = [8.0, 4.0, 12.0];
+    let (few, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 2, 2e-3);
+    let wanted = Warning::FewElements { foundation: 0, elements: 2, needed: 4 };
+    assert_eq!(only(&few), wanted);
+    let (enough, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 4, 2e-3);
+    assert_eq!(enough.warnings, []);
+}
+
+/// A tower that rocks along y: steps that waves cross its base in damp it; a flat block follows the ground.
+#[test]
+fn steps_as_long_as_waves_take_across() {
+    let shake =
+        |height, step| run([10.0, 10.0, height], 400.0, motion(el_centro_1940(), true), 4, step);
+    let (fine, _, wanted) = shake(20.0, 2.5e-3);
+    assert_eq!(fine.warnings, []);
+    let (coarse, _, found) = shake(20.0, 1e-2);
+    let Warning::UnresolvedRadiation { crossing, time_step, needed } = only(&coarse) else {
+        panic!("{:?}", coarse.warnings)
+    };
+    assert!((crossing - 10.0 / 400.0).abs() < 0.1 * crossing && time_step == 1e-2);
+    assert!((needed - crossing / 8.0).abs() < 1e-15);
+    assert!((found / wanted - 1.0).abs() > 0.05, "{found} {wanted}");
+    let (flat, _, found) = shake(1.5, 1e-2);
+    assert_eq!(flat.warnings, []);
+    let (_, _, wanted) = shake(1.5, 2.5e-3);
+    assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
+}
+
+/// Steps that miss a motion along y alone.
+#[test]
+fn motions_along_y_are_judged() {
+    let slow = el_centro_1940().scaled(0.1).unwrap();
+    let fast = Record::new(0.002, slow.accelerations().to_vec()).unwrap();
+    let (run, _, _) = run([20.0, 20.0, 4.0], 2000.0, motion(fast, true), 4, 2e-2);
+    let found = |warning: &Warning| matches!(warning, Warning::UnresolvedMotion { .. });
+    assert!(run.warnings.iter().any(found), "{:?}", run.warnings);
+}
