@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use super::plan::Unions;
+use super::prepared::{Kept, Prepared};
 use super::{Ground, SharedKernels, WeightsSource};
-use crate::error::{CheckpointError, Error, Observer, Progress, Result, Watch};
+use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
-    HistoryOptions, RESERVED_STEPS, SavedChoice,
+    HistoryOptions, SavedChoice,
 };
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
@@ -128,94 +129,6 @@ short_debug! {
 /// Makes the history of a kernel.
 type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
-/// Kernel and history for one time step.
-struct Prepared {
-    kernel: Arc<dyn ConvolutionWeights>,
-    /// Left open until the number of steps is known or the first step is made.
-    history: Option<Kept>,
-}
-
-enum Kept {
-    Chosen(ChosenHistory),
-    Own(Box<dyn ConvolutionHistory>),
-}
-
-impl Kept {
-    fn any(&self) -> &dyn ConvolutionHistory {
-        match self {
-            Self::Chosen(history) => history,
-            Self::Own(history) => &**history,
-        }
-    }
-
-    fn any_mut(&mut self) -> &mut dyn ConvolutionHistory {
-        match self {
-            Self::Chosen(history) => history,
-            Self::Own(history) => &mut **history,
-        }
-    }
-}
-
-impl Prepared {
-    /// The history, made now if it has not been.
-    fn history(
-        &mut self,
-        options: HistoryOptions,
-        steps: Option<usize>,
-    ) -> Result<&mut dyn ConvolutionHistory> {
-        let history = match self.history.take() {
-            Some(history) => history,
-            None => Kept::Chosen(ChosenHistory::new(options, &self.kernel, steps)?),
-        };
-        let history = self.history.insert(history);
-        if let (Kept::Chosen(history), Some(steps)) = (&mut *history, steps) {
-            history.expect_steps(steps);
-        }
-        Ok(history.any_mut())
-    }
-
-    /// Makes ready for `steps` steps. What is stopped leaves no trace.
-    fn reserve(
-        &mut self,
-        options: HistoryOptions,
-        steps: usize,
-        observer: Option<&mut Observer<'_>>,
-    ) -> Result<()> {
-        let before = self.history.as_mut().map(|history| match history {
-            Kept::Chosen(history) => *history.expected(),
-            Kept::Own(_) => None,
-        });
-        let mut watch = observer.map_or_else(Watch::nobody, |observer| Watch::new("", 1, observer));
-        let mut outcome = Ok(());
-        if steps > 0 {
-            let history = self.history(options, Some(steps))?;
-            if steps <= history.steps().saturating_add(RESERVED_STEPS) {
-                outcome = match watch.observer() {
-                    Some(observer) => history.reserve_observed(steps, observer),
-                    None => history.reserve(steps),
-                };
-            }
-        }
-        let outcome = outcome.and_then(|()| watch.reach(1));
-        if let Err(Error::Stopped(_)) = outcome {
-            match (before, &mut self.history) {
-                (Some(before), Some(Kept::Chosen(history))) => *history.expected() = before,
-                (Some(_), _) => {}
-                (None, history) => *history = None,
-            }
-        }
-        outcome
-    }
-
-    /// What was chosen.
-    fn choice(&self) -> Option<HistoryChoice> {
-        match &self.history {
-            Some(Kept::Chosen(history)) => Some(history.choice()),
-            _ => None,
-        }
-    }
-}
-
 impl WeightsGround {
     /// The ground of `source` under `elements`, from left to right.
     ///
@@ -318,40 +231,7 @@ impl Ground for WeightsGround {
 
     fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
-        let Some(observer) = observer else { return prepared.reserve(self.options, steps, None) };
-        let exponentials =
-            prepared.choice().is_some_and(|choice| choice.kind == HistoryMethod::Exponentials);
-        let kernel = Arc::clone(&prepared.kernel);
-        let method = HistoryMethod::RelaxedFft;
-        let lags = self.options.prepared_steps(method, &*kernel, steps.max(1))?;
-        // As many as a history takes, by a power of two.
-        let lags = lags.checked_next_power_of_two().unwrap_or(lags);
-        let spectra = lags.saturating_mul(kernel.classes().count()) / SPECTRA + 1;
-        let mut whole = Progress { task: "step coefficients", done: 0, total: spectra };
-        // Exponentials have all weights that they need.
-        let weights = if exponentials {
-            Ok(())
-        } else {
-            kernel.prepare_observed(lags, &mut |Progress { done, total, task }| {
-                whole = Progress { task, done, total: total + spectra };
-                observer(whole)
-            })
-        };
-        let done = whole.total - spectra;
-        let outcome = weights.and_then(|()| {
-            prepared.reserve(
-                self.options,
-                steps,
-                Some(&mut |part| {
-                    whole.done = done + spectra * part.done / part.total.max(1);
-                    observer(whole)
-                }),
-            )
-        });
-        outcome.map_err(|error| match error {
-            Error::Stopped(_) => Error::Stopped(whole),
-            other => other,
-        })
+        prepared.expect_steps(self.options, steps, observer)
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
@@ -438,9 +318,6 @@ impl Ground for WeightsGround {
         }
     }
 }
-
-/// Lags of a class of which spectra are made in the time of a sample of layered ground.
-const SPECTRA: usize = 8192;
 
 const NOT_PREPARED: Error = Error::Scene {
     quantity: "ground",
