@@ -7,7 +7,7 @@ use crate::array::Numbers;
 use crate::names::mode_name;
 
 /// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
-/// (positive in compression) and ``shear`` (Pa); 0 by default.
+/// (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
 #[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
 pub(crate) struct PyContactState {
     /// Gap, m; positive when open.
@@ -18,26 +18,37 @@ pub(crate) struct PyContactState {
     pressure: f64,
     /// Shear traction of the structure on the soil, Pa; positive to the right.
     shear: f64,
+    /// Slip along y in plan, m; positive away.
+    slip_across: f64,
+    /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
+    shear_across: f64,
 }
 
 impl PyContactState {
     pub(super) fn of(state: &ContactState) -> Self {
-        let ContactState { gap, slip, pressure, shear } = *state;
-        Self { gap, slip, pressure, shear }
+        let ContactState { gap, slip, pressure, shear, slip_across, shear_across } = *state;
+        Self { gap, slip, pressure, shear, slip_across, shear_across }
     }
 
     pub(crate) fn core(&self) -> ContactState {
-        let Self { gap, slip, pressure, shear } = *self;
-        ContactState { gap, slip, pressure, shear }
+        let Self { gap, slip, pressure, shear, slip_across, shear_across } = *self;
+        ContactState { gap, slip, pressure, shear, slip_across, shear_across }
     }
 }
 
 #[pymethods]
 impl PyContactState {
     #[new]
-    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0))]
-    fn new(gap: f64, slip: f64, pressure: f64, shear: f64) -> Self {
-        Self { gap, slip, pressure, shear }
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, slip_across=0.0, shear_across=0.0))]
+    fn new(
+        gap: f64,
+        slip: f64,
+        pressure: f64,
+        shear: f64,
+        slip_across: f64,
+        shear_across: f64,
+    ) -> Self {
+        Self { gap, slip, pressure, shear, slip_across, shear_across }
     }
 }
 
