@@ -139,6 +139,30 @@ run = layered.run(duration=10.0)
 print(f"layered site: uplift {100.0 * run.uplifted_fraction.value:.0f} %, slip {1e3 * run.residual_slip:.1f} mm")
 
 # %% [markdown]
+# ## Three directions
+#
+# A tank on a square mat, shaken along x, along y and up. `RigidBody` stands on a ground in plan: `under` covers its base
+# with square cells, here four along a side. Forces are those of the whole body, N and N·m.
+
+# %%
+tank = bm.RigidBody.cuboid(8.0, 8.0, 10.0, density=400.0)
+soil = bm.Soil.from_shear_wave_speed(250.0, poisson=0.33, density=1900.0)
+shaken = bm.Simulation(
+    0.01,
+    tank,
+    bm.ElasticGround.under(soil, tank, 4),
+    bm.Bonded(),
+    motion=bm.triaxial(x=record, y=record.scaled(0.8), up=record.scaled(0.5)),
+    probes=[bm.Probe.displacement(f"rotation {axis}", tank.dof(axis)) for axis in ("rx", "ry")],
+)
+run = shaken.run(duration=10.0)
+for name in ("rotation rx", "rotation ry"):
+    print(f"{name}: {1e3 * abs(run[name]).max():.3f} mrad")
+side = [(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)]
+stiffness = bm.Plan([side], 8).impedances(soil, [0.0])[0].real
+print(f"static stiffness: vertical {stiffness[2, 2]:.3g} N/m, about x {stiffness[3, 3]:.3g} N·m")
+
+# %% [markdown]
 # Where the energy went in the first runs.
 
 # %%

@@ -40,7 +40,8 @@ mod _core {
     use crate::{
         cases::{case_numbers, merge_cases, save_cases},
         ground::{
-            PyElasticGround, PyGround, PyImpedances, PySharedKernels, PySpringGround, PyStrip,
+            PyElasticGround, PyGround, PyImpedances, PyPlan, PySharedKernels, PySpringGround,
+            PyStrip,
         },
         interface::{
             PyBonded, PyCohesive, PyCoulomb, PyInterfaceLaw, PyThinLayer, PyVariableFriction,
@@ -49,7 +50,8 @@ mod _core {
         memory::{memory_limit, set_memory_limit},
         motion::{
             PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,
-            el_centro_1940, free_field, log_spaced, ricker, travelling_wave, vertical_incidence,
+            el_centro_1940, free_field, log_spaced, ricker, travelling_wave, triaxial,
+            vertical_incidence,
         },
         probe::PyProbe,
         profile::{PyDampingLaw, PySoilLayer, PySoilProfile},
@@ -65,8 +67,8 @@ mod _core {
         structure::{
             PyBilinear, PyBoucWen, PyContactNode, PyFemModel, PyFrictionPendulum, PyGmshMesh,
             PyHysteresis, PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh,
-            PyRayleighDamping, PyReducedModel, PyRigidBlock, PyShearBuilding, PyStorey,
-            PyStructure, PyStructureGroup, PyWithModalDamping, PyWithSprings,
+            PyRayleighDamping, PyReducedModel, PyRigidBlock, PyRigidBody, PyShearBuilding,
+            PyStorey, PyStructure, PyStructureGroup, PyWithModalDamping, PyWithSprings,
         },
         ticker::cancel_when,
         user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance},

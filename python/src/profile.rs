@@ -9,7 +9,7 @@ use basemat::soil::{
 use pyo3::prelude::*;
 
 use crate::array::Numbers;
-use crate::error::OrRaise;
+use crate::error::{OrRaise, no_such};
 use crate::results::preformatted;
 use crate::soil::PySoil;
 
@@ -140,5 +140,22 @@ impl PySoilProfile {
 
     fn __repr__(&self) -> String {
         format!("SoilProfile({} layers, {} m)", self.0.layers().len(), self.0.depth())
+    }
+}
+
+/// A profile, given as such or as a soil.
+pub(crate) struct Profile(pub(crate) SoilProfile);
+
+impl<'py> FromPyObject<'_, 'py> for Profile {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(soil) = object.cast::<PySoil>() {
+            return Ok(Self(soil.get().0.into()));
+        }
+        match object.cast::<PySoilProfile>() {
+            Ok(profile) => Ok(Self(profile.get().0.clone())),
+            Err(_) => Err(no_such(&object, "a Soil or a SoilProfile")),
+        }
     }
 }

@@ -206,7 +206,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),
     "_Mass": lambda word: bm.FemModel(mesh(), mass=word),
     "_Formulation": lambda word: bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3), formulation=word),
-    "_Direction": lambda word: bm.FemModel(mesh()).dof(0, word),
+    "_Direction": lambda word: bm.FemModel(mesh()).dof_at(0, word),
     "_SpringDirection": lambda word: mesh().add_dashpots([[0, 1]], word, 1.0),
 }
 LITERALS = {

@@ -153,7 +153,7 @@ def test_frame_from_arrays_has_a_cantilevers_frequency_and_deflection() -> None:
     model = bm.FemModel(mesh, [9, 0, 10])
     stiffness, mass = model.stiffness(), model.mass()
     np.testing.assert_allclose(stiffness, stiffness.T, atol=1e-9 * stiffness.max())
-    base = [model.dof(node, way) for node in (9, 0, 10) for way in ("x", "y", "rotation")]
+    base = [model.dof_at(node, way) for node in (9, 0, 10) for way in ("x", "y", "rotation")]
     free = np.setdiff1d(np.arange(model.dofs), base)
     squares = scipy.linalg.eigh(
         stiffness[np.ix_(free, free)], mass[np.ix_(free, free)], eigvals_only=True
@@ -161,9 +161,9 @@ def test_frame_from_arrays_has_a_cantilevers_frequency_and_deflection() -> None:
     expected = 1.875104**2 * np.sqrt(modulus * second_moment / (density * area)) / length**2
     assert abs(np.sqrt(squares[0]) / expected - 1.0) < 1e-4
     load = np.zeros(model.dofs)
-    load[model.dof(8, "x")] = 1000.0
+    load[model.dof_at(8, "x")] = 1000.0
     deflection = np.linalg.solve(stiffness[np.ix_(free, free)], load[free])
-    tip = deflection[list(free).index(model.dof(8, "x"))]
+    tip = deflection[list(free).index(model.dof_at(8, "x"))]
     assert abs(tip / (1000.0 * length**3 / (3.0 * modulus * second_moment)) - 1.0) < 1e-9
 
 

@@ -159,7 +159,8 @@ def test_descriptions_show_how_they_were_made() -> None:
     assert repr(wave) == "PlaneWave.reversed()"
     assert repr(bm.ricker(0.1, 0.05, center=0.5)) == "ricker(0.1, 0.05, center=0.5)"
     state = bm.ContactState(gap=0.5, shear=-2.0)
-    assert repr(state) == "ContactState(gap=0.5, slip=0.0, pressure=0.0, shear=-2.0)"
+    across = "slip_across=0.0, shear_across=0.0"
+    assert repr(state) == f"ContactState(gap=0.5, slip=0.0, pressure=0.0, shear=-2.0, {across})"
     bases = {"FreeField", "Ground", "Hysteresis", "InterfaceLaw", "Structure"}
     classes = [getattr(bm, name) for name in bm.__all__ if not name.startswith("User")]
     classes = [own for own in classes if isinstance(own, type)]

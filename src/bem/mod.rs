@@ -18,6 +18,7 @@ mod influence;
 mod late_exponentials;
 pub mod layered;
 pub mod plan;
+mod prepared;
 mod shared;
 mod spring;
 mod static_kernel;

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use super::plan::Unions;
+use super::prepared::{Kept, Prepared};
 use super::{Ground, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
-    HistoryOptions, RESERVED_STEPS, SavedChoice,
+    HistoryOptions, SavedChoice,
 };
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
@@ -128,61 +129,6 @@ short_debug! {
 /// Makes the history of a kernel.
 type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
-/// Kernel and history for one time step.
-struct Prepared {
-    kernel: Arc<dyn ConvolutionWeights>,
-    /// Left open until the number of steps is known or the first step is made.
-    history: Option<Kept>,
-}
-
-enum Kept {
-    Chosen(ChosenHistory),
-    Own(Box<dyn ConvolutionHistory>),
-}
-
-impl Kept {
-    fn any(&self) -> &dyn ConvolutionHistory {
-        match self {
-            Self::Chosen(history) => history,
-            Self::Own(history) => &**history,
-        }
-    }
-
-    fn any_mut(&mut self) -> &mut dyn ConvolutionHistory {
-        match self {
-            Self::Chosen(history) => history,
-            Self::Own(history) => &mut **history,
-        }
-    }
-}
-
-impl Prepared {
-    /// The history, made now if it has not been.
-    fn history(
-        &mut self,
-        options: HistoryOptions,
-        steps: Option<usize>,
-    ) -> Result<&mut dyn ConvolutionHistory> {
-        let history = match self.history.take() {
-            Some(history) => history,
-            None => Kept::Chosen(ChosenHistory::new(options, &self.kernel, steps)?),
-        };
-        let history = self.history.insert(history);
-        if let (Kept::Chosen(history), Some(steps)) = (&mut *history, steps) {
-            history.expect_steps(steps);
-        }
-        Ok(history.any_mut())
-    }
-
-    /// What was chosen.
-    fn choice(&self) -> Option<HistoryChoice> {
-        match &self.history {
-            Some(Kept::Chosen(history)) => Some(history.choice()),
-            _ => None,
-        }
-    }
-}
-
 impl WeightsGround {
     /// The ground of `source` under `elements`, from left to right.
     ///
@@ -285,24 +231,7 @@ impl Ground for WeightsGround {
 
     fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
-        let exponentials =
-            prepared.choice().is_some_and(|choice| choice.kind == HistoryMethod::Exponentials);
-        // Exponentials have all weights that they need.
-        if let Some(observer) = observer.filter(|_| !exponentials) {
-            let kernel = &*prepared.kernel;
-            let method = HistoryMethod::RelaxedFft;
-            let lags = self.options.prepared_steps(method, kernel, steps.max(1))?;
-            // As many as a history takes, by a power of two.
-            kernel.prepare_observed(lags.checked_next_power_of_two().unwrap_or(lags), observer)?;
-        }
-        if steps == 0 {
-            return Ok(());
-        }
-        let history = prepared.history(self.options, Some(steps))?;
-        if steps > history.steps().saturating_add(RESERVED_STEPS) {
-            return Ok(());
-        }
-        history.reserve(steps)
+        prepared.expect_steps(self.options, steps, observer)
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {

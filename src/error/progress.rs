@@ -109,6 +109,11 @@ impl<'a> Watch<'a> {
         Self { observer: Some(observer), progress: Progress { task, done: 0, total } }
     }
 
+    /// Who looks on.
+    pub(crate) fn observer(&mut self) -> Option<&mut Observer<'a>> {
+        self.observer.as_deref_mut()
+    }
+
     /// Whether anybody looks on.
     pub(crate) fn is_observed(&self) -> bool {
         self.observer.is_some()

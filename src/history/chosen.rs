@@ -8,7 +8,7 @@ use super::direct::DirectHistory;
 use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
 use super::last_lag::LastLag;
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
-use crate::error::{Error, MemoryError, Result, memory};
+use crate::error::{Error, MemoryError, Observer, Result, memory};
 
 /// Steps for which exponentials are made that take over, times those that are behind them.
 const AHEAD: usize = 64;
@@ -73,6 +73,17 @@ impl ChosenHistory {
     /// Steps that an exact history is kept for.
     fn most(&self) -> usize {
         self.announced.map_or(self.room, |announced| self.room.max(announced))
+    }
+
+    /// Steps that are made ready for if so many come.
+    fn ready(&self, steps: usize) -> Result<usize> {
+        let steps = steps.min(self.most());
+        self.options.prepared_steps(self.choice.kind, &*self.kernel, steps)
+    }
+
+    /// Steps that are expected of it, to be put back.
+    pub(crate) fn expected(&mut self) -> &mut Option<usize> {
+        &mut self.announced
     }
 
     /// Makes the exponentials, without what came before.
@@ -165,9 +176,13 @@ impl ConvolutionHistory for ChosenHistory {
 
     /// Only for steps that it is kept for.
     fn reserve(&mut self, steps: usize) -> Result<()> {
-        let steps = steps.min(self.most());
-        let ready = self.options.prepared_steps(self.choice.kind, &*self.kernel, steps)?;
+        let ready = self.ready(steps)?;
         self.any_mut().reserve(ready)
+    }
+
+    fn reserve_observed(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        let ready = self.ready(steps)?;
+        self.any_mut().reserve_observed(ready, observer)
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {

@@ -20,6 +20,15 @@ pub trait ConvolutionHistory: Send {
     /// If a kernel cannot be evaluated.
     fn reserve(&mut self, steps: usize) -> Result<()>;
 
+    /// The same, with an observer; of what is quick there is nothing to hear (the default).
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for
+    /// [`ConvolutionHistory::reserve`].
+    fn reserve_observed(&mut self, steps: usize, _observer: &mut Observer<'_>) -> Result<()> {
+        self.reserve(steps)
+    }
+
     /// Overwrites `displacement` with the history at the end of the next step.
     ///
     /// # Errors

@@ -149,6 +149,13 @@ impl Contour {
             *value = finite("sample of a motion", *sample)? * window(i as f64);
         }
         let size = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if !size.is_finite() {
+            return Err(Error::Input {
+                quantity: "largest sample of a motion through a site",
+                value: largest(motion),
+                needed: "at most 1e150",
+            });
+        }
         let mut spectrum = forward.make_output_vec();
         let failed = |_| Error::Singular { matrix: "spectrum of a motion", order: length };
         forward.process(&mut values, &mut spectrum).map_err(failed)?;

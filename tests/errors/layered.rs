@@ -11,6 +11,7 @@ use basemat::bem::layered::{
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
 use basemat::history::{ConvolutionWeights, HistoryMethod, HistoryOptions};
 use basemat::interface::Bonded;
+use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{
     Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,
     SoilProfile,
@@ -88,6 +89,28 @@ fn profiles_are_validated() {
         assert!(Hysteretic::new(bad).is_err());
         assert!(GeneralizedMaxwell::constant_q(bad, [0.1, 10.0], 1.0).is_err());
     }
+}
+
+/// Numbers beyond those of a computer are named, with their layer.
+#[test]
+fn motions_through_extreme_sites_are_named() {
+    let column = |modulus: f64, thickness: f64| {
+        let profile = SoilProfile::on_half_plane(soil()).with_layer(soil(), 2.0).unwrap();
+        let profile = profile.with_layer(Soil::new(modulus, 0.3, 2e3).unwrap(), thickness).unwrap();
+        SoilColumn::new(profile, VerticalWave::Shear).unwrap()
+    };
+    let surface = |column: SoilColumn, sample: f64| {
+        column.to_surface(ControlPoint::Outcrop, 0.01, &[0.0, sample, 1.0]).map(drop)
+    };
+    assert_eq!(surface(column(1e8, 3.0), 1.0), Ok(()));
+    let stiff = surface(column(1e306, 1e-200), 1.0).unwrap_err().to_string();
+    assert!(stiff.contains("layer 2"), "{stiff}");
+    let found = surface(column(1e8, 3.0), 1e306);
+    let named = "largest sample of a motion through a site";
+    assert!(
+        matches!(found, Err(Error::Input { quantity, value: 1e306, .. }) if quantity == named),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -195,8 +218,9 @@ fn what_takes_too_much_memory_is_refused_beforehand() {
     let kernel = LayeredKernel::new(profile(), elements(), 0.005).unwrap();
     let kernel = kernel.with_time_limit(f64::INFINITY).unwrap();
     let most = 2.0_f64.powi(31);
+    // Stopped at once if it begins.
+    refused(kernel.prepare_observed(1 << 31, &mut |_| ControlFlow::Break(())), most);
     refused(kernel.prepare(1 << 31), most);
-    refused(kernel.prepare_observed(1 << 31, &mut |_| ControlFlow::Continue(())), most);
     let mut list = [0.0; 1];
     refused(kernel.coefficients(0, (1 << 31) - 1, [&mut list, &mut [0.0], &mut [0.0]]), most);
     let cost = kernel.cost(1 << 20).unwrap();

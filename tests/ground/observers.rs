@@ -111,24 +111,29 @@ fn response_spectra_are_watched_and_stopped() {
 }
 
 fn scene() -> SimulationBuilder {
+    scene_on(Strip::graded(-3.0..3.0, 4).unwrap())
+}
+
+fn scene_on(strip: Strip) -> SimulationBuilder {
     let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap();
     let profile = SoilProfile::on_half_plane(soil(500.0)).with_layer(soil(150.0), 6.0).unwrap();
     let block = RigidBlock::new(6.0, 9.0, 2000.0).unwrap();
     Simulation::builder(0.01)
-        .ground(ElasticGround::under(profile, &block, 4).unwrap())
+        .ground(ElasticGround::new(profile, strip).unwrap())
         .structure(block)
         .interface(Coulomb::new(0.3).unwrap())
         .motion(el_centro_1940())
 }
 
+fn states(mut simulation: Simulation) -> Vec<u64> {
+    let mut bits = vec![];
+    simulation.run(200, |state| bits.push(state.base_shear.to_bits())).unwrap();
+    bits
+}
+
 /// All of a run's coefficients at build time, or before the run; then the run hears of none.
 #[test]
 fn builds_and_runs_hand_their_observer_on() {
-    let states = |mut simulation: Simulation| {
-        let mut bits = vec![];
-        simulation.run(200, |state| bits.push(state.base_shear.to_bits())).unwrap();
-        bits
-    };
     let wanted = states(scene().build().unwrap());
     watched(
         |observer| Ok(states(scene().expected_steps(200).build_observed(observer)?)),
@@ -141,4 +146,37 @@ fn builds_and_runs_hand_their_observer_on() {
     let choice = simulation.ground().history_choice().unwrap();
     assert_eq!(choice.steps, Some(200));
     assert_eq!(states(simulation), wanted);
+}
+
+/// Spectra are made after the weights: heard of, stopped without a trace, and the end is heard at the end alone.
+#[test]
+fn spectra_are_watched_and_stopped() {
+    for strip in [Strip::graded(-3.0..3.0, 4), Strip::uniform(-3.0..3.0, 8)] {
+        let strip = strip.unwrap();
+        let wanted = states(scene_on(strip.clone()).build().unwrap());
+        let mut heard = vec![];
+        let mut twin = scene_on(strip.clone()).build().unwrap();
+        let all = twin.precompute(2000, &mut |progress| {
+            heard.push(progress);
+            Continue(())
+        });
+        assert_eq!(all, Ok(()));
+        let before_end = |progress: &&Progress| progress.done < progress.total;
+        let last = heard.iter().rfind(before_end).unwrap().done;
+        assert!(heard.iter().skip_while(before_end).count() <= 2);
+        assert!(heard.iter().filter(|progress| progress.done == last).count() > 1);
+
+        let mut simulation = scene_on(strip).build().unwrap();
+        let before = simulation.state().clone();
+        for _ in 0..2 {
+            let found = simulation.precompute(2000, &mut |progress| {
+                let is_last = progress.done + 1 >= progress.total;
+                if is_last { Break(()) } else { Continue(()) }
+            });
+            assert!(matches!(found, Err(Error::Stopped(_))), "{found:?}");
+            assert_eq!(simulation.ground().history_choice(), None);
+            assert_eq!(*simulation.state(), before);
+        }
+        assert_eq!(states(simulation), wanted);
+    }
 }

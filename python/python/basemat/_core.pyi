@@ -19,7 +19,9 @@ MODES: list[_Mode]
 STANDARD_GRAVITY: float
 """9.80665 m/s²."""
 
-_Mode: TypeAlias = Literal["stick", "slip left", "slip right", "open", "yield", "yield left", "yield right", "slip", "yield slip"]
+_Mode: TypeAlias = Literal[
+    "stick", "slip left", "slip right", "open", "yield", "yield left", "yield right", "slip", "yield slip"
+]
 _History: TypeAlias = Literal["auto", "direct", "relaxed fft", "exponentials"]
 _Grading: TypeAlias = Literal["cosine", "uniform"]
 _StripContact: TypeAlias = Literal["bonded", "relaxed"]
@@ -105,7 +107,7 @@ class Ground:
 @final
 class ElasticGround(Ground):
     """Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
-    elements on its surface: ``strips`` is a :class:`Strip` or a list of them.
+    elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
 
     ``history``: how the response to all past tractions is summed: "auto" (the default: whichever takes
     least time), "direct", "relaxed fft" or, without layers and damping, "exponentials".
@@ -120,7 +122,7 @@ class ElasticGround(Ground):
     def __new__(
         cls,
         soil: Soil | SoilProfile,
-        strips: Strip | Sequence[Strip],
+        strips: Strip | Sequence[Strip] | Plan,
         *,
         history: _History = "auto",
         history_tolerance: float | None = None,
@@ -145,7 +147,8 @@ class ElasticGround(Ground):
         kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
-        """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is.
+        """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
+        :class:`RigidBody` a :class:`Plan` with ``count`` cells along the shorter side of its base.
 
         ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -242,6 +245,26 @@ class Strip:
     @property
     def nodes(self) -> list[float]:
         """Ends of the elements: list of elements + 1 numbers, m."""
+
+@final
+class Plan:
+    """Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
+    cover, convex polygons by their corners (list of lists of x and y, m), with ``cells`` along the shorter side of them all.
+    """
+
+    def __new__(cls, faces: Sequence[Sequence[tuple[float, float]]], cells: int) -> Self: ...
+    @staticmethod
+    def disc(center: tuple[float, float], radius: float, cells: int) -> Plan:
+        """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
+    def __len__(self) -> int: ...
+    def impedances(
+        self, soil: Soil | SoilProfile, frequencies: ArrayLike, *, contact: _StripContact = "bonded"
+    ) -> NDArray[np.complex128]:
+        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (:class:`Soil` or :class:`SoilProfile`) for motions
+        e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
+        moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
+        "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
+        """
 
 @disjoint_base
 class InterfaceLaw:
@@ -1526,7 +1549,9 @@ class State:
 
 @final
 class FoundationState:
-    """A foundation at the end of a step; forces are those of the structure on the soil, per metre."""
+    """A foundation at the end of a step; forces are those of the structure on the soil, per metre
+    of thickness in the plane, of the whole body in plan (N and N·m).
+    """
 
     @property
     def elements(self) -> tuple[int, int]:
@@ -1549,6 +1574,15 @@ class FoundationState:
     @property
     def rotation(self) -> float:
         """Rotation of its chord, rad."""
+    @property
+    def shear_across(self) -> float:
+        """In plan: force on the soil along y, positive away, N."""
+    @property
+    def moment_across(self) -> float:
+        """In plan: moment on the soil about x, N·m."""
+    @property
+    def torque(self) -> float:
+        """In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m."""
 
 @final
 class Soil:
@@ -1653,6 +1687,43 @@ class RigidBlock(Structure):
         """The :class:`DofCombination` of the displacement to the right at a ``height`` (m) above the base."""
     def vertical_at(self, x: float) -> DofCombination:
         """The :class:`DofCombination` of the displacement up at ``x`` (m)."""
+
+@final
+class RigidBody(Structure):
+    """A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
+    x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for :meth:`dof`. It stands on
+    a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid` and :meth:`cylinder` make one.
+    """
+
+    @staticmethod
+    def cuboid(
+        length: float,
+        width: float,
+        height: float,
+        density: float,
+        *,
+        center: tuple[float, float] = (0.0, 0.0),
+        p_delta: float | None = None,
+    ) -> RigidBody:
+        """Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
+        ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
+        weight tips it once it leans; none unless given.
+        """
+    @staticmethod
+    def cylinder(
+        radius: float,
+        height: float,
+        density: float,
+        *,
+        center: tuple[float, float] = (0.0, 0.0),
+        p_delta: float | None = None,
+    ) -> RigidBody:
+        """Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
+        ``center`` and ``p_delta`` are those of :meth:`cuboid`, if given.
+        """
+    @property
+    def total_mass(self) -> float:
+        """Mass, kg."""
 
 @final
 class Storey:
@@ -1861,7 +1932,7 @@ class FemModel(Structure):
     ) -> Self: ...
     def row(self, node: int, direction: _Direction) -> DofCombination:
         """The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation"."""
-    def unknown(self, node: int, direction: _Direction) -> int | None:
+    def dof_at(self, node: int, direction: _Direction) -> int | None:
         """Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
         has none of its own.
         """
@@ -2157,7 +2228,7 @@ class Condition:
 @final
 class ContactState:
     """Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
-    (positive in compression) and ``shear`` (Pa); in plan ``slip_across`` and ``shear_across`` along y; 0 by default.
+    (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
     """
 
     @property
@@ -2174,10 +2245,10 @@ class ContactState:
         """Shear traction of the structure on the soil, Pa; positive to the right."""
     @property
     def slip_across(self) -> float:
-        """In plan: slip along y, m."""
+        """Slip along y in plan, m; positive away."""
     @property
     def shear_across(self) -> float:
-        """In plan: shear traction along y, Pa."""
+        """Shear traction of the structure on the soil along y in plan, Pa; positive away."""
     def __new__(
         cls,
         *,
@@ -2295,6 +2366,10 @@ def vertical_incidence(
 ) -> FreeField:
     """Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
     same everywhere at once; the one that is None rests.
+    """
+def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
+    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a :class:`Record`), the same everywhere at
+    once, for a ground in plan; what is None rests.
     """
 def travelling_wave(motion: FreeField, apparent_velocity: float, origin: float) -> FreeField:
     """A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if

@@ -5,17 +5,16 @@ use std::path::PathBuf;
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::history::{HistoryMethod, HistoryOptions};
-use basemat::soil::SoilProfile;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::PyGround;
 use super::impedance::{PyImpedances, contact};
+use super::plan::{self, PyPlan};
 use super::strip::{Strips, grading, under};
 use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, no_such};
-use crate::profile::PySoilProfile;
-use crate::soil::PySoil;
+use crate::error::OrRaise;
+use crate::profile::Profile;
 use crate::ticker::watched;
 
 /// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
@@ -43,7 +42,7 @@ impl PySharedKernels {
 }
 
 /// Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
-/// elements on its surface: ``strips`` is a :class:`Strip` or a list of them.
+/// elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
 ///
 /// ``history``: how the response to all past tractions is summed: "auto" (the default: whichever takes
 /// least time), "direct", "relaxed fft" or, without layers and damping, "exponentials".
@@ -58,19 +57,20 @@ pub(crate) struct PyElasticGround {
     make: Box<dyn Fn() -> basemat::Result<ElasticGround> + Send + Sync>,
 }
 
-/// Of a soil or a profile.
-struct Profile(SoilProfile);
+/// Elements in the plane or in plan.
+#[derive(Clone)]
+enum Elements {
+    Strips(Strips),
+    Plan(PyPlan),
+}
 
-impl<'py> FromPyObject<'_, 'py> for Profile {
+impl<'py> FromPyObject<'_, 'py> for Elements {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(soil) = object.cast::<PySoil>() {
-            return Ok(Self(soil.get().0.into()));
-        }
-        match object.cast::<PySoilProfile>() {
-            Ok(profile) => Ok(Self(profile.get().0.clone())),
-            Err(_) => Err(no_such(&object, "a Soil or a SoilProfile")),
+        match object.cast::<PyPlan>() {
+            Ok(plan) => Ok(Self::Plan(plan.get().clone())),
+            Err(_) => object.extract().map(Self::Strips),
         }
     }
 }
@@ -81,7 +81,7 @@ impl PyElasticGround {
     #[pyo3(signature = (soil, strips, *, history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
     fn new(
         soil: Profile,
-        strips: Strips,
+        strips: Elements,
         history: &str,
         history_tolerance: Option<f64>,
         #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
@@ -96,8 +96,11 @@ impl PyElasticGround {
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
         let make = move || {
-            let ground = ElasticGround::new(soil.0.clone(), strips.0.clone())?;
-            let mut ground = ground.with_history(options)?;
+            let ground = match &strips {
+                Elements::Strips(strips) => ElasticGround::new(soil.0.clone(), strips.0.clone()),
+                Elements::Plan(plan) => ElasticGround::in_plan(soil.0.clone(), plan.0.clone()),
+            };
+            let mut ground = ground?.with_history(options)?;
             if let Some(stages) = stages {
                 ground = ground.with_stages(stages);
             }
@@ -116,7 +119,8 @@ impl PyElasticGround {
         Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make) }))
     }
 
-    /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is.
+    /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
+    /// :class:`RigidBody` a :class:`Plan` with ``count`` cells along the shorter side of its base.
     ///
     /// ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -134,8 +138,12 @@ impl PyElasticGround {
         grading: &str,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let class = structure.py().get_type::<Self>();
+        if let Some(plan) = plan::under(&structure, count)? {
+            return class.call((soil, plan), options);
+        }
         let strips = under(&structure, count, self::grading(grading)?)?;
-        structure.py().get_type::<Self>().call((soil, strips), options)
+        class.call((soil, strips), options)
     }
 
     /// Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array

@@ -58,6 +58,7 @@ pub(super) fn under(
 }
 
 /// One strip, or a list of them.
+#[derive(Clone)]
 pub(super) struct Strips(pub(super) Vec<Strip>);
 
 impl<'py> FromPyObject<'_, 'py> for Strips {

@@ -12,5 +12,5 @@ pub(crate) use function::free_field;
 pub(crate) use record::{PyRecord, el_centro_1940};
 pub(crate) use spectrum::{PySpectrum, log_spaced};
 pub(crate) use waves::{
-    PyColumn, PyInclinedWave, PyPlaneWave, ricker, travelling_wave, vertical_incidence,
+    PyColumn, PyInclinedWave, PyPlaneWave, ricker, travelling_wave, triaxial, vertical_incidence,
 };

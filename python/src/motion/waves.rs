@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use basemat::Complex;
 use basemat::motion::{
-    FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, VerticalIncidence,
+    FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
 };
 use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
@@ -47,6 +47,25 @@ pub(crate) fn vertical_incidence(
     let ends = [&horizontal, &vertical].into_iter().flatten();
     let duration = ends.map(|record| record.get().0.duration()).reduce(f64::max);
     Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
+}
+
+/// Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a :class:`Record`), the same everywhere at
+/// once, for a ground in plan; what is None rests.
+#[pyfunction]
+#[pyo3(signature = (x=None, y=None, up=None))]
+pub(crate) fn triaxial(
+    x: Option<Bound<'_, PyRecord>>,
+    y: Option<Bound<'_, PyRecord>>,
+    up: Option<Bound<'_, PyRecord>>,
+) -> PyResult<PyFreeField> {
+    let given = [x, y, up];
+    let duration = given.iter().flatten().map(|record| record.get().0.duration());
+    let Some(duration) = duration.reduce(f64::max) else {
+        return Err(refuse("give a record along x, along y or up"));
+    };
+    let [x, y, up] = given.map(|record| record.map(|record| Record::clone(&record.get().0)));
+    let motion = Triaxial { x, y, up };
+    Ok(PyFreeField { duration: Some(duration), ..field(move || Ok(motion.clone()))? })
 }
 
 /// A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if

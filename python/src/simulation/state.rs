@@ -16,7 +16,8 @@ use crate::results::PyEnergyBalance;
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 
-/// A foundation at the end of a step; forces are those of the structure on the soil, per metre.
+/// A foundation at the end of a step; forces are those of the structure on the soil, per metre
+/// of thickness in the plane, of the whole body in plan (N and N·m).
 #[pyclass(name = "FoundationState", module = "basemat", frozen, get_all)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundation {
@@ -34,6 +35,12 @@ pub(crate) struct PyFoundation {
     mean_slip: f64,
     /// Rotation of its chord, rad.
     rotation: f64,
+    /// In plan: force on the soil along y, positive away, N.
+    shear_across: f64,
+    /// In plan: moment on the soil about x, N·m.
+    moment_across: f64,
+    /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
+    torque: f64,
 }
 
 getters! {
@@ -111,6 +118,9 @@ impl PyState {
             uplifted_fraction: foundation.uplifted_fraction,
             mean_slip: foundation.mean_slip,
             rotation: foundation.base_rotation,
+            shear_across: foundation.shear_across,
+            moment_across: foundation.moment_across,
+            torque: foundation.torque,
         };
         self.0.foundations.iter().map(own).collect()
     }

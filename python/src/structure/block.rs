@@ -1,6 +1,6 @@
-//! The rigid block.
+//! The rigid block, and the rigid body in three dimensions.
 
-use basemat::structure::RigidBlock;
+use basemat::structure::{RigidBlock, RigidBody};
 use pyo3::prelude::*;
 
 use super::PyStructure;
@@ -88,5 +88,73 @@ impl PyRigidBlock {
     /// The :class:`DofCombination` of the displacement up at ``x`` (m).
     fn vertical_at(&self, x: f64) -> PyDofCombination {
         self.0.vertical_at(x).into()
+    }
+}
+
+/// A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
+/// x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for :meth:`dof`. It stands on
+/// a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid` and :meth:`cylinder` make one.
+#[pyclass(name = "RigidBody", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyRigidBody(RigidBody);
+
+getters! {
+    PyRigidBody, own;
+    /// Mass, kg.
+    total_mass: f64 = own.0.total_mass();
+}
+
+fn body(
+    py: Python<'_>,
+    made: basemat::Result<RigidBody>,
+    center: [f64; 2],
+    p_delta: Option<f64>,
+) -> PyResult<Py<PyRigidBody>> {
+    let mut body = made.and_then(|body| body.centered_at(center)).or_raise()?;
+    if let Some(gravity) = p_delta {
+        body = body.with_p_delta(gravity).or_raise()?;
+    }
+    let names = ["x", "y", "z", "rx", "ry", "rz"].map(String::from).to_vec();
+    let base = PyStructure::copied(body.clone()).named(Some(DofNames::new(names, 6)?));
+    Py::new(py, PyClassInitializer::from(base).add_subclass(PyRigidBody(body)))
+}
+
+#[pymethods]
+impl PyRigidBody {
+    /// Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
+    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
+    /// weight tips it once it leans; none unless given.
+    #[staticmethod]
+    #[pyo3(
+        signature = (length, width, height, density, *, center=(0.0, 0.0), p_delta=None),
+        text_signature = "(length, width, height, density, *, center=(0.0, 0.0), p_delta=None)"
+    )]
+    fn cuboid(
+        py: Python<'_>,
+        length: f64,
+        width: f64,
+        height: f64,
+        density: f64,
+        center: (f64, f64),
+        p_delta: Option<f64>,
+    ) -> PyResult<Py<Self>> {
+        body(py, RigidBody::cuboid([length, width, height], density), center.into(), p_delta)
+    }
+
+    /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
+    /// ``center`` and ``p_delta`` are those of :meth:`cuboid`, if given.
+    #[staticmethod]
+    #[pyo3(
+        signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
+        text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"
+    )]
+    fn cylinder(
+        py: Python<'_>,
+        radius: f64,
+        height: f64,
+        density: f64,
+        center: (f64, f64),
+        p_delta: Option<f64>,
+    ) -> PyResult<Py<Self>> {
+        body(py, RigidBody::cylinder(radius, height, density), center.into(), p_delta)
     }
 }

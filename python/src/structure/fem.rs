@@ -94,7 +94,7 @@ impl PyFemModel {
 
     /// Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
     /// has none of its own.
-    fn dof(
+    fn dof_at(
         &self,
         #[pyo3(from_py_with = whole)] node: usize,
         direction: &str,

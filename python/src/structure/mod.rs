@@ -13,7 +13,7 @@ mod mesh;
 mod nonlinear;
 
 pub(crate) use base::{PyStructure, made, recipe};
-pub(crate) use block::PyRigidBlock;
+pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyShearBuilding, PyStorey};
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,

@@ -7,7 +7,7 @@ use crate::array::Numbers;
 use crate::names::mode_name;
 
 /// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
-/// (positive in compression) and ``shear`` (Pa); in plan ``slip_across`` and ``shear_across`` along y; 0 by default.
+/// (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
 #[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
 pub(crate) struct PyContactState {
     /// Gap, m; positive when open.
@@ -18,9 +18,9 @@ pub(crate) struct PyContactState {
     pressure: f64,
     /// Shear traction of the structure on the soil, Pa; positive to the right.
     shear: f64,
-    /// In plan: slip along y, m.
+    /// Slip along y in plan, m; positive away.
     slip_across: f64,
-    /// In plan: shear traction along y, Pa.
+    /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
     shear_across: f64,
 }
 

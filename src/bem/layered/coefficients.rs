@@ -36,6 +36,8 @@ pub(crate) const FIRST: usize = 128;
 pub(crate) const BLOCKS: usize = 25;
 /// Points of the circle per N of lags N+1 … 2N; 2N of the first block.
 const POINTS_PER_LAG: usize = 4;
+/// Tolerance of the integrals over that of coefficients: their errors are no reason to halve panels.
+const FINER: f64 = 0.03;
 /// Tolerance over its own with which a panel must look resolved before it is sampled: half of those at the limit are.
 pub(super) const DOUBT: f64 = 100.0;
 
@@ -127,7 +129,7 @@ impl Quadrature {
         time_step: f64,
         tolerance: f64,
     ) -> Self {
-        let integrals = Wavenumbers::new(classes, tolerance);
+        let integrals = Wavenumbers::new(classes, FINER * tolerance);
         Self::of(profile, integrals, own_classes(classes), stages, [time_step, tolerance])
     }
 }

@@ -27,7 +27,7 @@ use crate::text::check_sum::CheckSum;
 const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
 /// 1: of coefficients sampled at every point of their circles; 2: on panels; 3: over powers of z there; 4: where they
 /// look resolved.
-const FORMAT: u64 = 4;
+const FORMAT: u64 = 5;
 const HEADER: usize = 5;
 
 /// The blocks of a file, in order; none if there is no file, or one of another kernel or format.

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::level::Tables;
-use crate::error::Result;
+use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows, vectorized};
@@ -151,6 +151,9 @@ impl WithSimd for Scatter<'_> {
 /// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
 pub(crate) const LEAF: usize = 32;
 
+/// Parts in which the making of spectra is watched.
+pub(super) const PARTS: usize = 100;
+
 /// Inputs and outputs so far, and how blocks of one give blocks of the other.
 pub(crate) trait Blocks: Send {
     /// Steps for which there is room and for which all levels are ready. Where it is no power of
@@ -160,13 +163,24 @@ pub(crate) trait Blocks: Send {
     /// Real numbers held.
     fn numbers(&self) -> usize;
 
-    /// Makes ready for at least `steps` steps. Inputs and outputs stay as they are on an error.
-    fn grow(&mut self, kernel: &dyn ConvolutionWeights, steps: usize) -> Result<()>;
+    /// Makes ready for at least `steps` steps; `watch` hears of it in [`PARTS`]. Inputs and outputs stay as they are on
+    /// an error.
+    fn grow(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<()>;
 
     /// Makes ready for any number of steps, in memory that does not grow: no coefficient is other
     /// than zero beyond d = `reach`, a leaf times a power of two; of a lattice none counts from there on. To be called before
     /// the first step, in the place of [`Blocks::grow`], or where capacity is at most 2 `reach`.
-    fn bound(&mut self, kernel: &dyn ConvolutionWeights, reach: usize) -> Result<()>;
+    fn bound(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        reach: usize,
+        watch: &mut Watch,
+    ) -> Result<()>;
 
     /// Works the input of step `now` − 1 in, so that the output of `now` is complete.
     fn work_in(&mut self, now: usize);

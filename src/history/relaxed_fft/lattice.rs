@@ -268,7 +268,7 @@ impl Lattice {
         kernel: &dyn ConvolutionWeights,
         count: usize,
         coupled: usize,
-        mut accept: impl FnMut(usize, usize, &[f64]),
+        mut accept: impl FnMut(usize, usize, &[f64]) -> Result<()>,
     ) -> Result<()> {
         if let Offsets::Plan(lattice) = &self.offsets {
             return coefficients_in_plan(lattice, self.lengths, kernel, count, accept);
@@ -307,7 +307,7 @@ impl Lattice {
                     for (value, spectrum) in values.iter_mut().zip(&self.spectrum) {
                         *value = if odd { spectrum.im } else { spectrum.re };
                     }
-                    accept(kind, d, &values);
+                    accept(kind, d, &values)?;
                 }
             }
         }

@@ -16,7 +16,8 @@ use self::pairs::Pairs;
 use self::waves::Waves;
 use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory, check_inputs};
 use super::last_lag::LastLag;
-use crate::error::{CheckpointError, Error, Result, same_length};
+use crate::error::{CheckpointError, Error, Observer, Result, Watch, same_length};
+use crate::history::relaxed_fft::coefficients::PARTS;
 pub(crate) use crate::history::relaxed_fft::coefficients::{Blocks, LEAF};
 pub(crate) use crate::history::relaxed_fft::plan_spectra::waves_in_plan;
 pub use crate::history::relaxed_fft::wave_level::SharedSpectra;
@@ -152,8 +153,13 @@ impl RelaxedFftHistory {
         last.map_or(0, |last| (steps / last).saturating_sub(1) * last)
     }
 
+    /// Steps that are made ready for at the hint `steps`.
+    fn hinted(&self, steps: usize) -> usize {
+        steps.min(self.steps.saturating_add(LONGEST_HINT))
+    }
+
     /// Makes ready for at least `steps` steps.
-    fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
+    fn grow(&mut self, steps: usize, watch: &mut Watch) -> Result<&mut dyn Blocks> {
         let kernel = &*self.kernel;
         let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
             blocks
@@ -178,8 +184,8 @@ impl RelaxedFftHistory {
                 (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
             }
             match self.end {
-                Some(LastLag { lag, .. }) => blocks.bound(kernel, lag)?,
-                None => blocks.grow(kernel, steps)?,
+                Some(LastLag { lag, .. }) => blocks.bound(kernel, lag, watch)?,
+                None => blocks.grow(kernel, steps, watch)?,
             }
             if !inputs.is_empty() {
                 blocks.clear();
@@ -195,9 +201,9 @@ impl RelaxedFftHistory {
     /// Works the last input in, so that the next output is complete.
     fn settle(&mut self) -> Result<&mut dyn Blocks> {
         let (now, pending) = (self.steps, self.pending);
-        self.grow(now.saturating_add(1))?;
+        self.grow(now.saturating_add(1), &mut Watch::nobody())?;
         self.pending = false;
-        let blocks = self.grow(0)?;
+        let blocks = self.grow(0, &mut Watch::nobody())?;
         if pending {
             blocks.work_in(now);
         }
@@ -211,7 +217,13 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.grow(steps.min(self.steps.saturating_add(LONGEST_HINT))).map(|_| ())
+        self.grow(self.hinted(steps), &mut Watch::nobody()).map(|_| ())
+    }
+
+    fn reserve_observed(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        let mut watch = Watch::new("spectra of step coefficients", PARTS, observer);
+        self.grow(self.hinted(steps), &mut watch)?;
+        watch.reach(PARTS)
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
@@ -275,7 +287,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // Before there is room for them: a damaged number of steps may ask for any amount.
-        let width = self.grow(1)?.width();
+        let width = self.grow(1, &mut Watch::nobody())?.width();
         let corrupt = || CheckpointError::Corrupt { quantity: "memory of the history" };
         let (values, largest, last) = match (self.forgotten, values) {
             (None, values) => (values, 0.0, None),
@@ -288,11 +300,11 @@ impl ConvolutionHistory for RelaxedFftHistory {
         };
         let first = Self::first_kept(last, steps);
         check_inputs(steps - first, width, values)?;
-        self.grow(steps)?;
+        self.grow(steps, &mut Watch::nobody())?;
         if self.end.map(|end| end.lag) != last {
             return Err(corrupt().into());
         }
-        let blocks = self.grow(0)?;
+        let blocks = self.grow(0, &mut Watch::nobody())?;
         blocks.clear();
         march(blocks, first, values);
         self.largest = largest;
@@ -325,7 +337,7 @@ pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<B
         Some(lattice) => Box::new(Waves::new(lattice, kernel, LEAF)?),
         None => Box::new(Pairs::bounded(kernel, LEAF)?),
     };
-    blocks.bound(kernel, reach)?;
+    blocks.bound(kernel, reach, &mut Watch::nobody())?;
     Ok(blocks)
 }
 

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::coefficients::{Blocks, Class, Coefficients, LEAF};
+use super::coefficients::{Blocks, Class, Coefficients, LEAF, PARTS};
 use super::level::{Block, Level, Part, Ring, Tables, Work};
-use crate::error::Result;
+use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
@@ -76,6 +76,7 @@ impl Pairs {
         kernel: &dyn ConvolutionWeights,
         [first, end]: [usize; 2],
         near: &mut Option<Arc<Tables>>,
+        watch: &mut Watch,
     ) -> Result<Vec<Arc<Level>>> {
         let (count, classes) = (self.elements(), self.coefficients.classes.count());
         let mut levels = Vec::new();
@@ -92,6 +93,7 @@ impl Pairs {
         if length > 0 {
             let mut values = Class::new(length);
             for class in 0..classes {
+                watch.reach(PARTS * class / classes)?;
                 values.fill(kernel, class)?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
@@ -115,6 +117,7 @@ impl Pairs {
         kernel: &dyn ConvolutionWeights,
         wanted: usize,
         lags: usize,
+        watch: &mut Watch,
     ) -> Result<()> {
         let count = self.elements();
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
@@ -125,14 +128,14 @@ impl Pairs {
         {
             let mut shared = spectra.pairs();
             let mut near = shared.near.take();
-            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near, watch);
             shared.near.clone_from(&near);
             shared.levels.extend(more?);
             (shared.levels[..wanted].to_vec(), near)
         } else {
             let mut near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
             let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near, watch)?);
             (levels, near)
         };
         for level in &levels {
@@ -157,14 +160,19 @@ impl Blocks for Pairs {
             + self.work.numbers()
     }
 
-    fn grow(&mut self, kernel: &dyn ConvolutionWeights, steps: usize) -> Result<()> {
+    fn grow(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<()> {
         let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
         if capacity <= self.capacity {
             return Ok(());
         }
         let count = self.elements();
         let wanted = (capacity / self.leaf).ilog2() as usize;
-        self.take_levels(kernel, wanted, capacity)?;
+        self.take_levels(kernel, wanted, capacity, watch)?;
         // Inputs reach past the end of the capacity only by a coupling that is summed directly.
         let needed = capacity + self.coefficients.coupling_direct;
         let stride = needed.next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
@@ -179,8 +187,13 @@ impl Blocks for Pairs {
         Ok(())
     }
 
-    fn bound(&mut self, kernel: &dyn ConvolutionWeights, reach: usize) -> Result<()> {
-        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1, 2 * reach)?;
+    fn bound(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        reach: usize,
+        watch: &mut Watch,
+    ) -> Result<()> {
+        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1, 2 * reach, watch)?;
         self.ring = Ring(2 * reach);
         self.stride = (2 * reach).next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
         self.rows = vec![0.0; 2 * self.elements() * self.stride];

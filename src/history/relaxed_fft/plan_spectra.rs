@@ -20,7 +20,7 @@ pub(super) fn coefficients_in_plan(
     lengths: [usize; 2],
     kernel: &dyn ConvolutionWeights,
     count: usize,
-    mut accept: impl FnMut(usize, usize, &[f64]),
+    mut accept: impl FnMut(usize, usize, &[f64]) -> Result<()>,
 ) -> Result<()> {
     let [columns, rows] = lattice.counts;
     let own = lengths.map(|length| length / 2 + 1);
@@ -75,7 +75,7 @@ pub(super) fn coefficients_in_plan(
                     let [row, column] = [wave / own[0], wave % own[0]];
                     *value = both[(column * own[1] + row) * width + d];
                 }
-                accept(kind, begin + d, &values);
+                accept(kind, begin + d, &values)?;
             }
         }
     }

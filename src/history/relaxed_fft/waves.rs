@@ -7,12 +7,12 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::coefficients::{Blocks, LEAF};
+use super::coefficients::{Blocks, LEAF, PARTS};
 use super::lattice::Lattice;
 use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::Ring;
 use super::wave_level::{COUPLING, Near, Part, WaveLevel};
-use crate::error::Result;
+use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::linalg::vectorized;
 
@@ -88,6 +88,7 @@ impl Waves {
         kernel: &dyn ConvolutionWeights,
         [first, end]: [usize; 2],
         near: &mut Option<Arc<Near>>,
+        watch: &mut Watch,
     ) -> Result<Vec<Arc<WaveLevel>>> {
         let (waves, kinds) = (self.lattice.waves(), self.lattice.kinds());
         let mut levels: Vec<_> = (first..end)
@@ -98,7 +99,7 @@ impl Waves {
                 WaveLevel::new(size, waves, kinds, &mut self.planner)
             })
             .collect();
-        let own = self.fill(kernel, &mut levels, near.is_none())?;
+        let own = self.fill(kernel, &mut levels, near.is_none(), watch)?;
         near.get_or_insert(Arc::new(own));
         Ok(levels.into_iter().map(Arc::new).collect())
     }
@@ -109,6 +110,7 @@ impl Waves {
         kernel: &dyn ConvolutionWeights,
         levels: &mut [WaveLevel],
         wanted: bool,
+        watch: &mut Watch,
     ) -> Result<Near> {
         let (waves, kinds) = (self.lattice.waves().own, self.lattice.kinds());
         let near = wanted.then_some(self.leaf);
@@ -123,18 +125,23 @@ impl Waves {
         let mut table = vec![vec![0.0; near.unwrap_or(0) * waves]; kinds];
         let kept = lags.min(self.end.unwrap_or(lags));
         self.lattice.coefficients(kernel, kept, coupled, |kind, d, values| {
+            if kind == 0 && d.is_multiple_of(LEAF) {
+                watch.reach(PARTS / 2 * d / kept)?;
+            }
             if near.is_some_and(|leaf| d < leaf) {
                 table[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
             }
             if let Some(level) = largest[kind].and_then(|number| levels.get_mut(number)) {
                 level.keep(kind, d, values);
             }
+            Ok(())
         })?;
         let mut planner = RealFftPlanner::new();
         let (mut time, mut real) = (vec![0.0; lags], vec![0.0; lags]);
         for (kind, largest) in largest.into_iter().enumerate() {
             let Some(from) = largest else { continue };
             for wave in 0..waves {
+                watch.reach(PARTS / 2 + PARTS / 2 * (kind * waves + wave) / (kinds * waves))?;
                 levels[from].kept(kind, wave, &mut time);
                 for level in levels.iter_mut().filter(|level| level.has(kind)) {
                     let real = &mut real[..2 * level.size];
@@ -195,7 +202,12 @@ impl Waves {
 
     /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
     /// they are there, with scratch for their blocks.
-    fn take_levels(&mut self, kernel: &dyn ConvolutionWeights, wanted: usize) -> Result<()> {
+    fn take_levels(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        wanted: usize,
+        watch: &mut Watch,
+    ) -> Result<()> {
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
         let lags = self.leaf << wanted;
         kernel.prepare(lags.min(self.end.unwrap_or(lags)))?;
@@ -205,14 +217,14 @@ impl Waves {
         let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
             let mut shared = spectra.waves();
             let mut near = shared.near.take();
-            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near, watch);
             shared.near.clone_from(&near);
             shared.levels.extend(more?);
             (shared.levels[..wanted].to_vec(), near)
         } else {
             let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
             let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near, watch)?);
             (levels, near)
         };
         let zero = Complex::default();
@@ -245,7 +257,12 @@ impl Blocks for Waves {
             + self.lattice.numbers()
     }
 
-    fn grow(&mut self, kernel: &dyn ConvolutionWeights, steps: usize) -> Result<()> {
+    fn grow(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<()> {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
@@ -254,7 +271,7 @@ impl Blocks for Waves {
         // The first request is met exactly; later ones double the memory.
         let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let wanted = largest.ilog2() as usize;
-        self.take_levels(kernel, wanted)?;
+        self.take_levels(kernel, wanted, watch)?;
         if capacity > self.leaf {
             self.widen(capacity + PADDING);
         }
@@ -262,9 +279,14 @@ impl Blocks for Waves {
         Ok(())
     }
 
-    fn bound(&mut self, kernel: &dyn ConvolutionWeights, reach: usize) -> Result<()> {
+    fn bound(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        reach: usize,
+        watch: &mut Watch,
+    ) -> Result<()> {
         self.end = Some(reach);
-        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1)?;
+        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1, watch)?;
         self.widen(2 * reach + PADDING);
         (self.ring, self.capacity) = (Ring(2 * reach), usize::MAX);
         Ok(())
