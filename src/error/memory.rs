@@ -143,6 +143,23 @@ pub(crate) fn same_length(quantity: &'static str, found: usize, needed: usize) -
     if found == needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
 }
 
+impl Error {
+    /// [`Error::Name`] for a name that none of `known` is.
+    pub(crate) fn no_name<T: Into<String>>(
+        quantity: &'static str,
+        name: &str,
+        known: impl Iterator<Item = T>,
+    ) -> Self {
+        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
+    }
+}
+
+/// The first twelve of the names that there are.
+pub(crate) fn names(known: &[String]) -> String {
+    let listed = known[..known.len().min(12)].join(", ");
+    if known.is_empty() { listed } else { format!(", only {listed}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -161,21 +178,4 @@ mod tests {
         assert!(text(2e6).contains("about 2 MB of") && text(2e30).contains("about 2e21 GB of"));
         assert!(text(f64::INFINITY).contains("about inf GB of"));
     }
-}
-
-impl Error {
-    /// [`Error::Name`] for a name that none of `known` is.
-    pub(crate) fn no_name<T: Into<String>>(
-        quantity: &'static str,
-        name: &str,
-        known: impl Iterator<Item = T>,
-    ) -> Self {
-        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
-    }
-}
-
-/// The first twelve of the names that there are.
-pub(crate) fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(12)].join(", ");
-    if known.is_empty() { listed } else { format!(", only {listed}") }
 }
