@@ -65,7 +65,7 @@ fn structures_with_a_bad_base_are_refused() {
     let error = unbuilt("contact nodes", with(vec![ContactNode::free(0.0, 0, 1)]));
     assert!(matches!(error, Error::Size { found: 1, needed: 2, .. }));
     let far = vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(2.0, 0, 9)];
-    let error = unbuilt("unknown of a contact node", with(far));
+    let error = unbuilt("degree of freedom of a contact node", with(far));
     assert!(matches!(error, Error::Index { index: 9, bound: 3, .. }));
     refused("coordinate of a contact node", &NOT_FINITE, |x| {
         with(vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(x, 0, 1)]).build().map(drop)
