@@ -300,6 +300,11 @@ impl ConvolutionHistory for Double {
         Err(refusal())
     }
 
+    fn reserve_observed(&mut self, _: usize, _: &mut basemat::Observer<'_>) -> Result<()> {
+        self.0.asked("reserve_observed");
+        Err(refusal())
+    }
+
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         self.0.asked("evaluate");
         displacement.fill(CORRECT);

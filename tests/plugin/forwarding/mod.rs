@@ -137,6 +137,8 @@ fn boxed_histories() {
         let mut values = [0.0; 2];
         assert_eq!((part.steps(), part.memory()), (7, 5));
         assert_eq!(part.reserve(3), Err(doubles::refusal()));
+        let observer: &mut basemat::Observer<'_> = &mut |_| std::ops::ControlFlow::Continue(());
+        assert_eq!(part.reserve_observed(3, observer), Err(doubles::refusal()));
         part.evaluate(&mut values).unwrap();
         assert_eq!(values, [CORRECT; 2]);
         part.push(&values);
