@@ -318,7 +318,7 @@ pub trait InterfaceLaw: Send {
     /// Asked after a condition that is not finite: the reason, if the law knows it.
     ///
     /// # Errors
-    /// With the number behind it, as [`Error::Input`](crate::Error::Input) or
+    /// With the number behind it, as [`Error::Input`] or
     /// [`Error::part`](crate::Error::part).
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
@@ -331,8 +331,8 @@ pub trait InterfaceLaw: Send {
     /// The default is an error that names the law: it is one of the plane alone.
     ///
     /// # Errors
-    /// If the law has none for this element, as [`Error::Scene`](crate::Error::Scene),
-    /// [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part).
+    /// If the law has none for this element, as [`Error::Scene`],
+    /// [`Error::Input`] or [`Error::part`].
     fn limits(&self, _start: &PreviousContact) -> Result<Limits> {
         let quantity = std::any::type_name::<Self>();
         let quantity = quantity.rsplit("::").next().unwrap_or(quantity);
