@@ -188,7 +188,7 @@ fn mirrored(edge: &[usize], rows: usize) -> Vec<usize> {
 }
 
 /// Every setting takes samples at the coarsest step.
-const COARSE: f64 = 0.02;
+const COARSE: f64 = 0.01;
 
 /// Rotations about both axes (rad) or displacements along them (m) of a cube-like block under three records.
 fn block(
@@ -228,8 +228,8 @@ fn simulation_steps(duration: f64, step: f64) -> usize {
 
 /// Errors by `refine`, and what the picture shows of them.
 fn errors(short: bool) -> Result<(String, Figure), AnyError> {
-    let duration = if short { 0.2 } else { 5.0 };
-    let cells = if short { 2 } else { 5 };
+    let duration = if short { 0.2 } else { 2.5 };
+    let cells = if short { 2 } else { 4 };
     let mut text = String::new();
     let mut panel = Panel::new("run time, s", "error, relative (root of the sum of squares)")
         .double_logarithmic()
