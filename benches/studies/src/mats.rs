@@ -212,10 +212,10 @@ fn block(
             up: Some(late(0.4, 0.6)?),
             x: Some(record.clone()),
         })
-        .expected_steps(simulation_steps(duration, step))
+        .expected_steps(steps_in(duration, step))
         .build()?;
     let mut series = Vec::new();
-    simulation.run(simulation_steps(duration, step), |state| {
+    simulation.run(steps_in(duration, step), |state| {
         let place = state.time / COARSE;
         if (place - place.round()).abs() < 1e-6 {
             series.extend(dofs.map(|dof| state.displacement()[dof]));
@@ -225,9 +225,12 @@ fn block(
 }
 
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "thousands")]
-fn simulation_steps(duration: f64, step: f64) -> usize {
+fn steps_in(duration: f64, step: f64) -> usize {
     (duration / step).round() as usize
 }
+
+/// Results by number of cells and time step.
+type Scene<'a> = dyn Fn(usize, f64) -> basemat::Result<Vec<f64>> + 'a;
 
 /// Errors by `refine`, and what the picture shows of them.
 fn errors(short: bool) -> Result<(String, Figure), AnyError> {
@@ -238,7 +241,7 @@ fn errors(short: bool) -> Result<(String, Figure), AnyError> {
         .double_logarithmic()
         .legend(SeriesLabelPosition::LowerLeft);
     let lifts = Coulomb::new(FRICTION)?;
-    let cases: [(&str, _, &dyn Fn(usize, f64) -> basemat::Result<Vec<f64>>); 3] = [
+    let cases: [(&str, _, &Scene); 3] = [
         ("bonded, rotations", GREEN, &|n, step| block(Bonded, duration, [3, 4], (n, step))),
         ("lifts and slides, rotations", BLUE, &|n, step| block(lifts, duration, [3, 4], (n, step))),
         ("lifts and slides, displacements", RED, &|n, step| {
