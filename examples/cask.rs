@@ -7,7 +7,7 @@
 //! A cylinder of 3.4 m, 5.6 m high, on a stiff pad over soil of 200 m/s, shaken by three records at once. On friction
 //! 0.3 it slides, on 0.8 it rocks on its rim and walks along it. Newmark's block is rigid on rigid ground and knows one
 //! record; so does the slice, a wall of the same section, which stands on an edge instead of a rim. Sliding is the same
-//! to a few percent with other cells and steps; a walk hangs on every impact, and is not to a factor of three.
+//! to a few percent with other cells and steps; a walk hangs on every impact, and differs by factors of up to four.
 
 use basemat::bem::plan::Plan;
 use basemat::motion::Triaxial;
