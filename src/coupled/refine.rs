@@ -20,7 +20,7 @@ const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Setting {
-    /// Number of elements.
+    /// Number of elements; of cells along a side, where the scene takes it as that.
     pub elements: usize,
     /// Time step, s.
     pub time_step: f64,
@@ -63,6 +63,9 @@ pub struct Refinement {
 ///
 /// `scene` builds and runs with a number of elements and a time step (s), and returns results:
 /// a peak, some peaks, or a time series at times that all settings have (those of the coarsest).
+/// Elements are halved in length by twice their number: in plan it is that of cells along the shorter
+/// side, as [`ElasticGround::under`](crate::bem::ElasticGround::under) has it. Few cells may not resolve
+/// what long steps excite, and then errors of both compensate each other: refine both.
 /// Their error is the root of the sum of squares beside that of the extrapolated results, so
 /// results of different units belong in calls of their own. Time series converge evenly; peaks,
 /// and all that hangs on the instant of an impact, do so less.

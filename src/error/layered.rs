@@ -114,7 +114,7 @@ pub enum LayeredError {
     /// An inclined wave without a beginning in time.
     #[error(
         "wave is beyond the critical angle of layer {layer}: its horizontal slowness is {slowness} s/m, \
-         but must be below {limit} s/m, that of pressure waves there, to begin in time (its transfer \
+         but must be below {limit} s/m, that of its fastest waves there, to begin in time (its transfer \
          functions exist)"
     )]
     BeyondCritical {
@@ -122,7 +122,7 @@ pub enum LayeredError {
         layer: usize,
         /// Horizontal slowness of the wave, absolute, s/m.
         slowness: f64,
-        /// Slowness of pressure waves in the layer at the highest frequency of the motion, s/m.
+        /// Slowness of pressure waves (SH: shear waves) in the layer at the highest frequency of the motion, s/m.
         limit: f64,
     },
     /// Step coefficients that could give energy away.

@@ -1,14 +1,16 @@
-//! Inclined SV and P waves over a soil profile.
+//! Inclined SV, P and SH waves over a soil profile.
 
 use std::f64::consts::{PI, TAU};
 
 use super::sampled::Sampled;
-use super::slowness::{Medium, surface_motion};
+use super::slowness::{Medium, surface_motion, surface_motion_across};
 use super::transform::SiteMotion;
 use super::transform::{Contour, Place};
 use crate::error::{LayeredError, Result, finite, not_negative, positive};
 use crate::linalg::Complex;
-use crate::motion::{PlaneWave, Record, TravellingWave, VerticalIncidence, check_prescribed};
+use crate::motion::{
+    PlaneWave, Record, TravellingWave, Triaxial, VerticalIncidence, check_prescribed,
+};
 use crate::soil::{Base, Soil, SoilProfile};
 
 /// Motion that is given of an inclined wave. All are at the depth of the base's top.
@@ -20,11 +22,19 @@ pub enum InclinedControl {
     /// Vertical motion of the same, positive up.
     OutcropVertical,
     /// The incident wave itself: SV to the right (and down, if it runs to the right), P up (and to the
-    /// right).
+    /// right), SH away from the reader.
     Incident,
 }
 
-/// A plane SV or P wave that comes up at an angle through the half-plane below a soil profile.
+/// What comes up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Sv,
+    P,
+    Sh,
+}
+
+/// A plane SV, P or SH wave that comes up at an angle through the half-plane below a soil profile.
 ///
 /// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px):
 /// each frequency is refracted and reflected in all of them, the surface moves horizontally and
@@ -56,7 +66,7 @@ pub enum InclinedControl {
 pub struct InclinedWave {
     profile: SoilProfile,
     base: Soil,
-    shear: bool,
+    kind: Kind,
     slowness: f64,
     /// Elastic slowness of the wave, and the cosine of its angle.
     own: [f64; 2],
@@ -72,7 +82,32 @@ impl InclinedWave {
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
     /// [`LayeredError::InclinedOverRigidBase`].
     pub fn sv(profile: SoilProfile, angle: f64) -> Result<Self> {
-        Self::new(profile, angle, true)
+        Self::new(profile, angle, Kind::Sv)
+    }
+
+    /// SH wave, as for [`InclinedWave::sv`], for a ground in plan: what is called horizontal moves the surface across its
+    /// direction, away from the reader where it runs to the right, and nothing moves up. A mat under it twists.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::motion::{FreeField, el_centro_1940};
+    /// use basemat::site::{InclinedControl, InclinedWave};
+    /// use basemat::soil::SoilProfile;
+    /// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?)
+    ///     .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 12.0)?;
+    /// let wave = InclinedWave::sh(profile, 30.0_f64.to_radians())?;
+    /// let control = InclinedControl::OutcropHorizontal;
+    /// // Runs along y: it moves the ground along x.
+    /// let field = wave.field(control, &el_centro_1940(), -5.0)?.with_azimuth(std::f64::consts::FRAC_PI_2)?;
+    /// let [x, y, up] = field.displacement_at([0.0, 5.0], 4.0);
+    /// assert!(x != 0.0 && y.abs() < 1e-12 && up == 0.0);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`InclinedWave::sv`]; [`InclinedControl::OutcropVertical`] is refused later.
+    pub fn sh(profile: SoilProfile, angle: f64) -> Result<Self> {
+        Self::new(profile, angle, Kind::Sh)
     }
 
     /// P wave, as for [`InclinedWave::sv`].
@@ -80,20 +115,20 @@ impl InclinedWave {
     /// # Errors
     /// As for [`InclinedWave::sv`].
     pub fn p(profile: SoilProfile, angle: f64) -> Result<Self> {
-        Self::new(profile, angle, false)
+        Self::new(profile, angle, Kind::P)
     }
 
-    fn new(profile: SoilProfile, angle: f64, shear: bool) -> Result<Self> {
+    fn new(profile: SoilProfile, angle: f64, kind: Kind) -> Result<Self> {
         let Base::HalfPlane { soil: base, .. } = *profile.base() else {
             return Err(LayeredError::InclinedOverRigidBase.into());
         };
-        let (outcrop, speed) = if shear {
-            (PlaneWave::sv(base, angle)?, base.shear_wave_speed())
-        } else {
-            (PlaneWave::p(base, angle)?, base.pressure_wave_speed())
+        let (outcrop, speed) = match kind {
+            Kind::Sv => (PlaneWave::sv(base, angle)?, base.shear_wave_speed()),
+            Kind::P => (PlaneWave::p(base, angle)?, base.pressure_wave_speed()),
+            Kind::Sh => (PlaneWave::sh(base, angle)?, base.shear_wave_speed()),
         };
         let own = [1.0 / speed, angle.cos()];
-        Ok(Self { profile, base, shear, slowness: angle.sin() / speed, own, outcrop })
+        Ok(Self { profile, base, kind, slowness: angle.sin() / speed, own, outcrop })
     }
 
     /// Velocity (m/s) with which the wave runs along the surface, positive to the right; infinite
@@ -175,16 +210,20 @@ impl InclinedWave {
         let count = horizontal.duration().max(vertical.duration()).max(record.len());
         horizontal.cut(count);
         vertical.cut(count);
-        let field = VerticalIncidence {
-            horizontal: Some(Record::new(step, horizontal.samples)?),
-            vertical: Some(Record::new(step, vertical.samples)?),
-        };
-        TravellingWave::new(field, self.apparent_velocity(), origin)
+        let (speed, horizontal) =
+            (self.apparent_velocity(), Some(Record::new(step, horizontal.samples)?));
+        if self.kind == Kind::Sh {
+            let field = Triaxial { y: horizontal, ..Triaxial::default() };
+            return TravellingWave::new(field, speed, origin);
+        }
+        let vertical = Some(Record::new(step, vertical.samples)?);
+        TravellingWave::new(VerticalIncidence { horizontal, vertical }, speed, origin)
     }
 
     /// Error for a component of the outcrop that is too small to be prescribed.
     fn check(&self, control: InclinedControl) -> Result<()> {
         let [x, up] = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
+        let x = x + self.outcrop.amplification_across();
         match control {
             InclinedControl::OutcropHorizontal => {
                 check_prescribed("horizontal motion of the outcrop over the largest", x, up)
@@ -196,14 +235,15 @@ impl InclinedWave {
         }
     }
 
-    /// Error if pressure waves of a layer are evanescent: then motion precedes its cause. Layers
+    /// Error if the fastest waves of a layer that take part are evanescent: then motion precedes its cause. Layers
     /// stiffen with frequency, so the highest decides.
     fn check_beginning(&self, highest: f64) -> Result<()> {
         let mut moduli = vec![];
         let s = Complex::real(finite("highest frequency of a motion", highest)?);
         self.profile.moduli(s, &mut moduli)?;
         for (index, ((soil, _), modulus)) in self.profile.soils().zip(&moduli).enumerate() {
-            let limit = (soil.density() * soil.speed_ratio_squared() / modulus.re).sqrt();
+            let fastest = if self.kind == Kind::Sh { 1.0 } else { soil.speed_ratio_squared() };
+            let limit = (soil.density() * fastest / modulus.re).sqrt();
             let slowness = self.slowness.abs();
             if slowness >= limit {
                 let layer = index + 1;
@@ -226,16 +266,27 @@ impl InclinedWave {
         let base = Medium::base(self.base, modulus, s, p, self.own);
         let media = self.profile.layers().iter().zip(moduli);
         let media = media.map(|(layer, modulus)| Medium::layer(layer.soil, *modulus, s, p));
-        let [px, sx, pz, sz] = surface_motion(media.zip(travels.iter().copied()), &base);
-        let [px0, sx0, pz0, sz0] = base.free_surface();
-        let (motion, outcrop) =
-            if self.shear { ([sx, sz], [sx0, sz0]) } else { ([px, pz], [px0, pz0]) };
-        // Amplitudes are those of (b, p) or (p, a), whose length is 1/c.
-        let speed = || if self.shear { base.shear } else { base.pressure }.sqrt().inverse();
+        let media = media.zip(travels.iter().copied());
+        let speed = |square: Complex| square.sqrt().inverse();
+        // The surface by unit amplitudes, the outcrop, and the amplitude of a unit displacement. Amplitudes of SV and P
+        // are those of (b, p) or (p, a), whose length is 1/c.
+        let (motion, outcrop, unit) = if self.kind == Kind::Sh {
+            let across =
+                surface_motion_across(media.map(|(own, [_, travel])| (own, travel)), &base);
+            let [none, one] = [0.0, 1.0].map(Complex::real);
+            ([across, none], [one + one, none], one)
+        } else {
+            let [px, sx, pz, sz] = surface_motion(media, &base);
+            let [px0, sx0, pz0, sz0] = base.free_surface();
+            match self.kind {
+                Kind::P => ([px, pz], [px0, pz0], speed(base.pressure)),
+                _ => ([sx, sz], [sx0, sz0], speed(base.shear)),
+            }
+        };
         let scale = match control {
             InclinedControl::OutcropHorizontal => outcrop[0].inverse(),
             InclinedControl::OutcropVertical => outcrop[1].inverse(),
-            InclinedControl::Incident => speed(),
+            InclinedControl::Incident => unit,
         };
         let found = motion.map(|x| x * scale);
         for x in found {

@@ -1,8 +1,8 @@
 //! Site response: waves from the base of a layered ground to its surface.
 //!
 //! [`SoilColumn`] takes vertically travelling waves up and down and finds strain-compatible properties
-//! ([`SoilColumn::equivalent_linear`]), [`InclinedWave`] makes a free field of SV
-//! and P waves that come at an angle. A [`SiteMotion`] says what its samples cannot hold.
+//! ([`SoilColumn::equivalent_linear`]), [`InclinedWave`] makes a free field of SV,
+//! P and SH waves that come at an angle. A [`SiteMotion`] says what its samples cannot hold.
 
 mod equivalent_linear;
 mod inclined;

@@ -53,6 +53,11 @@ impl Medium {
         Self::new(soil, modulus, s, p, [floor(pressure), floor(shear)])
     }
 
+    /// Shear stress across over velocity in an SH wave.
+    fn impedance(&self) -> Complex {
+        self.modulus * self.b
+    }
+
     /// Vertical slownesses (a, b).
     pub(super) fn slownesses(&self) -> [Complex; 2] {
         [self.a, self.b]
@@ -183,4 +188,28 @@ pub(super) fn surface_motion(
         above = Some((medium, surface, [p * e * e, q * e * f, r * e * f, t * f * f]));
     }
     enter(base, above).0
+}
+
+/// Motion of the surface across p by an SH wave of unit displacement that comes up in `base`: under `layers` (from the
+/// surface down, each with s h b). Where it meets the next medium down, u = (1 + R) A and the stress, μ b (1 − R) A, go
+/// on.
+pub(super) fn surface_motion_across(
+    layers: impl Iterator<Item = (Medium, Complex)>,
+    base: &Medium,
+) -> Complex {
+    let one = Complex::real(1.0);
+    let (mut surface, mut reflection) = (one + one, one);
+    let mut above: Option<Medium> = None;
+    let decays = layers.map(|(medium, travel)| (medium, (-travel).exp()));
+    for (medium, decay) in decays.chain([(*base, one)]) {
+        if let Some(upper) = above.replace(medium) {
+            let sum = one + reflection;
+            let rest = (one - reflection) * upper.impedance() / medium.impedance();
+            surface = surface.scale(2.0) / (sum + rest);
+            reflection = (sum - rest) / (sum + rest);
+        }
+        surface = surface * decay;
+        reflection = reflection * decay * decay;
+    }
+    surface
 }

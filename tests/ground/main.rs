@@ -4,6 +4,7 @@ mod equivalent_linear;
 mod history;
 mod history_exponentials;
 mod history_fft;
+mod inclined_sh_waves;
 mod inclined_waves;
 mod kernels;
 mod layered_coefficients;

@@ -8,9 +8,13 @@ use basemat::interface::{
     Bonded, Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, UnilateralCondition,
     VariableFriction, Yielding,
 };
-use basemat::motion::{FreeField, Triaxial, el_centro_1940};
+use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial, el_centro_1940};
+use basemat::reference::SlidingBlock;
 use basemat::structure::{RigidBlock, RigidBody};
-use basemat::{Error, Result, Simulation, Soil, StabilityError, StepError};
+use basemat::{Result, Simulation, Soil, StabilityError, StepError};
+
+use basemat_problems::series::{Error, whole};
+use basemat_problems::table;
 
 use super::cells::{BED, Bed, Cells, Waves};
 
@@ -145,6 +149,54 @@ fn a_cone_that_sticks_is_bonded() {
     }
 }
 
+/// GOAL: Newmark's sliding block (1965) in plan, along x, along y and askew.
+/// SCENE: low block, 4 m square, on stiff soil under El Centro; the record of the direction of motion is the table's.
+/// REFERENCE: `reference::SlidingBlock`, event by event, and `sliding_rigid_block.csv`, as in the plane
+/// (`tests/published/analytic.rs`).
+#[test]
+fn newmarks_block_slides_in_plan() {
+    let table = table("sliding_rigid_block.csv");
+    let rows = table.rows(["mu", "max_abs_slip_m", "slip_residual_m"]);
+    let record = el_centro_1940();
+    // The table itself is within 2e-6 m.
+    for (friction, limit, [peak, rest]) in
+        [(0.1, 2e-2, [8e-6, 4e-4]), (0.2, 4e-3, [2.5e-6, 1.2e-5])]
+    {
+        let exact = SlidingBlock::new(friction, STANDARD_GRAVITY).unwrap().slide(&record);
+        let [_, largest, residual] = *rows.iter().find(|row| row[0] == friction).unwrap();
+        for (cos, sin, duration) in [(1.0, 0.0, 31.18), (0.0, 1.0, 7.0), (0.6, -0.8, 7.0)] {
+            let soil = Soil::from_wave_speeds(1600.0, 3200.0, 2000.0).unwrap();
+            let body = RigidBody::cuboid([4.0, 4.0, 0.4], 2000.0).unwrap();
+            let part = |factor: f64| (factor != 0.0).then(|| record.scaled(factor).unwrap());
+            let mut simulation = Simulation::builder(0.0025)
+                .ground(ElasticGround::under(soil, &body, 4).unwrap())
+                .structure(body)
+                .interface(Coulomb::new(friction).unwrap())
+                .motion(Triaxial { x: part(cos), y: part(sin), up: None })
+                .build()
+                .unwrap();
+            let mut error = Error::default();
+            let [mut farthest, mut aside] = [0.0_f64; 2];
+            let run = simulation
+                .run(whole(duration / 0.0025), |state| {
+                    let own = &state.foundations[0];
+                    let along = cos * own.mean_slip + sin * own.mean_slip_across;
+                    let across = cos * own.mean_slip_across - sin * own.mean_slip;
+                    error.add(along, exact.slip(state.time));
+                    farthest = farthest.max(along.abs());
+                    aside = aside.max(across.abs());
+                })
+                .unwrap();
+            let last = cos * run.whole.residual_slip + sin * run.whole.residual_slip_across;
+            let off = [farthest - largest, last - residual].map(f64::abs);
+            println!("{friction} {cos}: {:.1e} {off:?} {aside:.1e}", error.relative());
+            assert!(error.relative() < limit && aside < 2e-9, "{} {aside}", error.relative());
+            assert!(off[0] < peak && (duration < 10.0 || off[1] < rest), "{off:?}");
+            assert!(run.energy_error < 1e-9);
+        }
+    }
+}
+
 /// Displacement of a ground that moves in a circle.
 struct Circle {
     radius: f64,
@@ -265,7 +317,7 @@ fn laws_without_limits_are_named() {
         }
     }
     let error = scene(Plane(Coulomb::new(0.5).unwrap()), 4e-3, 1.0).unwrap_err();
-    assert!(matches!(error, Error::Scene { quantity: "Plane", .. }), "{error}");
+    assert!(matches!(error, basemat::Error::Scene { quantity: "Plane", .. }), "{error}");
     let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
     let error = scene(layer, 4e-3, 1.0).unwrap_err();
     assert!(error.to_string().contains("with_debonded_ratio"), "{error}");
@@ -273,7 +325,7 @@ fn laws_without_limits_are_named() {
     let law = VariableFriction::new(|start| if start.slip_rate > 0.05 { f64::NAN } else { 0.2 });
     let mut simulation = scene(law, 4e-3, 2.0).unwrap();
     let error = simulation.run(1000, |_| {}).unwrap_err();
-    let Error::Step { source: StepError::Law(_), .. } = &error else { panic!("{error}") };
+    let basemat::Error::Step { source: StepError::Law(_), .. } = &error else { panic!("{error}") };
     assert!(error.to_string().contains("friction coefficient"), "{error}");
 }
 
@@ -302,7 +354,7 @@ fn loads_at_the_start_are_carried_by_friction() {
     let run = simulation.run(100, |_| {}).unwrap();
     assert!(run.whole.largest_slip.magnitude() < 1e-12 && run.energy_error < 1e-9);
     // More than friction.
-    let Error::Stability(cause) = build(0.6).unwrap_err() else { panic!("another error") };
+    let basemat::Error::Stability(cause) = build(0.6).unwrap_err() else { panic!("another error") };
     let StabilityError::Sliding { ratio, .. } = *cause else { panic!("{cause}") };
     assert!((ratio - 1.2).abs() < 1e-9, "{ratio}");
 }
@@ -318,7 +370,7 @@ fn moments_overturn_about_either_axis() {
             .interface(Coulomb::new(0.5).unwrap())
             .load(Load::new(dof, move |_| 3.6 * sign * weight))
             .build();
-        let Error::Stability(cause) = built.unwrap_err() else { panic!("another error") };
+        let basemat::Error::Stability(cause) = built.unwrap_err() else { panic!("another error") };
         let StabilityError::Overturning { ratio, .. } = *cause else { panic!("{cause}") };
         assert!((ratio - 1.2).abs() < 1e-9, "{ratio}");
     }

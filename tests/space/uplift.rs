@@ -3,9 +3,11 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use basemat::bem::layered::Stages;
+use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::interface::{Coulomb, Mode};
-use basemat::motion::FreeField;
+use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial};
+use basemat::soil::SoilProfile;
 use basemat::structure::RigidBody;
 use basemat::{Simulation, Soil};
 
@@ -211,4 +213,37 @@ fn hard_steps_are_solved() {
         }
     }
     assert!(all.0 < 40 * all.1, "{all:?}");
+}
+
+/// GOAL: weight stands upright, P–Δ or not, and not on the verge of a fall on a corner, which is an equilibrium too.
+/// SCENE: slender cylinder on concrete over soil, where only the rim bears, from soft to stiff concrete.
+/// REFERENCE: the same without P–Δ, which does nothing as long as nothing turns.
+#[test]
+fn what_leans_is_placed_upright() {
+    let soil = Soil::from_shear_wave_speed(250.0, 1.0 / 3.0, 1900.0).unwrap();
+    for modulus in [1e9, 4e9, 12.5e9] {
+        let concrete = Soil::new(modulus, 0.2, 2400.0).unwrap();
+        let [upright, leaning] = [0.0, STANDARD_GRAVITY].map(|gravity| {
+            let profile = SoilProfile::on_half_plane(soil).with_layer(concrete, 0.9).unwrap();
+            let body = RigidBody::cylinder(1.7, 5.6, 3200.0).unwrap();
+            Simulation::builder(1e-3)
+                .structure(body.with_p_delta(gravity).unwrap())
+                .ground(
+                    ElasticGround::in_plan(profile, Plan::disc([0.0; 2], 1.7, 8).unwrap()).unwrap(),
+                )
+                .interface(Coulomb::new(0.3).unwrap())
+                .motion(Triaxial::default())
+                .expected_steps(2)
+                .build()
+                .unwrap()
+        });
+        let weight = upright.state().normal_force;
+        let pairs = upright.state().contact.iter().zip(&leaning.state().contact);
+        for (a, b) in pairs {
+            assert!((a.pressure - b.pressure).abs() < 1e-7 * weight, "{a:?} {b:?}");
+            assert!((a.gap - b.gap).abs() < 1e-9, "{a:?} {b:?}");
+        }
+        let turned = &leaning.static_displacement()[3..5];
+        assert!(turned.iter().all(|angle| angle.abs() < 1e-9), "{turned:?}");
+    }
 }

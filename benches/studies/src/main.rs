@@ -20,6 +20,7 @@ mod history;
 mod key;
 mod layered_accuracy;
 mod layered_cost;
+mod mats;
 mod opensees;
 mod paper_readings;
 mod paper_scheme;
@@ -56,6 +57,7 @@ enum Study {
     HistoryExponentials(history::Exponentials),
     LayeredAccuracy(layered_accuracy::Options),
     LayeredCost(layered_cost::Options),
+    Mats(mats::Options),
 }
 
 fn main() -> ExitCode {
@@ -83,6 +85,7 @@ fn main() -> ExitCode {
         Study::HistoryExponentials(options) => history::exponentials(&options),
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
         Study::LayeredCost(options) => layered_cost::run(&options),
+        Study::Mats(options) => mats::run(&options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

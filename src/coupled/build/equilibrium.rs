@@ -34,6 +34,8 @@ const SOFTEST: f64 = 1e-9;
 /// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
 /// that are stiffer than itself.
 const SLOW: f64 = 0.2;
+/// Factor by which they are stiffened at most, to hold what leans (P–Δ) without the ground.
+const STIFFENED: f64 = 1e4;
 /// Pull, relative to the load, that may not fall for rounding alone.
 const ROUNDING: f64 = 1e-6;
 
@@ -139,6 +141,7 @@ impl Standing<'_> {
         let measure = Measure::new(assembled, load);
         let mut tangent = Tangent::new(n);
         let mut compliance: Option<Compliance> = None;
+        let mut softest = SOFTEST * stiffest;
         let mut free_jump = vec![0.0; size];
         let mut change = f64::INFINITY;
         let mut iterations = 0;
@@ -149,7 +152,13 @@ impl Standing<'_> {
                 Some(current) if assembled.linear => current,
                 _ => {
                     solver.invalidate();
-                    Compliance::new(assembled, &tangent.matrix, soil, epsilon)?
+                    let found = Compliance::new(assembled, &tangent.matrix, soil, epsilon)?;
+                    let (found, stiffness) =
+                        self.held(found, &tangent.matrix, [epsilon, STIFFENED * stiffest])?;
+                    if stiffness > epsilon {
+                        (epsilon, softest) = (stiffness, stiffness);
+                    }
+                    found
                 }
             };
             let current = compliance.insert(current);
@@ -212,7 +221,7 @@ impl Standing<'_> {
             if !change.is_finite() {
                 break;
             }
-            if change > ROUNDING.max(SLOW * previous) && epsilon > SOFTEST * stiffest {
+            if change > ROUNDING.max(SLOW * previous) && epsilon > softest {
                 epsilon *= 0.1;
                 compliance = None;
                 solver.invalidate();
@@ -222,6 +231,29 @@ impl Standing<'_> {
         let share = epsilon / stiffest;
         let condition = compliance.map_or(1.0, |mut current| share * current.condition());
         Err(failure(condition, iterations, change))
+    }
+
+    /// The same with springs stiff enough, `most` at most, that what leans does not fall without the ground, and
+    /// their stiffness. Each iteration finds the least energy then; without, it may be one on the verge of a fall, on a
+    /// corner. Where that does not help (Lagrange multipliers), or rounding is the cause, springs are as they were.
+    fn held(
+        &self,
+        mut found: Compliance,
+        tangent: &SparseMatrix,
+        [epsilon, most]: [f64; 2],
+    ) -> Result<(Compliance, f64)> {
+        if found.factor.is_positive_definite() || found.condition() > STIFFEST_CONDITION {
+            return Ok((found, epsilon));
+        }
+        let mut stiffer = 10.0 * epsilon;
+        while stiffer <= most {
+            let next = Compliance::new(self.assembled, tangent, self.soil, stiffer)?;
+            if next.factor.is_positive_definite() {
+                return Ok((next, stiffer));
+            }
+            stiffer *= 10.0;
+        }
+        Ok((found, epsilon))
     }
 }
 
