@@ -65,13 +65,14 @@ mod _core {
         site::{PyEquivalentLinear, PyStrainCurves},
         soil::PySoil,
         structure::{
-            PyBilinear, PyBoucWen, PyContactNode, PyFemModel, PyFrictionPendulum, PyGmshMesh,
-            PyHysteresis, PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh,
-            PyRayleighDamping, PyReducedModel, PyRigidBlock, PyRigidBody, PyShearBuilding,
-            PyStorey, PyStructure, PyStructureGroup, PyWithModalDamping, PyWithSprings,
+            PyBilinear, PyBoucWen, PyContactNode, PyFaceNode, PyFemModel, PyFrictionPendulum,
+            PyGmshMesh, PyHysteresis, PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh,
+            PyPlanStorey, PyRayleighDamping, PyReducedModel, PyRigidBlock, PyRigidBody,
+            PyShearBuilding, PyStorey, PyStoreyBuilding, PyStructure, PyStructureGroup,
+            PyWithModalDamping, PyWithSprings,
         },
         ticker::cancel_when,
-        user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance},
+        user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance},
     };
 
     #[pymodule_init]

@@ -23,6 +23,9 @@ _CALLS = "_calls"
 _RETURNING = (
     (_core.PlaneWave, "field_from_horizontal"),
     (_core.PlaneWave, "field_from_vertical"),
+    (_core.PlaneWave, "field_from_across"),
+    (_core.Plan, "with_unions"),
+    (_core.Plan, "without_overhang"),
     (_core.PlaneWave, "reversed"),
     (_core.InclinedWave, "field"),
     (_core.SoilColumn, "equivalent_linear"),
@@ -31,7 +34,7 @@ _RETURNING = (
 )
 """Methods that return descriptions."""
 
-_FUNCTIONS = ("free_field", "ricker", "travelling_wave", "vertical_incidence")
+_FUNCTIONS = ("free_field", "ricker", "travelling_wave", "triaxial", "vertical_incidence")
 """Functions that return descriptions."""
 
 
@@ -93,7 +96,8 @@ def _kept(value: Any) -> Any:
 
 def _is_part(value: Any) -> bool:
     """Whether this is a function, a structure or a law of the user's, whatever else it may be."""
-    return callable(value) or hasattr(value, "contact_nodes") or hasattr(value, "conditions")
+    methods = ("contact_nodes", "contact_faces", "conditions", "limits")
+    return callable(value) or any(hasattr(value, method) for method in methods)
 
 
 def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]) -> Made:
@@ -107,7 +111,8 @@ def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Call
     @functools.wraps(make)
     def remember(*arguments: Any, **keywords: Any) -> Any:
         found = make(*arguments, **keywords)
-        vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
+        if hasattr(found, "__dict__"):
+            vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
         return found
 
     return remember

@@ -14,6 +14,7 @@ use crate::recipe::Recipe;
 pub(crate) struct PyGround {
     pub(crate) make: Recipe<dyn Ground>,
     elements: Vec<ContactElement>,
+    depths: Vec<[f64; 2]>,
 }
 
 impl PyGround {
@@ -21,17 +22,27 @@ impl PyGround {
     pub(crate) fn new<G: Ground + 'static>(
         make: impl Fn() -> basemat::Result<G> + Send + Sync + 'static,
     ) -> PyResult<Self> {
-        let elements = make().or_raise()?.elements().to_vec();
-        Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements })
+        let ground = make().or_raise()?;
+        let elements = ground.elements().to_vec();
+        let depths = (0..elements.len()).map(|element| ground.depth(element)).collect();
+        Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements, depths })
     }
 }
 
 #[pymethods]
 impl PyGround {
-    /// Ends of the contact elements from left to right: array of shape (elements, 2), m.
+    /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
     #[getter]
     fn elements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let ends: Vec<Vec<f64>> = self.elements.iter().map(|e| vec![e.left, e.right]).collect();
+        Ok(PyArray2::from_vec2(py, &ends)?)
+    }
+
+    /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; 0 and 1, the
+    /// metre of thickness, in the plane.
+    #[getter]
+    fn depths<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let ends: Vec<Vec<f64>> = self.depths.iter().map(|ends| ends.to_vec()).collect();
         Ok(PyArray2::from_vec2(py, &ends)?)
     }
 }

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, heard, refuse};
 use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
-use crate::user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance, UserLaw};
+use crate::user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance, UserLaw};
 
 /// A law between base and ground: what an element of the contact does in a step, its mode (see
 /// :data:`MODES`), and which conditions that imposes.
@@ -62,6 +62,12 @@ impl PyInterfaceLaw {
             mode_name(law.next_mode(mode, &start.core(), &trial.core(), tolerance.core()))
         })
     }
+
+    /// The :class:`Limits` of an element's tractions on a ground in plan, in the step after ``start``
+    /// (:class:`PreviousContact`).
+    fn limits(&self, start: &PyPreviousContact) -> PyResult<PyLimits> {
+        heard(|| (self.make)().and_then(|law| law.limits(&start.core())).or_raise().map(PyLimits))
+    }
 }
 
 /// The recipe of a law of this package, or of one written in Python.
@@ -69,12 +75,12 @@ fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
     if let Ok(own) = object.cast::<PyInterfaceLaw>() {
         return Ok(own.get().make.clone());
     }
-    if object.hasattr("conditions")? {
+    if object.hasattr("conditions")? || object.hasattr("limits")? {
         let law = UserLaw::new(object)?;
         return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
     }
     Err(refuse(format!(
-        "{} is no interface law: it has no method `conditions`",
+        "{} is no interface law: it has no method `conditions` or `limits`",
         object.get_type().name()?
     )))
 }

@@ -22,6 +22,11 @@ impl PyFreeField {
         heard(|| Ok((self.make)().or_raise()?.displacement(x, time)))
     }
 
+    /// Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s).
+    fn displacement_at(&self, x: f64, y: f64, time: f64) -> PyResult<[f64; 3]> {
+        heard(|| Ok((self.make)().or_raise()?.displacement_at([x, y], time)))
+    }
+
     /// Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s).
     fn velocity(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
         heard(|| Ok((self.make)().or_raise()?.velocity(x, time)))

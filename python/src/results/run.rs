@@ -11,7 +11,27 @@ use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
 
-type Column = fn(&ElementEnvelope) -> f64;
+type Column = (&'static str, fn(&ElementEnvelope) -> f64);
+
+/// Columns of the envelope.
+const ENVELOPE: [Column; 9] = [
+    ("left", |own| own.element.left),
+    ("right", |own| own.element.right),
+    ("static_pressure", |own| own.static_pressure),
+    ("lowest_pressure", |own| own.pressure.lowest.value),
+    ("highest_pressure", |own| own.pressure.highest.value),
+    ("shear", |own| own.shear.value),
+    ("gap", |own| own.gap.value),
+    ("slip", |own| own.slip.value),
+    ("open", |own| own.open),
+];
+/// Columns of that in plan beside them.
+const ENVELOPE_IN_PLAN: [Column; 4] = [
+    ("front", |own| own.depth[0]),
+    ("back", |own| own.depth[1]),
+    ("shear_across", |own| own.shear_across.value),
+    ("slip_across", |own| own.slip_across.value),
+];
 
 /// A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
@@ -57,6 +77,8 @@ getters! {
     PyRun, own;
     /// Number of steps made.
     steps: usize = own.run.steps;
+    /// Whether the ground was one in plan: results are then those of the whole body, N in place of N/m.
+    in_plan: bool = own.run.in_plan;
     /// Time at the beginning, s.
     start: f64 = own.run.start;
     /// Time at the end, s.
@@ -113,7 +135,8 @@ impl PyRun {
     }
 
     /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-    /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements).
+    /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+    /// "shear_across" (Pa), along y.
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         series::contact(py, self.kept()?)
@@ -180,22 +203,12 @@ impl PyRun {
 
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
     /// "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
-    /// "open" (s).
+    /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y.
     #[getter]
     fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns: [(&str, Column); 9] = [
-            ("left", |own| own.element.left),
-            ("right", |own| own.element.right),
-            ("static_pressure", |own| own.static_pressure),
-            ("lowest_pressure", |own| own.pressure.lowest.value),
-            ("highest_pressure", |own| own.pressure.highest.value),
-            ("shear", |own| own.shear.value),
-            ("gap", |own| own.gap.value),
-            ("slip", |own| own.slip.value),
-            ("open", |own| own.open),
-        ];
         let envelope = PyDict::new(py);
-        for (name, value) in columns {
+        let in_plan = if self.run.in_plan { &ENVELOPE_IN_PLAN[..] } else { &[] };
+        for (name, value) in ENVELOPE.iter().chain(in_plan) {
             let column: Array = self.run.envelope.iter().map(value).collect();
             envelope.set_item(name, column)?;
         }

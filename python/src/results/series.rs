@@ -67,6 +67,9 @@ pub(super) fn energy_balances<'py>(
     Ok(series)
 }
 
+/// Name and value of a column of a snapshot of the base.
+type Column = (&'static str, fn(&ContactState) -> f64);
+
 /// Snapshots of the base: times, and arrays of shape (frames, elements).
 pub(super) fn contact<'py>(
     py: Python<'py>,
@@ -83,10 +86,18 @@ pub(super) fn contact<'py>(
         let values = frames.iter().flat_map(|frame| frame.states).map(pick);
         PyArray1::from_iter(py, values).reshape(shape)
     };
-    columns.set_item("gap", value(|state| state.gap)?)?;
-    columns.set_item("slip", value(|state| state.slip)?)?;
-    columns.set_item("pressure", value(|state| state.pressure)?)?;
-    columns.set_item("shear", value(|state| state.shear)?)?;
+    let all: [Column; 6] = [
+        ("gap", |state| state.gap),
+        ("slip", |state| state.slip),
+        ("pressure", |state| state.pressure),
+        ("shear", |state| state.shear),
+        ("slip_across", |state| state.slip_across),
+        ("shear_across", |state| state.shear_across),
+    ];
+    let count = if histories.depths().is_empty() { 4 } else { 6 };
+    for (name, pick) in &all[..count] {
+        columns.set_item(name, value(*pick)?)?;
+    }
     let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| mode_number(*mode));
     let modes = modes.collect::<PyResult<Vec<_>>>()?;
     columns.set_item("mode", PyArray1::from_vec(py, modes).reshape(shape)?)?;

@@ -14,11 +14,11 @@ mod nonlinear;
 
 pub(crate) use base::{PyStructure, made, recipe};
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
-pub(crate) use building::{PyShearBuilding, PyStorey};
+pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
-pub(crate) use contact_node::{PyContactNode, nodes};
+pub(crate) use contact_node::{Contact, PyContactNode, PyFaceNode};
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber,

@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use basemat::Result;
 use basemat::interface::{
-    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Bonded, Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode,
+    PreviousContact, Tolerance,
 };
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-use super::{PyContactState, PyPreviousContact};
+use super::{PyContactState, PyLimits, PyPreviousContact};
 use crate::array::{Count, Numbers};
-use crate::error::{has_raised, keep, kept, returned};
+use crate::error::{has_raised, keep, kept, refuse, returned};
 use crate::names::{mode, mode_name};
 
 /// One linear condition on an element at the end of a step:
@@ -91,7 +92,7 @@ impl PyTolerance {
 }
 
 /// A Python object with `modes`, `conditions(mode, start)` and
-/// `next_mode(mode, start, trial, tolerance)`, and as it may be `compliance(mode, start)`,
+/// `next_mode(mode, start, trial, tolerance)`, or for grounds in plan `limits(start)`, and as it may be `compliance(mode, start)`,
 /// `memory`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
 /// `check(gravity, time_step)`.
 ///
@@ -104,6 +105,8 @@ pub(crate) struct UserLaw {
     memory: usize,
     friction_coefficient: Option<f64>,
     has_compliance: bool,
+    has_limits: bool,
+    has_conditions: bool,
     has_initial_state: bool,
     has_commit: bool,
     has_check: bool,
@@ -122,7 +125,12 @@ const NOTHING: Condition = Condition {
 
 impl UserLaw {
     pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let names: Vec<String> = returned("modes of the interface law", &object.getattr("modes")?)?;
+        let names = match object.getattr_opt("modes")? {
+            Some(modes) => returned("modes of the interface law", &modes)?,
+            None if object.hasattr("conditions")? => return Err(refuse("the law has no `modes`")),
+            // Of a law for grounds in plan alone.
+            None => ["stick", "slip", "open"].map(String::from).to_vec(),
+        };
         let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
             Ok(object.getattr_opt(name)?.filter(|value| !value.is_none()))
         };
@@ -135,11 +143,28 @@ impl UserLaw {
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,
             has_compliance: object.hasattr("compliance")?,
+            has_limits: object.hasattr("limits")?,
+            has_conditions: object.hasattr("conditions")?,
             has_initial_state: object.hasattr("initial_state_variables")?,
             has_commit: object.hasattr("commit")?,
             has_check: object.hasattr("check")?,
             object: Arc::new(object.clone().unbind()),
         })
+    }
+
+    /// The law of the package with the limits of this one, for the statics of one that has nothing else.
+    fn by_limits(&self, start: &PreviousContact<'_>) -> Box<dyn InterfaceLaw> {
+        let limits =
+            self.limits(start).unwrap_or(Limits { friction: f64::NAN, ..Limits::default() });
+        if limits.bonded {
+            return Box::new(Bonded);
+        }
+        let law = Coulomb::new(limits.friction);
+        match law.and_then(|law| law.with_tensile_strength(limits.tension)) {
+            Ok(law) => Box::new(law),
+            // Limits that the core refuses by itself.
+            Err(_) => Bonded.frictionless(),
+        }
     }
 
     /// The result of `ask`, or `otherwise` if it raises, or something has raised before.
@@ -170,7 +195,7 @@ impl UserLaw {
                 return Ok(Some(values));
             }
             let text = format!("the law remembers {count} numbers, but returned {}", values.len());
-            Err(crate::error::refuse(text))
+            Err(refuse(text))
         });
         match found {
             Some(values) => memory.copy_from_slice(&values),
@@ -185,6 +210,9 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
+        if !self.has_conditions {
+            return self.by_limits(start).conditions(mode, start);
+        }
         self.ask([NOTHING; 2], |_, object| {
             let found = object
                 .call_method1("conditions", (mode_name(mode)?, PyPreviousContact::of(start)))?;
@@ -201,6 +229,9 @@ impl InterfaceLaw for UserLaw {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
+        if !self.has_conditions {
+            return self.by_limits(start).next_mode(mode, start, trial, tolerance);
+        }
         self.ask(mode, |_, object| {
             let Tolerance { length, traction, .. } = tolerance;
             let arguments = (
@@ -254,6 +285,22 @@ impl InterfaceLaw for UserLaw {
                 object.call_method1("commit", (PyPreviousContact::of(start), end, mode_name(mode)?))
             });
         }
+    }
+
+    fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
+        let found = Python::attach(|py| {
+            let object = self.object.bind(py);
+            if !self.has_limits {
+                let name = object.get_type().name()?;
+                return Err(refuse(format!(
+                    "{name} has no method `limits`, to act on a ground in plan"
+                )));
+            }
+            let found = object.call_method1("limits", (PyPreviousContact::of(start),))?;
+            let found: Bound<'_, PyLimits> = returned("limits of the interface law", &found)?;
+            Ok(found.get().0)
+        });
+        found.map_err(|error| kept(PART, error))
     }
 
     fn friction_coefficient(&self) -> Option<f64> {

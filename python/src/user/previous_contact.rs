@@ -1,7 +1,9 @@
-//! An element's contact, and its contact at the end of the step before, as laws written in Python see them.
+//! An element's contact, its contact at the end of the step before, and limits of its tractions in plan, as laws written in
+//! Python see them.
 
-use basemat::interface::{ContactState, Mode, PreviousContact};
+use basemat::interface::{ContactState, Limits, Mode, PreviousContact};
 use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::array::Numbers;
 use crate::names::mode_name;
@@ -98,11 +100,15 @@ getters! {
     pressure: f64 = own.state.pressure;
     /// Shear traction of the structure on the soil, Pa; positive to the right.
     shear: f64 = own.state.shear;
+    /// Slip along y in plan, m; positive away.
+    slip_across: f64 = own.state.slip_across;
+    /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
+    shear_across: f64 = own.state.shear_across;
     /// Mode of the step before, as in :data:`basemat.MODES`.
     mode: PyResult<&'static str> = mode_name(own.mode);
     /// Whether the element has been open.
     has_opened: bool = own.has_opened;
-    /// Slip rate of the step before, m/s.
+    /// Slip rate of the step before, m/s; its magnitude in plan.
     slip_rate: f64 = own.slip_rate;
     /// Pressure of the static state, Pa.
     static_pressure: f64 = own.static_pressure;
@@ -126,5 +132,67 @@ impl PyPreviousContact {
         let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
         let start = PreviousContact::new(state.core(), crate::names::mode(mode)?, time_step);
         Ok(Self { slip_rate, memory, ..Self::of(&start) })
+    }
+}
+
+/// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
+/// :meth:`UserPlanLaw.limits` returns.
+///
+/// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
+/// traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
+/// ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
+/// ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
+/// element that has opened with a tension, an attraction or a shear strength loses them in that step.
+#[pyclass(name = "Limits", module = "basemat", frozen, eq)]
+#[derive(PartialEq)]
+pub(crate) struct PyLimits(pub(crate) Limits);
+
+getters! {
+    PyLimits, own;
+    /// Friction coefficient; infinite where nothing slides.
+    friction: f64 = own.0.friction;
+    /// Pressure that friction acts on beside that of the contact, Pa.
+    attraction: f64 = own.0.attraction;
+    /// Shear traction that is borne beside friction, Pa.
+    shear_strength: f64 = own.0.shear_strength;
+    /// Tensile strength, Pa.
+    tension: f64 = own.0.tension;
+    /// Greatest pressure, Pa.
+    pressure_cap: f64 = own.0.pressure_cap;
+    /// Gap of a closed element, m.
+    gap_offset: f64 = own.0.gap_offset;
+    /// Whether base and soil neither separate nor slide.
+    bonded: bool = own.0.bonded;
+}
+
+#[pymethods]
+impl PyLimits {
+    #[new]
+    #[pyo3(
+        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
+        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
+    )]
+    fn new(
+        friction: f64,
+        attraction: f64,
+        shear_strength: f64,
+        tension: f64,
+        pressure_cap: f64,
+        gap_offset: f64,
+        bonded: bool,
+    ) -> Self {
+        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
+        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
+        own.bonded = bonded;
+        Self(own)
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((f64,), Bound<'py, PyDict>)> {
+        let Limits { attraction, shear_strength, tension, pressure_cap, gap_offset, .. } = self.0;
+        let names = ["attraction", "shear_strength", "tension", "pressure_cap", "gap_offset"];
+        let values = [attraction, shear_strength, tension, pressure_cap, gap_offset];
+        let named = names.into_iter().zip(values).into_py_dict(py)?;
+        named.set_item("bonded", self.0.bonded)?;
+        Ok(((self.0.friction,), named))
     }
 }

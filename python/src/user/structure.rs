@@ -1,6 +1,8 @@
 //! A structure written in Python.
 
-use basemat::structure::{ContactNode, InternalEnergy, NonlinearForce, Structure, Triplets};
+use basemat::structure::{
+    ContactNode, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
+};
 use basemat::{CheckpointError, Error, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -8,7 +10,7 @@ use pyo3::prelude::*;
 use crate::array::{Count, Matrix, Numbers};
 use crate::dof_names::DofNames;
 use crate::error::{keep, kept, refuse, returned};
-use crate::structure::PyContactNode;
+use crate::structure::Contact;
 
 /// Its name in errors.
 const PART: &str = "structure";
@@ -18,7 +20,7 @@ const PART: &str = "structure";
 pub(crate) struct UserStructure {
     object: Py<PyAny>,
     dofs: usize,
-    contact: Vec<ContactNode>,
+    contact: (Vec<ContactNode>, Vec<Vec<FaceNode>>),
     ends: Vec<usize>,
     names: Option<DofNames>,
     active_damping: bool,
@@ -40,8 +42,14 @@ impl UserStructure {
         let dofs = object.getattr("dofs")?;
         let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
         let Count(dofs) = returned("dofs of the structure", &dofs)?;
-        let nodes: Vec<Bound<'_, PyContactNode>> =
-            returned("contact_nodes of the structure", &object.call_method0("contact_nodes")?)?;
+        let base = |method: &str| -> PyResult<Contact<'_>> {
+            returned(&format!("{method} of the structure"), &object.call_method0(method)?)
+        };
+        let faces = object.hasattr("contact_faces")?.then(|| base("contact_faces")).transpose()?;
+        let contact = match faces {
+            Some(faces @ Contact::Faces(_)) => faces,
+            _ => base("contact_nodes")?,
+        };
         let ends = if object.hasattr("foundation_ends")? {
             returned("foundation_ends of the structure", &object.call_method0("foundation_ends")?)?
         } else {
@@ -54,7 +62,7 @@ impl UserStructure {
         Ok(Self {
             dofs,
             names: DofNames::of(&object, dofs)?,
-            contact: crate::structure::nodes(&nodes, dofs)?,
+            contact: contact.of(dofs)?,
             ends,
             active_damping,
             has_damping: object.hasattr("damping")?,
@@ -124,7 +132,11 @@ impl Structure for UserStructure {
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.contact.clone()
+        self.contact.0.clone()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.contact.1.clone()
     }
 
     fn foundation_ends(&self) -> Vec<usize> {
