@@ -2570,7 +2570,7 @@ class PreviousContact:
 @final
 class Limits:
     """Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
-    :meth:`UserLaw.limits` returns.
+    :meth:`UserPlanLaw.limits` returns.
 
     Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
     traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +

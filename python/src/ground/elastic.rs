@@ -13,7 +13,7 @@ use super::impedance::{PyImpedances, contact};
 use super::strip::{Elements, grading};
 use super::{PyGround, PyPlan};
 use crate::array::{Numbers, whole};
-use crate::error::OrRaise;
+use crate::error::{OrRaise, WithGiven};
 use crate::profile::Profile;
 use crate::ticker::watched;
 
@@ -88,20 +88,12 @@ impl PyElasticGround {
                 Elements::Strips(strips) => ElasticGround::new(profile.0.clone(), strips),
                 Elements::Plan(plan) => ElasticGround::in_plan(profile.0.clone(), plan.clone()),
             };
-            let mut ground = ground?.with_history(options)?;
-            if let Some(stages) = stages {
-                ground = ground.with_stages(stages);
-            }
-            if let Some(tolerance) = tolerance {
-                ground = ground.with_tolerance(tolerance)?;
-            }
-            if let Some(file) = &kernel_file {
-                ground = ground.with_kernel_file(file);
-            }
-            Ok(match &kernels {
-                Some(kernels) => ground.with_shared_kernels(kernels),
-                None => ground,
-            })
+            ground
+                .and_then(|ground| ground.with_history(options))
+                .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
+                .with(tolerance, ElasticGround::with_tolerance)
+                .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))
+                .with(kernels.as_ref(), |ground, own| Ok(ground.with_shared_kernels(own)))
         };
         let base = PyGround::new(make.clone())?;
         Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make), plan }))

@@ -7,6 +7,7 @@ use pyo3::types::{PyDict, PyTuple};
 use super::PyGround;
 use super::strip::Elements;
 use crate::array::whole;
+use crate::error::WithGiven;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
@@ -31,20 +32,18 @@ impl PySpringGround {
     ) -> PyResult<PyClassInitializer<Self>> {
         let base = PyGround::new(move || {
             let (normal, tangential) = (normal_stiffness, tangential_stiffness);
-            let mut ground = match &strips {
+            let ground = match &strips {
                 Elements::Strips(strips) => SpringGround::on_strips(strips, normal, tangential),
                 Elements::Plan(plan) => {
                     let across = across_stiffness.unwrap_or(tangential);
                     SpringGround::in_plan(plan.clone(), [normal, tangential, across])
                 }
-            }?;
-            if let Some([normal, tangential]) = dashpots {
-                ground = ground.with_dashpots(normal, tangential)?;
-            }
-            match theta {
-                Some(theta) => ground.with_theta(theta),
-                None => Ok(ground),
-            }
+            };
+            ground
+                .with(dashpots, |ground, [normal, tangential]| {
+                    ground.with_dashpots(normal, tangential)
+                })
+                .with(theta, SpringGround::with_theta)
         })?;
         Ok(PyClassInitializer::from(base).add_subclass(Self))
     }

@@ -59,7 +59,7 @@ impl PyInterfaceLaw {
         heard(|| {
             let law = (self.make)().or_raise()?;
             let mode = self::mode(mode)?;
-            mode_name(law.next_mode(mode, &start.core(), &trial.core(), tolerance.core()))
+            mode_name(law.next_mode(mode, &start.core(), &trial.0, tolerance.core()))
         })
     }
 

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use super::PyFreeField;
 use crate::array::real;
-use crate::error::{OrRaise, has_raised, heard, keep, refuse};
+use crate::error::{self, OrRaise, has_raised, heard, refuse};
 
 /// A motion of functions, named by what they return: give one of them.
 ///
@@ -115,7 +115,7 @@ impl FreeField for InPlan {
     }
 
     fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
-        answer(|py| {
+        error::asked([f64::NAN; 3], |py| {
             let found = self.0.call1(py, (x, y, time))?;
             let found = found.bind(py);
             numbers("displacement_at", found).ok_or_else(|| {
@@ -127,7 +127,7 @@ impl FreeField for InPlan {
 
 /// What a function returns: a pair, or a number to the right. NaN, which ends the step, if it raises.
 fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f64; 2] {
-    answer(|py| {
+    error::asked([f64::NAN; 2], |py| {
         let found = call(py)?;
         let found = found.bind(py);
         if let Ok(right) = real(name, found) {
@@ -150,12 +150,4 @@ fn wrong(name: &str, found: &Bound<'_, PyAny>, needed: &str) -> PyErr {
     refuse(format!(
         "the function of the motion's {name} returned {found}, but must return {needed}"
     ))
-}
-
-/// Numbers that user code gives, or NaN if it raises.
-fn answer<const N: usize>(ask: impl FnOnce(Python<'_>) -> PyResult<[f64; N]>) -> [f64; N] {
-    Python::attach(ask).unwrap_or_else(|error| {
-        keep(error);
-        [f64::NAN; N]
-    })
 }

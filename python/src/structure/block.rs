@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use super::PyStructure;
 use crate::dof_names::DofNames;
-use crate::error::OrRaise;
+use crate::error::{OrRaise, WithGiven};
 use crate::row::{PyDofCombination, rows};
 
 /// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
@@ -17,14 +17,12 @@ use crate::row::{PyDofCombination, rows};
 pub(crate) struct PyRigidBlock(RigidBlock);
 
 fn placed(
-    block: RigidBlock,
+    block: basemat::Result<RigidBlock>,
     center: f64,
     p_delta: Option<f64>,
 ) -> PyResult<PyClassInitializer<PyRigidBlock>> {
-    let mut block = block.centered_at(center).or_raise()?;
-    if let Some(gravity) = p_delta {
-        block = block.with_p_delta(gravity).or_raise()?;
-    }
+    let block = block.and_then(|block| block.centered_at(center));
+    let block = block.with(p_delta, RigidBlock::with_p_delta).or_raise()?;
     let names = ["x", "y", "rotation"].map(String::from).to_vec();
     let base = PyStructure::copied(block.clone()).named(Some(DofNames::new(names, 3)?));
     Ok(PyClassInitializer::from(base).add_subclass(PyRigidBlock(block)))
@@ -49,7 +47,7 @@ impl PyRigidBlock {
         center: f64,
         p_delta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        placed(RigidBlock::new(width, height, density).or_raise()?, center, p_delta)
+        placed(RigidBlock::new(width, height, density), center, p_delta)
     }
 
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
@@ -67,7 +65,7 @@ impl PyRigidBlock {
         p_delta: Option<f64>,
     ) -> PyResult<Py<Self>> {
         let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
-        Py::new(py, placed(block.or_raise()?, center, p_delta)?)
+        Py::new(py, placed(block, center, p_delta)?)
     }
 
     /// Number of the degree of freedom of the displacement to the right.
@@ -109,10 +107,8 @@ fn body(
     center: [f64; 2],
     p_delta: Option<f64>,
 ) -> PyResult<Py<PyRigidBody>> {
-    let mut body = made.and_then(|body| body.centered_at(center)).or_raise()?;
-    if let Some(gravity) = p_delta {
-        body = body.with_p_delta(gravity).or_raise()?;
-    }
+    let body = made.and_then(|body| body.centered_at(center));
+    let body = body.with(p_delta, RigidBody::with_p_delta).or_raise()?;
     let names = ["x", "y", "z", "rx", "ry", "rz"].map(String::from).to_vec();
     let base = PyStructure::copied(body.clone()).named(Some(DofNames::new(names, 6)?));
     Py::new(py, PyClassInitializer::from(base).add_subclass(PyRigidBody(body)))

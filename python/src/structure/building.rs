@@ -12,7 +12,7 @@ use super::hysteresis::LawLike;
 use super::{PyRigidBody, PyStructure};
 use crate::array::whole;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
 use crate::recipe::Recipe;
 use crate::row::{PyDofCombination, PySectionRows, rows};
@@ -130,14 +130,10 @@ impl PyShearBuilding {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
         let laws = recipes(laws)?;
         Self::of(move || {
-            let mut building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
-                .centered_at(center)?;
-            if let Some(ratio) = damping {
-                building = building.with_stiffness_damping(ratio)?;
-            }
-            if let Some(gravity) = p_delta {
-                building = building.with_p_delta(gravity)?;
-            }
+            let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
+                .centered_at(center)
+                .with(damping, ShearBuilding::with_stiffness_damping)
+                .with(p_delta, ShearBuilding::with_p_delta)?;
             following(building, &laws)
         })
     }
@@ -270,10 +266,8 @@ impl PyStoreyBuilding {
         });
         let laws: Vec<_> = laws.collect::<PyResult<_>>()?;
         let make = Arc::new(move || {
-            let mut building = StoreyBuilding::new(mat.clone(), &storeys)?;
-            if let Some(gravity) = p_delta {
-                building = building.with_p_delta(gravity)?;
-            }
+            let building = StoreyBuilding::new(mat.clone(), &storeys);
+            let mut building = building.with(p_delta, StoreyBuilding::with_p_delta)?;
             for (storey, direction, law) in &laws {
                 building = building.with_law(*storey, *direction, law()?)?;
             }

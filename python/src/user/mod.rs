@@ -2,6 +2,7 @@
 
 mod hysteresis;
 mod law;
+mod object;
 mod previous_contact;
 mod structure;
 

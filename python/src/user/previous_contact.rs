@@ -10,32 +10,23 @@ use crate::names::mode_name;
 
 /// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
 /// (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
-#[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
-pub(crate) struct PyContactState {
+#[pyclass(name = "ContactState", module = "basemat", frozen)]
+pub(crate) struct PyContactState(pub(crate) ContactState);
+
+getters! {
+    PyContactState, own;
     /// Gap, m; positive when open.
-    gap: f64,
+    gap: f64 = own.0.gap;
     /// Slip since the static state, m; positive to the right.
-    slip: f64,
+    slip: f64 = own.0.slip;
     /// Pressure, Pa; positive in compression.
-    pressure: f64,
+    pressure: f64 = own.0.pressure;
     /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64,
+    shear: f64 = own.0.shear;
     /// Slip along y in plan, m; positive away.
-    slip_across: f64,
+    slip_across: f64 = own.0.slip_across;
     /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
-    shear_across: f64,
-}
-
-impl PyContactState {
-    pub(super) fn of(state: &ContactState) -> Self {
-        let ContactState { gap, slip, pressure, shear, slip_across, shear_across } = *state;
-        Self { gap, slip, pressure, shear, slip_across, shear_across }
-    }
-
-    pub(crate) fn core(&self) -> ContactState {
-        let Self { gap, slip, pressure, shear, slip_across, shear_across } = *self;
-        ContactState { gap, slip, pressure, shear, slip_across, shear_across }
-    }
+    shear_across: f64 = own.0.shear_across;
 }
 
 #[pymethods]
@@ -50,7 +41,7 @@ impl PyContactState {
         slip_across: f64,
         shear_across: f64,
     ) -> Self {
-        Self { gap, slip, pressure, shear, slip_across, shear_across }
+        Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across })
     }
 }
 
@@ -130,7 +121,7 @@ impl PyPreviousContact {
         memory: Option<Numbers>,
     ) -> PyResult<Self> {
         let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
-        let start = PreviousContact::new(state.core(), crate::names::mode(mode)?, time_step);
+        let start = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
         Ok(Self { slip_rate, memory, ..Self::of(&start) })
     }
 }
