@@ -33,24 +33,29 @@ fn read<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
     read.map_err(|error| refuse(format!("these bytes are no {}: {error}", T::NAME)))
 }
 
-/// What pickles: classes, each with what makes its object of Python from `$own`.
-macro_rules! results {
-    ($($class:ident: |$py:ident, $own:ident| $made:expr;)+) => {
+/// Classes that pickle.
+macro_rules! reduces {
+    ($($class:ident)+) => {
         $(#[pymethods]
         impl $class {
             fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
                 reduced(slf)
             }
         })+
+    };
+}
+
+/// The results beside a run.
+macro_rules! results {
+    ($($class:ident)+) => {
+        reduces! { PyRun $($class)+ }
 
         /// The result of the class ``kind`` from the bytes ``data`` that its pickle holds.
         #[pyfunction(name = "_restored")]
         pub(crate) fn restored(py: Python<'_>, kind: &str, data: &[u8]) -> PyResult<Py<PyAny>> {
             match kind {
-                $(<$class as PyClass>::NAME => {
-                    let ($py, $own) = (py, read::<$class>(data)?);
-                    Ok($made?.into_any())
-                })+
+                <PyRun as PyClass>::NAME => Ok(read::<PyRun>(data)?.create(py)?.into_any()),
+                $(<$class as PyClass>::NAME => Ok(Py::new(py, read::<$class>(data)?)?.into_any()),)+
                 _ => Err(refuse(format!("kind is '{kind}', which is no result"))),
             }
         }
@@ -58,14 +63,5 @@ macro_rules! results {
 }
 
 results! {
-    PyRun: |py, own| own.create(py);
-    PyPeak: |py, own| Py::new(py, own);
-    PyExtremes: |py, own| Py::new(py, own);
-    PyEnergyBalance: |py, own| Py::new(py, own);
-    PySummary: |py, own| Py::new(py, own);
-    PyServiceCheck: |py, own| Py::new(py, own);
-    PyFoundation: |py, own| Py::new(py, own);
-    PySpectrum: |py, own| Py::new(py, own);
-    PyImpedances: |py, own| Py::new(py, own);
-    PyRefinement: |py, own| Py::new(py, own);
+    PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
 }

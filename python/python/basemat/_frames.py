@@ -24,11 +24,11 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "x y left right front back gap slip slip_across residual_slip residual_slip_across displacement",
-    "Pa": "pressure shear shear_across static_pressure lowest_pressure highest_pressure",
+    "m": "depth x y left right front back gap slip slip_across residual_slip residual_slip_across displacement",
+    "Pa": "shear_modulus pressure shear shear_across static_pressure lowest_pressure highest_pressure",
     "s": "time open period",
     "m/s": "pseudo_velocity",
-    "m/s²": "acceleration pseudo_acceleration",
+    "m/s²": "acceleration pseudo_acceleration peak_acceleration",
     "N/m": "coupling",
     "N/m²": "horizontal vertical",
     "N": "rocking",
@@ -141,26 +141,25 @@ def floor_spectra(
     return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")})
 
 
+def _of(own: Any, index: str, columns: str) -> Any:
+    """A frame of arrays of an object, the first of which is its index."""
+    values = {name: getattr(own, name) for name in columns.split()}
+    frame = pandas().DataFrame(values, index=pandas().Index(getattr(own, index), name=index))
+    return _with_units(frame, _UNIT)
+
+
 def equivalent_linear_frame(self: EquivalentLinear) -> Any:
     """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
-    columns = ("shear_modulus", "modulus_ratio", "damping", "largest_strain", "effective_strain")
-    values = {name: getattr(self, name) for name in columns}
-    values["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
-    frame = pandas().DataFrame(values, index=pandas().Index(self.depth, name="depth"))
-    return _with_units(frame, {"depth": "m", "shear_modulus": "Pa", "peak_acceleration": "m/s²"})
+    frame = _of(self, "depth", "shear_modulus modulus_ratio damping largest_strain effective_strain")
+    frame["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
+    return _with_units(frame, _UNIT)
 
 
 def spectrum_frame(self: Spectrum) -> Any:
     """The spectrum as a pandas frame, indexed by the period (s)."""
-    columns = ("displacement", "pseudo_velocity", "pseudo_acceleration", "acceleration")
-    values = {name: getattr(self, name) for name in columns}
-    index = pandas().Index(self.period, name="period")
-    return _with_units(pandas().DataFrame(values, index=index), _UNIT)
+    return _of(self, "period", "displacement pseudo_velocity pseudo_acceleration acceleration")
 
 
 def impedance_frame(self: Impedances) -> Any:
     """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
-    columns = ("horizontal", "vertical", "rocking", "coupling")
-    values = {name: getattr(self, name) for name in columns}
-    index = pandas().Index(self.frequency, name="frequency")
-    return _with_units(pandas().DataFrame(values, index=index), _UNIT)
+    return _of(self, "frequency", "horizontal vertical rocking coupling")

@@ -105,16 +105,26 @@ def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]
     return Made(owner, name, tuple(map(_kept, arguments)), named)
 
 
+def _noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
+    """``call``, after which ``note`` hears of its result and arguments."""
+
+    @functools.wraps(call)
+    def noting(*arguments: Any, **keywords: Any) -> Any:
+        found = call(*arguments, **keywords)
+        note(found, arguments, keywords)
+        return found
+
+    return noting
+
+
 def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Callable[..., Any]:
     """``make``, which leaves in its result how it was made: by the ``owner``, or by itself."""
 
-    @functools.wraps(make)
-    def remember(*arguments: Any, **keywords: Any) -> Any:
-        found = make(*arguments, **keywords)
+    def note(found: Any, arguments: Any, keywords: Any) -> None:
         if hasattr(found, "__dict__"):
             vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
-        return found
 
+    remember = _noting(make, note)
     return remember
 
 
@@ -192,28 +202,21 @@ def _prepare(described: Any) -> None:
 
 def _prepare_method(owner: Any, name: str) -> None:
     """A method that returns a description."""
-    method = getattr(owner, name)
 
-    @functools.wraps(method)
-    def remember(self: Any, *arguments: Any, **keywords: Any) -> Any:
-        found = method(self, *arguments, **keywords)
-        vars(found)[_MADE] = _made(self, name, arguments, keywords)
-        return found
+    def note(found: Any, arguments: Any, keywords: Any) -> None:
+        vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
 
-    setattr(owner, name, remember)
+    setattr(owner, name, _noting(getattr(owner, name), note))
 
 
 def _prepare_call(name: str) -> None:
     """A method that adds to a mesh."""
-    method = getattr(_core.Mesh, name)
 
-    @functools.wraps(method)
-    def remember(self: Any, *arguments: Any, **keywords: Any) -> Any:
-        found = method(self, *arguments, **keywords)
-        vars(self).setdefault(_CALLS, []).append((name, _kept(arguments), _kept(keywords)))
-        return found
+    def note(_: Any, arguments: Any, keywords: Any) -> None:
+        own, *others = arguments
+        vars(own).setdefault(_CALLS, []).append((name, tuple(map(_kept, others)), _kept(keywords)))
 
-    setattr(_core.Mesh, name, remember)
+    setattr(_core.Mesh, name, _noting(getattr(_core.Mesh, name), note))
 
 
 def _prepare_all() -> None:

@@ -9,9 +9,9 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::impedance::{PyImpedances, contact};
+use super::base::contact;
 use super::strip::{Elements, grading};
-use super::{PyGround, PyPlan};
+use super::{PyGround, PyImpedances, PyPlan};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, WithGiven};
 use crate::profile::Profile;

@@ -4,7 +4,7 @@ use basemat::bem::plan::{Plan, impedances_in_plan_observed};
 use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
-use super::impedance::contact;
+use super::base::contact;
 use crate::array::{Numbers, complex, whole};
 use crate::error::{OrRaise, refuse};
 use crate::profile::Profile;

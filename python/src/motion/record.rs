@@ -1,13 +1,13 @@
-//! Records of ground acceleration.
+//! Records of ground acceleration, and response spectra.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use basemat::motion::Record;
+use basemat::motion::{Record, SpectralOrdinate};
 use pyo3::prelude::*;
 
+use super::PyFreeField;
 use super::formats::{baseline, read, unit};
-use super::{PyFreeField, PySpectrum};
 use crate::array::{Array, Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::ticker::watched;
@@ -204,5 +204,53 @@ impl PyRecord {
 
     fn __getnewargs__(&self) -> (f64, Array) {
         (self.time_step(), self.accelerations())
+    }
+}
+
+/// A response spectrum: arrays of shape (m,), one value per natural period.
+#[pyclass(name = "Spectrum", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>);
+
+/// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
+/// (count,).
+#[pyfunction]
+pub(crate) fn log_spaced(
+    first: f64,
+    last: f64,
+    #[pyo3(from_py_with = whole)] count: usize,
+) -> PyResult<Array> {
+    Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
+}
+
+getters! {
+    PySpectrum, own;
+    /// Natural periods: array of shape (m,), s.
+    period: Array = own.0.iter().map(|ordinate| ordinate.period).collect();
+    /// Largest displacements relative to the ground or floor: array of shape (m,), m.
+    displacement: Array = own.0.iter().map(|ordinate| ordinate.displacement).collect();
+    /// Pseudo-velocities: array of shape (m,), m/s.
+    pseudo_velocity: Array = own.0.iter().map(|ordinate| ordinate.pseudo_velocity).collect();
+    /// Pseudo-accelerations: array of shape (m,), m/s².
+    pseudo_acceleration: Array = own.0.iter().map(|ordinate| ordinate.pseudo_acceleration).collect();
+    /// Largest total accelerations: array of shape (m,), m/s².
+    acceleration: Array = own.0.iter().map(|ordinate| ordinate.acceleration).collect();
+}
+
+#[pymethods]
+impl PySpectrum {
+    /// Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
+    /// by default (U.S. NRC R.G. 1.122).
+    #[pyo3(signature = (share=0.15))]
+    fn broadened(&self, share: f64) -> PyResult<Self> {
+        Ok(Self(basemat::results::broadened(&self.0, share).or_raise()?))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Spectrum({} periods)", self.0.len())
     }
 }

@@ -3,7 +3,7 @@
 use basemat::coupled::EnergyTerm;
 use basemat::results::{ElementEnvelope, Quantity, Run, TimeSeries};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use super::base::preformatted;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
@@ -176,29 +176,20 @@ impl PyRun {
     /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
     #[getter]
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let probes = PyDict::new(py);
-        for probe in &self.run.probes {
-            probes.set_item(&probe.name, Py::new(py, PyExtremes(probe.extremes))?)?;
-        }
-        Ok(probes)
+        let own = self.run.probes.iter();
+        own.map(|probe| (&probe.name, PyExtremes(probe.extremes))).into_py_dict(py)
     }
 
     /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let units = PyDict::new(py);
-        units.set_item("time", "s")?;
         let in_plan = self.run.in_plan;
-        for quantity in Quantity::of(in_plan) {
-            units.set_item(quantity.to_string(), quantity.unit(in_plan))?;
-        }
-        for probe in &self.run.probes {
-            units.set_item(&probe.name, &probe.unit)?;
-        }
-        for term in EnergyTerm::ALL {
-            units.set_item(term.to_string(), if in_plan { "J" } else { "J/m" })?;
-        }
-        Ok(units)
+        let scalars = Quantity::of(in_plan).map(|own| (own.to_string(), own.unit(in_plan)));
+        let probes = self.run.probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
+        let energy = if in_plan { "J" } else { "J/m" };
+        let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
+        let time = [("time".to_owned(), "s")].into_iter();
+        time.chain(scalars).chain(probes).chain(terms).into_py_dict(py)
     }
 
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
@@ -206,25 +197,19 @@ impl PyRun {
     /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y.
     #[getter]
     fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let envelope = PyDict::new(py);
         let in_plan = if self.run.in_plan { &ENVELOPE_IN_PLAN[..] } else { &[] };
-        for (name, value) in ENVELOPE.iter().chain(in_plan) {
-            let column: Array = self.run.envelope.iter().map(value).collect();
-            envelope.set_item(name, column)?;
-        }
-        Ok(envelope)
+        let column = |value: &fn(&ElementEnvelope) -> f64| -> Array {
+            self.run.envelope.iter().map(value).collect()
+        };
+        let columns = ENVELOPE.iter().chain(in_plan);
+        columns.map(|(name, value)| (name, column(value))).into_py_dict(py)
     }
 
     /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
     /// is not positive.
     #[getter]
     fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(energy) = self.run.energy_balance.shares() else { return Ok(None) };
-        let shares = PyDict::new(py);
-        for (name, share) in energy {
-            shares.set_item(name, share)?;
-        }
-        Ok(Some(shares))
+        self.run.energy_balance.shares().map(|shares| shares.into_py_dict(py)).transpose()
     }
 
     /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME".

@@ -1,8 +1,9 @@
-//! The state at the end of a step.
+//! The state at the end of a step, steps as an iterator, and checkpoints that pickle.
 
 use basemat::contact::SearchMethod;
-use basemat::coupled::{Foundation, State};
+use basemat::coupled::{Checkpoint, Foundation, State};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::array::{Array, whole};
 use crate::error::{OrRaise, refuse};
@@ -156,5 +157,71 @@ impl PyState {
 
     fn __repr__(&self) -> String {
         format!("State(step {}, {} s)", self.0.step, self.0.time)
+    }
+}
+
+/// An iterator that makes a step whenever it is asked and yields the :class:`State` at its end, as long
+/// as ``len()`` of them are left: see :meth:`Simulation.steps`.
+#[pyclass(name = "Steps", module = "basemat")]
+pub(crate) struct PySteps {
+    /// Has a method `step`.
+    pub(super) simulation: Py<PyAny>,
+    pub(super) left: usize,
+}
+
+#[pymethods]
+impl PySteps {
+    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
+        if self.left == 0 {
+            return Ok(None);
+        }
+        py.check_signals()?;
+        let state = self.simulation.call_method0(py, "step")?;
+        self.left -= 1;
+        Ok(Some(state))
+    }
+
+    fn __len__(&self) -> usize {
+        self.left
+    }
+}
+
+/// A run between two steps: :meth:`Simulation.checkpoint` makes it, :meth:`Simulation.resume` goes
+/// on from it, to the same bits. It pickles. ``data``: the bytes that :meth:`to_bytes` returned.
+#[pyclass(name = "Checkpoint", module = "basemat", frozen, eq)]
+#[derive(PartialEq)]
+pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
+
+#[pymethods]
+impl PyCheckpoint {
+    #[new]
+    fn new(data: &[u8]) -> PyResult<Self> {
+        let read = postcard::from_bytes(data);
+        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
+    }
+
+    /// Steps made before it.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.0.steps()
+    }
+
+    /// All of it as bytes, for a file.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let written = postcard::to_allocvec(&self.0);
+        let bytes = written.map_err(|error| refuse(format!("checkpoint: {error}")))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyBytes>,)> {
+        Ok((self.to_bytes(py)?,))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Checkpoint(after {} steps)", self.0.steps())
     }
 }

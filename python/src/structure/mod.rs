@@ -10,7 +10,6 @@ mod fem;
 mod hysteresis;
 mod matrices;
 mod mesh;
-mod nonlinear;
 
 pub(crate) use base::{PyStructure, made, recipe};
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
@@ -21,8 +20,7 @@ pub(crate) use composed::{
 pub(crate) use contact_node::{Contact, PyContactNode, PyFaceNode};
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use hysteresis::{
-    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber,
+    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyWithSprings,
 };
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::{PyLayer, PyMaterial, PyMesh};
-pub(crate) use nonlinear::PyWithSprings;
