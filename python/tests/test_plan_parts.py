@@ -314,7 +314,10 @@ def test_pictures_in_plan(run: bm.Run, rocking) -> None:
     shown, mode = np.ma.asarray(cells.get_array()), run.contact["mode"][frame]
     np.testing.assert_array_equal(np.ma.getmaskarray(shown), mode == bm.MODES.index("open"))
     np.testing.assert_allclose(shown.data, 1e-3 * run.contact["pressure"][frame])
-    np.testing.assert_array_equal(np.hypot(arrows.U, arrows.V) > 0.0, mode == bm.MODES.index("slip"))
+    np.testing.assert_array_equal(~np.broadcast_to(arrows.Umask, mode.shape), mode == bm.MODES.index("slip"))
+    sliding = mode == bm.MODES.index("slip")
+    shears = [run.contact[name][frame][sliding] for name in ("shear", "shear_across")]
+    np.testing.assert_allclose(np.arctan2(*shears), np.arctan2(arrows.U[sliding], arrows.V[sliding]))
     assert axes.get_xlabel() == "x, m" and axes.get_ylabel() == "y, m"
     stack = run.plot_modes()
     top = max(path.vertices[:, 1].max() for own in stack.collections for path in own.get_paths())

@@ -1249,7 +1249,9 @@ class Run(Summary):
     def wall(self) -> float:
         """Wall time, s."""
     def summary(self) -> dict[str, Any]:
-        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME"."""
+        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
+        service "is_serviceable".
+        """
 
 @final
 class DofCombination:

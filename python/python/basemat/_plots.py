@@ -176,7 +176,7 @@ def _plan(run: Run, axes: Any) -> tuple[Any, Callable[[int], list[Any]]]:
         largest = np.hypot(*shears)
         # Over the soil they move along the shear traction on it.
         slides = np.isin(mode, [MODES.index(name) for name in ("slip", "yield slip")]) & (largest > 0.0)
-        factor = np.where(slides, size / np.where(slides, largest, 1.0), 0.0)
+        factor = np.ma.masked_where(~slides, size / np.where(slides, largest, 1.0))
         arrows.set_UVC(factor * shears[0], factor * shears[1])
         own.set_title(f"{frames['time'][frame]:.2f} s", fontsize="medium", loc="left")
         return [cells, arrows]

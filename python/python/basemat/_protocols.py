@@ -98,8 +98,8 @@ class UserHysteresis(Protocol):
     Newton's method wants; only ``commit(deformation)``, called if it is there, accepts one and
     changes internal variables. If it has them, these are called too: ``tangent(deformation)`` (slope of
     the force, N/m per metre; otherwise by differences of ``force``, two more calls),
-    ``energy(deformation)`` (stored, and dissipated until then, J/m; otherwise all work counts as
-    stored), ``save()`` and ``restore(values)`` (internal variables, always as many, for checkpoints).
+    ``energy(deformation)`` (stored, and dissipated until then, J/m; otherwise it is taken to unload
+    with its first stiffness, and to store all work if it has no ``commit``), ``save()`` and ``restore(values)`` (internal variables, always as many, for checkpoints).
 
     Every simulation works on a deep copy; :attr:`Simulation.hysteresis` gives it back with its
     internal variables. What it raises comes out of the run, as for a :class:`UserStructure`.

@@ -212,7 +212,8 @@ impl PyRun {
         self.run.energy_balance.shares().map(|shares| shares.into_py_dict(py)).transpose()
     }
 
-    /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME".
+    /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
+    /// service "is_serviceable".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
         let numbers = PyDict::new(py);
@@ -231,6 +232,9 @@ impl PyRun {
             ("energy_error", Some(run.energy_error)),
         ] {
             numbers.set_item(name, value)?;
+        }
+        if let Some(is_serviceable) = run.is_serviceable() {
+            numbers.set_item("is_serviceable", is_serviceable)?;
         }
         for probe in &run.probes {
             numbers.set_item(format!("peak {}", probe.name), probe.extremes.largest().value)?;

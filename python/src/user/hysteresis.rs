@@ -56,6 +56,8 @@ struct UserHysteresis {
     object: UserObject,
     /// Deformation (m) and force (N/m) of the last committed step, and the work done until then (J/m).
     committed: [f64; 3],
+    /// First stiffness, with which it is taken to unload if it does not tell its energy, N/m.
+    stiffness: f64,
     /// The last deformation asked for, and its response.
     last: Cell<Option<(f64, SpringResponse)>>,
 }
@@ -64,9 +66,10 @@ impl UserHysteresis {
     fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (object, last) = (copied(object)?, Cell::new(None));
         let own = UserObject::new(&object, PART, &["tangent", "energy", "commit", "save"])?;
-        let mut own = Self { object: own, committed: [0.0; 3], last };
+        let mut own = Self { object: own, committed: [0.0; 3], stiffness: 0.0, last };
         let begin = own.respond(object.py(), 0.0)?;
         own.committed[1] = begin.force;
+        own.stiffness = begin.tangent;
         own.last.set(Some((0.0, begin)));
         MADE.with_borrow_mut(|made| made.push(object.unbind()));
         Ok(own)
@@ -112,7 +115,12 @@ impl Hysteresis for UserHysteresis {
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
         if !self.object.has("energy") {
-            return InternalEnergy { stored: self.work(deformation), dissipated: 0.0 };
+            let work = self.work(deformation);
+            let force = self.response(deformation).force;
+            let elastic = 0.5 * force * force / self.stiffness;
+            let is_elastic = !self.object.has("commit") || self.stiffness <= 0.0;
+            let stored = if is_elastic { work } else { elastic.min(work) };
+            return InternalEnergy { stored, dissipated: work - stored };
         }
         let (stored, dissipated) =
             ask((f64::NAN, f64::NAN), |py| self.object.call(py, "energy", (deformation,)));
