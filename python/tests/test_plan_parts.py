@@ -17,9 +17,10 @@ import basemat as bm
 SOIL = bm.Soil(80e6, 0.25, 1900.0)
 RECORD = bm.el_centro_1940()
 BODY = bm.RigidBody.cuboid(6.0, 4.0, 8.0, 500.0)
-SQUARE = [[(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]]
 THREE = bm.triaxial(RECORD, RECORD.scaled(0.8), RECORD.scaled(0.5))
 GRAVITY = bm.STANDARD_GRAVITY
+FLAT = bm.RigidBlock(6.0, 8.0, 500.0)
+PLANE = bm.ElasticGround.under(SOIL, FLAT, 6)
 
 
 def simulation(structure=BODY, law=None, motion=THREE, **others) -> bm.Simulation:
@@ -131,6 +132,31 @@ def test_limits_of_the_packages_laws() -> None:
     assert bm.Cohesive(1e3, 2e3, 0.3).limits(glued).shear_strength == 2e3
     bonded = bm.Bonded().limits(start)
     assert bonded.bonded and pickle.loads(pickle.dumps(bm.Limits(0.4))) == bm.Limits(0.4)
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: bm.Simulation(0.01, FLAT, PLANE, Limited(bm.Bonded())), "no method `conditions`"),
+        (lambda: bm.Simulation(0.01, FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded()), "faces"),
+        (lambda: bm.Simulation(0.01, BODY, PLANE, bm.Bonded()), "contact nodes"),
+        (lambda: bm.Plan(3.0, 4), "faces: give a list of polygons"),
+        (lambda: bm.MatrixModel(np.eye(6), np.eye(6), [1, 2]), "in plan a list of faces, lists of FaceNode"),
+        (lambda: BODY.dof("x").relative_to_base(BODY), "none of the plane"),
+        (lambda: simulation().state.value("tork"), "no quantity 'tork', only base_shear"),
+    ],
+)
+def test_what_does_not_fit_is_said(call, text: str) -> None:
+    with pytest.raises((bm.InputError, TypeError), match=text):
+        call()
+
+
+def test_one_face_may_be_given_by_itself() -> None:
+    [square] = bm_square(2.0)
+    assert len(bm.Plan(square, 4)) == len(bm.Plan([square], 4)) == 16
+    assert len(bm.Plan.masked((0.0, 0.0), (1.0, 1.0), np.eye(3, dtype=int))) == 3
+    model = bm.MatrixModel(BODY.mass(), np.zeros((6, 6)), Rigid().contact_faces()[0])
+    assert len(model.contact_faces()) == 1
 
 
 class Raising(Limited):

@@ -155,7 +155,8 @@ class ElasticGround(Ground):
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
         """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-        :class:`RigidBody` a :class:`Plan` with ``count`` cells along the shorter side of its base.
+        structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base; an error says if they miss or
+        exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
 
         ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -259,10 +260,10 @@ class Strip:
 @final
 class Plan:
     """Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
-    cover, convex polygons by their corners (list of lists of x and y, m), with ``cells`` along the shorter side of them all.
+    cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
     """
 
-    def __new__(cls, faces: Sequence[Sequence[tuple[float, float]]], cells: int) -> Self: ...
+    def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
     @staticmethod
     def disc(center: tuple[float, float], radius: float, cells: int) -> Plan:
         """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
@@ -277,7 +278,7 @@ class Plan:
         """
     @staticmethod
     def masked(
-        corner: tuple[float, float], pitch: tuple[float, float], mask: Sequence[Sequence[bool]]
+        corner: tuple[float, float], pitch: tuple[float, float], mask: Any
     ) -> Plan:
         """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
         away, each a list from left to right.
@@ -2304,7 +2305,7 @@ class MatrixModel(Structure):
     ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
     (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
     points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
-    lists of :class:`FaceNode`, each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
+    lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
     (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
     list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
@@ -2314,7 +2315,7 @@ class MatrixModel(Structure):
         cls,
         mass: _MatrixLike,
         stiffness: _MatrixLike,
-        contact: Sequence[ContactNode] | Sequence[Sequence[FaceNode]],
+        contact: Sequence[ContactNode] | Sequence[FaceNode] | Sequence[Sequence[FaceNode]],
         *,
         damping: _MatrixLike | None = None,
         active_damping: bool = False,

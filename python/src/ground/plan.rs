@@ -11,7 +11,7 @@ use crate::profile::Profile;
 use crate::ticker::watched;
 
 /// Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
-/// cover, convex polygons by their corners (list of lists of x and y, m), with ``cells`` along the shorter side of them all.
+/// cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
@@ -29,10 +29,12 @@ getters! {
 #[pymethods]
 impl PyPlan {
     #[new]
-    fn new(
-        faces: Vec<Vec<[f64; 2]>>,
-        #[pyo3(from_py_with = whole)] cells: usize,
-    ) -> PyResult<Self> {
+    fn new(faces: Bound<'_, PyAny>, #[pyo3(from_py_with = whole)] cells: usize) -> PyResult<Self> {
+        // One face may be given by itself.
+        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
+        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
+        let all = faces.extract().or_else(one);
+        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
         Ok(Self(Plan::on_faces(&faces, cells).or_raise()?))
     }
 
@@ -49,12 +51,18 @@ impl PyPlan {
     /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
     /// away, each a list from left to right.
     #[staticmethod]
-    fn masked(corner: [f64; 2], pitch: [f64; 2], mask: Vec<Vec<bool>>) -> PyResult<Self> {
+    fn masked(
+        corner: [f64; 2],
+        pitch: [f64; 2],
+        mask: Vec<Vec<Bound<'_, PyAny>>>,
+    ) -> PyResult<Self> {
         let columns = mask.first().map_or(0, Vec::len);
         if mask.iter().any(|row| row.len() != columns) {
             return Err(refuse(format!("mask has a row that is not {columns} cells long")));
         }
-        Ok(Self(Plan::masked(corner, pitch, columns, &mask.concat()).or_raise()?))
+        let mask = mask.iter().flatten().map(PyAnyMethods::is_truthy);
+        let mask = mask.collect::<PyResult<Vec<_>>>()?;
+        Ok(Self(Plan::masked(corner, pitch, columns, &mask).or_raise()?))
     }
 
     /// The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by

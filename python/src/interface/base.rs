@@ -70,25 +70,29 @@ impl PyInterfaceLaw {
     }
 }
 
-/// The recipe of a law of this package, or of one written in Python.
-fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
+/// The recipe of a law of this package, or of one written in Python, for a ground in plan or in the plane.
+fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn InterfaceLaw>> {
     if let Ok(own) = object.cast::<PyInterfaceLaw>() {
         return Ok(own.get().make.clone());
     }
-    if object.hasattr("conditions")? || object.hasattr("limits")? {
+    if object.hasattr("conditions")? || (in_plan && object.hasattr("limits")?) {
         let law = UserLaw::new(object)?;
         return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
     }
     Err(refuse(format!(
-        "{} is no interface law: it has no method `conditions` or `limits`",
-        object.get_type().name()?
+        "{} is no interface law for this ground: it has no method `{}`",
+        object.get_type().name()?,
+        if in_plan { "limits" } else { "conditions" }
     )))
 }
 
 /// One law for all elements, or a sequence of one each.
-pub(crate) fn recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
+pub(crate) fn recipes(
+    object: &Bound<'_, PyAny>,
+    in_plan: bool,
+) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
     match object.extract::<Vec<Bound<'_, PyAny>>>() {
-        Ok(list) => list.iter().map(recipe).collect(),
-        Err(_) => Ok(vec![recipe(object)?]),
+        Ok(list) => list.iter().map(|law| recipe(law, in_plan)).collect(),
+        Err(_) => Ok(vec![recipe(object, in_plan)?]),
     }
 }

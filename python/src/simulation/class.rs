@@ -155,7 +155,8 @@ impl PySimulation {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         take_raised();
-        let laws = interface::recipes(&interface)?;
+        let ground = made(&ground.get().make)?;
+        let laws = interface::recipes(&interface, ground.directions() == 3)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
         user::made_springs();
         let (structure, object) = structure::made(&structure)?;
@@ -164,7 +165,7 @@ impl PySimulation {
         let names = DofNames::of(&object, dofs)?;
         let mut builder = Simulation::builder(time_step)
             .structure(structure)
-            .ground(made(&ground.get().make)?)
+            .ground(ground)
             .interfaces(laws)
             .gravity_stage(gravity_stage.parse().or_raise()?)
             .serviceability(Serviceability {

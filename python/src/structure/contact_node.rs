@@ -4,6 +4,7 @@ use basemat::structure::{ContactNode, FaceNode};
 use pyo3::prelude::*;
 
 use crate::array::whole;
+use crate::error::no_such;
 use crate::row::{Order, PyDofCombination, RowLike};
 
 /// A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
@@ -132,10 +133,23 @@ impl PyFaceNode {
 }
 
 /// What touches the ground, as Python gives it: nodes of a line in the plane, or faces in plan.
-#[derive(FromPyObject)]
 pub(crate) enum Contact<'py> {
     Line(Vec<Bound<'py, PyContactNode>>),
     Faces(Vec<Vec<Bound<'py, PyFaceNode>>>),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Contact<'py> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let line = object.extract().map(Self::Line);
+        let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
+        // One face may be given by itself.
+        let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
+        line.map_err(|_: PyErr| {
+            no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")
+        })
+    }
 }
 
 impl Contact<'_> {
