@@ -45,8 +45,6 @@ mod _core {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    const MODES: [&str; crate::names::MODE_NAMES.len()] = crate::names::MODE_NAMES;
-    #[pymodule_export]
     const STANDARD_GRAVITY: f64 = basemat::motion::STANDARD_GRAVITY;
 
     #[pymodule_export]
@@ -90,6 +88,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("MODES", crate::names::MODES.map(|(_, name)| name))?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -1,4 +1,4 @@
-//! Results as bytes, for pickles and files.
+//! Results and small values as bytes, for pickles and files.
 
 use pyo3::PyClass;
 use pyo3::prelude::*;
@@ -12,7 +12,10 @@ use crate::ground::PyImpedances;
 use crate::motion::PySpectrum;
 use crate::refine::PyRefinement;
 use crate::results::{PyEnergyBalance, PyExtremes, PyPeak, PyRun, PyServiceCheck, PySummary};
+use crate::row::PyDofCombination;
 use crate::simulation::PyFoundation;
+use crate::soil::PySoil;
+use crate::structure::{PyContactNode, PyFaceNode};
 
 /// The function that makes a result again, the name of its class, and its bytes.
 type Reduced<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
@@ -56,7 +59,7 @@ macro_rules! results {
             match kind {
                 <PyRun as PyClass>::NAME => Ok(read::<PyRun>(data)?.create(py)?.into_any()),
                 $(<$class as PyClass>::NAME => Ok(Py::new(py, read::<$class>(data)?)?.into_any()),)+
-                _ => Err(refuse(format!("kind is '{kind}', which is no result"))),
+                _ => Err(refuse(format!("kind is '{kind}', which is not kept as bytes"))),
             }
         }
     };
@@ -64,4 +67,5 @@ macro_rules! results {
 
 results! {
     PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
+    PySoil PyContactNode PyFaceNode PyDofCombination
 }

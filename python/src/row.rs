@@ -15,7 +15,7 @@ use crate::names::choice;
 /// ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
 /// is asked for. Rows add, subtract and scale.
 #[pyclass(name = "DofCombination", module = "basemat", frozen, eq)]
-#[derive(Clone)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) Order);
 
 impl PartialEq for PyDofCombination {
@@ -39,7 +39,7 @@ pub(crate) fn rows(rows: [DofCombination; 3]) -> [PyDofCombination; 3] {
 pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) Order);
 
 /// The number of degrees of freedom of the structure that a row is for, known if it was given all weights.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Order(pub(crate) Option<usize>);
 
 impl Order {

@@ -1,6 +1,5 @@
 //! Ground motion.
 
-mod formats;
 mod function;
 mod record;
 mod waves;

@@ -212,8 +212,15 @@ fn control(name: &str) -> PyResult<ControlPoint> {
 /// Part of its peak that a motion may lack without a warning: less than response spectra show.
 const UNSEEN: f64 = 1e-4;
 
-/// The record of a motion, with a warning if it lacks what can be seen.
-fn record(py: Python<'_>, step: f64, motion: SiteMotion) -> PyResult<Py<PyRecord>> {
+/// The record of what a column makes of one, with a warning if it lacks what can be seen.
+fn through(
+    py: Python<'_>,
+    record: &PyRecord,
+    control: &str,
+    column: impl FnOnce(ControlPoint, f64, &[f64]) -> basemat::Result<SiteMotion>,
+) -> PyResult<Py<PyRecord>> {
+    let (control, step) = (self::control(control)?, record.0.time_step());
+    let motion = column(control, step, record.0.accelerations()).or_raise()?;
     if motion.before.max(motion.after).max(motion.rounding) > UNSEEN * motion.peak() {
         let text = format!("{motion}: give the record quiet time on both sides (padded)");
         crate::error::warn(py, text)?;
@@ -253,9 +260,7 @@ impl PyColumn {
         record: &PyRecord,
         control: &str,
     ) -> PyResult<Py<PyRecord>> {
-        let control = self::control(control)?;
-        let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        self::record(py, step, self.0.to_surface(control, step, samples).or_raise()?)
+        through(py, record, control, |control, step, own| self.0.to_surface(control, step, own))
     }
 
     /// The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
@@ -268,9 +273,7 @@ impl PyColumn {
         record: &PyRecord,
         control: &str,
     ) -> PyResult<Py<PyRecord>> {
-        let control = self::control(control)?;
-        let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        self::record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
+        through(py, record, control, |control, step, own| self.0.from_surface(control, step, own))
     }
 
     /// Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the

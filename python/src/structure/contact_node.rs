@@ -10,7 +10,7 @@ use crate::row::{Order, PyDofCombination, RowLike};
 /// A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
 #[pyclass(name = "ContactNode", module = "basemat", frozen)]
-#[derive(Clone)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyContactNode(pub(crate) ContactNode, Order);
 
 impl From<ContactNode> for PyContactNode {
@@ -63,17 +63,13 @@ impl PyContactNode {
             self.0.vertical.to_vec()
         )
     }
-
-    fn __getnewargs__(&self) -> (f64, PyDofCombination, PyDofCombination) {
-        (self.x(), self.horizontal(), self.vertical())
-    }
 }
 
 /// A corner of a face of a base in plan: its coordinates ``x`` (to the right) and ``y`` (away), m, and the rows
 /// (:class:`DofCombination`, or what makes one) of its displacement along x, ``horizontal``, along y, ``across``, and up,
 /// ``vertical``.
 #[pyclass(name = "FaceNode", module = "basemat", frozen)]
-#[derive(Clone)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFaceNode(FaceNode, Order);
 
 impl From<FaceNode> for PyFaceNode {
@@ -125,10 +121,6 @@ impl PyFaceNode {
     fn __repr__(&self) -> String {
         let FaceNode { x, y, horizontal, across, vertical } = &self.0;
         format!("FaceNode({x:?}, {y:?}, {:?}, {:?}, {:?})", &**horizontal, &**across, &**vertical)
-    }
-
-    fn __getnewargs__(&self) -> (f64, f64, PyDofCombination, PyDofCombination, PyDofCombination) {
-        (self.x(), self.y(), self.horizontal(), self.across(), self.vertical())
     }
 }
 

@@ -109,11 +109,4 @@ impl PyDofCombination {
     fn __repr__(&self) -> String {
         format!("DofCombination({:?})", &*self.0)
     }
-
-    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>,)> {
-        match self.1.0 {
-            Some(dofs) => Ok((self.weights(py, dofs)?.into_any(),)),
-            None => Ok((self.terms().into_pyobject(py)?,)),
-        }
-    }
 }

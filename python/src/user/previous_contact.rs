@@ -1,7 +1,7 @@
 //! An element's contact, its contact at the end of the step before, and limits of its tractions in plan, as laws written in
 //! Python see them.
 
-use basemat::interface::{ContactState, Limits, Mode, PreviousContact};
+use basemat::interface::{ContactState, Limits, PreviousContact};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
@@ -52,30 +52,23 @@ impl PyContactState {
 /// variables ``memory`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen)]
 pub(crate) struct PyPreviousContact {
-    state: ContactState,
-    mode: Mode,
-    has_opened: bool,
-    slip_rate: f64,
-    static_pressure: f64,
-    time_step: f64,
+    /// All but what the law remembers.
+    own: PreviousContact<'static>,
     memory: Vec<f64>,
 }
 
 impl PyPreviousContact {
     pub(crate) fn of(start: &PreviousContact<'_>) -> Self {
-        let PreviousContact {
-            state, mode, has_opened, slip_rate, static_pressure, time_step, ..
-        } = *start;
-        let memory = start.memory.to_vec();
-        Self { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+        let mut own = PreviousContact::new(start.state, start.mode, start.time_step);
+        own.has_opened = start.has_opened;
+        own.slip_rate = start.slip_rate;
+        own.static_pressure = start.static_pressure;
+        Self { own, memory: start.memory.to_vec() }
     }
 
     /// The same for a law of the core.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
-        let mut start = PreviousContact::new(self.state, self.mode, self.time_step);
-        start.has_opened = self.has_opened;
-        start.slip_rate = self.slip_rate;
-        start.static_pressure = self.static_pressure;
+        let mut start = self.own;
         start.memory = &self.memory;
         start
     }
@@ -84,27 +77,27 @@ impl PyPreviousContact {
 getters! {
     PyPreviousContact, own;
     /// Gap, m; positive when open.
-    gap: f64 = own.state.gap;
+    gap: f64 = own.own.state.gap;
     /// Slip since the static state, m; positive to the right.
-    slip: f64 = own.state.slip;
+    slip: f64 = own.own.state.slip;
     /// Pressure, Pa; positive in compression.
-    pressure: f64 = own.state.pressure;
+    pressure: f64 = own.own.state.pressure;
     /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64 = own.state.shear;
+    shear: f64 = own.own.state.shear;
     /// Slip along y in plan, m; positive away.
-    slip_across: f64 = own.state.slip_across;
+    slip_across: f64 = own.own.state.slip_across;
     /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
-    shear_across: f64 = own.state.shear_across;
+    shear_across: f64 = own.own.state.shear_across;
     /// Mode of the step before, as in :data:`basemat.MODES`.
-    mode: PyResult<&'static str> = mode_name(own.mode);
+    mode: PyResult<&'static str> = mode_name(own.own.mode);
     /// Whether the element has been open.
-    has_opened: bool = own.has_opened;
+    has_opened: bool = own.own.has_opened;
     /// Slip rate of the step before, m/s; its magnitude in plan.
-    slip_rate: f64 = own.slip_rate;
+    slip_rate: f64 = own.own.slip_rate;
     /// Pressure of the static state, Pa.
-    static_pressure: f64 = own.static_pressure;
+    static_pressure: f64 = own.own.static_pressure;
     /// Time step, s.
-    time_step: f64 = own.time_step;
+    time_step: f64 = own.own.time_step;
     /// State variables of the law: list of numbers.
     memory: Vec<f64> = own.memory.clone();
 }
@@ -120,9 +113,9 @@ impl PyPreviousContact {
         slip_rate: f64,
         memory: Option<Numbers>,
     ) -> PyResult<Self> {
-        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
-        let start = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
-        Ok(Self { slip_rate, memory, ..Self::of(&start) })
+        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
+        own.slip_rate = slip_rate;
+        Ok(Self { own, memory: memory.map_or_else(Vec::new, |numbers| numbers.0) })
     }
 }
 
