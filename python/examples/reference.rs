@@ -1,14 +1,16 @@
 //! The same scenes as in Python's tests, by the Rust crate: `reference containment 0.4 2000` writes
-//! every time series bit by bit, `reference time 0.4 54000` the seconds of a run that keeps them.
+//! every time series bit by bit, so do `reference block 0.4 200` and `reference storeys 0.4 200` of scenes in plan, and
+//! `reference time 0.4 54000` the seconds of a run that keeps them.
 
 use std::time::Instant;
 
-use basemat::bem::{ElasticGround, Strip};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::interface::{Bonded, Coulomb};
-use basemat::motion::el_centro_1940;
+use basemat::motion::{PlaneWave, Triaxial, el_centro_1940};
 use basemat::results::Run;
 use basemat::results::{Quantity, Recorder, TimeSeries};
-use basemat::{Result, Simulation};
+use basemat::structure::{Bilinear, PlanStorey, RigidBody, StoreyBuilding};
+use basemat::{Result, Simulation, Soil};
 use basemat_problems::containment::Containment;
 
 /// The containment as the studies have it.
@@ -29,6 +31,40 @@ fn scene(friction: Option<f64>, steps: usize) -> Result<Simulation> {
     .build()
 }
 
+/// A square block under three records.
+fn block(friction: f64) -> Result<Simulation> {
+    let body = RigidBody::cuboid([8.0, 8.0, 10.0], 400.0)?;
+    let record = el_centro_1940();
+    let motion = Triaxial {
+        x: Some(record.clone()),
+        y: Some(record.scaled(0.8)?),
+        up: Some(record.scaled(0.5)?),
+    };
+    Simulation::builder(0.01)
+        .ground(ElasticGround::under(Soil::new(80.0e6, 0.25, 1900.0)?, &body, 4)?)
+        .motion(motion)
+        .interface(Coulomb::new(friction)?)
+        .structure(body)
+        .build()
+}
+
+/// An eccentric building that yields, on springs, under an oblique SH wave.
+fn storeys(friction: f64) -> Result<Simulation> {
+    let mat = RigidBody::cuboid([18.0, 12.0, 1.0], 2500.0)?;
+    let storey = PlanStorey::new(3.2, 250.0e3, [18.0, 12.0], [4.0e8, 3.0e8, 2.0e10]);
+    let storey = PlanStorey { stiffness_center: [-4.0, 0.0], ..storey };
+    let building = StoreyBuilding::new(mat, &[storey; 3])?.with_law(
+        0,
+        StoreyBuilding::ACROSS,
+        Bilinear::new(3.0e8, 1.0e6, 0.1)?,
+    )?;
+    let wave = PlaneWave::sh(Soil::new(80.0e6, 0.25, 1900.0)?, 0.5)?;
+    let motion = wave.field_from_across(&el_centro_1940(), -12.0)?.with_azimuth(0.6)?;
+    let ground = SpringGround::under(&building, 4, 30.0e6, 20.0e6)?.with_dashpots(4e5, 3e5)?;
+    let builder = Simulation::builder(0.01).ground(ground).motion(motion);
+    builder.interface(Coulomb::new(friction)?).structure(building).build()
+}
+
 fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
     let mut histories = Recorder::new().start(simulation)?;
     histories.reserve(steps);
@@ -39,7 +75,8 @@ fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
 /// Every number as the sixteen digits of its bits: time, scalars, probes, energy balance's input.
 fn write(histories: &TimeSeries) -> Result<()> {
     let mut columns = vec![histories.times().to_vec()];
-    columns.extend(Quantity::ALL.map(|quantity| histories.series(quantity).to_vec()));
+    let quantities = Quantity::of(!histories.depths().is_empty());
+    columns.extend(quantities.map(|quantity| histories.series(quantity).to_vec()));
     for probe in histories.probes() {
         columns.push(histories.probe(&probe.name)?.to_vec());
     }
@@ -57,19 +94,21 @@ fn write(histories: &TimeSeries) -> Result<()> {
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [task, friction, steps] = &arguments[..] else {
-        return Err("usage: reference containment|time FRICTION|bonded STEPS".into());
+        return Err("usage: reference containment|block|storeys|time FRICTION|bonded STEPS".into());
     };
     let friction = if friction == "bonded" { None } else { Some(friction.parse()?) };
     let steps = steps.parse()?;
     match task.as_str() {
         "containment" => write(&run(&mut scene(friction, steps)?, steps)?.1)?,
+        "block" => write(&run(&mut block(friction.unwrap_or(0.0))?, steps)?.1)?,
+        "storeys" => write(&run(&mut storeys(friction.unwrap_or(0.0))?, steps)?.1)?,
         "time" => {
             let mut simulation = scene(friction, steps)?;
             let begin = Instant::now();
             let (run, _) = run(&mut simulation, steps)?;
             println!("{} {:e}", begin.elapsed().as_secs_f64(), run.whole.base_shear.magnitude());
         }
-        _ => return Err("the first argument is `containment` or `time`".into()),
+        _ => return Err("the first argument is `containment`, `block`, `storeys` or `time`".into()),
     }
     Ok(())
 }

@@ -142,25 +142,65 @@ print(f"layered site: uplift {100.0 * run.uplifted_fraction.value:.0f} %, slip {
 # ## Three directions
 #
 # A tank on a square mat, shaken along x, along y and up. `RigidBody` stands on a ground in plan: `under` covers its base
-# with square cells, here four along a side. Forces are those of the whole body, N and N·m.
+# with square cells, here four along a side. It lifts and slides in any direction; forces are those of the whole body, N and N·m.
 
 # %%
 tank = bm.RigidBody.cuboid(8.0, 8.0, 10.0, density=400.0)
 soil = bm.Soil.from_shear_wave_speed(250.0, poisson=0.33, density=1900.0)
-shaken = bm.Simulation(
-    0.01,
-    tank,
-    bm.ElasticGround.under(soil, tank, 4),
-    bm.Bonded(),
-    motion=bm.triaxial(x=record, y=record.scaled(0.8), up=record.scaled(0.5)),
-    probes=[bm.Probe.displacement(f"rotation {axis}", tank.dof(axis)) for axis in ("rx", "ry")],
-)
-run = shaken.run(duration=10.0)
-for name in ("rotation rx", "rotation ry"):
-    print(f"{name}: {1e3 * abs(run[name]).max():.3f} mrad")
-side = [(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)]
-stiffness = bm.Plan([side], 8).impedances(soil, [0.0])[0].real
+motion = bm.triaxial(x=record, y=record.scaled(0.8), up=record.scaled(0.5))
+
+
+def in_plan(structure, law, motion=motion, **others) -> bm.Run:
+    """A run on the soil, with four cells along the shorter side."""
+    ground = bm.ElasticGround.under(soil, structure, 4)
+    return bm.Simulation(0.01, structure, ground, law, motion=motion, **others).run(duration=10.0, contact_every=5)
+
+
+run = in_plan(tank, bm.Coulomb(0.4))
+for name in ("base_shear", "shear_across", "torque", "uplifted_area"):
+    print(f"{name}: {run.extremes(name).magnitude:.4g} {run.units[name]}")
+print(run.contact_frame().groupby("mode", observed=True)[["gap", "slip", "slip_across"]].max())
+run.plot()[0].figure.savefig(OUT / "plan.png", dpi=120)
+run.plot_contact_plan().figure.savefig(OUT / "contact_plan.png", dpi=120)
+
+# %% [markdown]
+# Stiffness of the mat in all six motions, and a law of one's own: in plan it gives limits of the tractions, and slip is
+# along the shear traction. This friction falls with the way slid.
+
+# %%
+stiffness = bm.ElasticGround.under(soil, tank, 8).impedances([0.0])[0].real
 print(f"static stiffness: vertical {stiffness[2, 2]:.3g} N/m, about x {stiffness[3, 3]:.3g} N·m")
+
+
+class Worn:
+    """Friction from 0.4 to 0.2 with the way that an element has slid (m), which it remembers."""
+
+    memory = 1
+
+    def limits(self, start: bm.PreviousContact) -> bm.Limits:
+        """Of this step."""
+        return bm.Limits(friction=0.2 + 0.2 * math.exp(-start.memory[0] / 0.005))
+
+    def commit(self, start, end, mode):
+        """The way slid so far."""
+        way = math.hypot(end.slip - start.slip, end.slip_across - start.slip_across)
+        return [start.memory[0] + (way if mode == "slip" else 0.0)]
+
+
+print(f"largest slip: {1e3 * run.largest_slip.value:.1f} mm, worn {1e3 * in_plan(tank, Worn()).largest_slip.value:.1f} mm")
+
+# %% [markdown]
+# A building whose staircase draws the centre of stiffness to one end, under an SH wave that runs obliquely below it: the
+# far end drifts most.
+
+# %%
+storey = bm.PlanStorey(3.2, 240e3, (20.0, 12.0), (4e8, 3e8, 1.5e10), stiffness_center=(-5.0, 0.0))
+frame = bm.StoreyBuilding(bm.RigidBody.cuboid(20.0, 12.0, 1.0, density=2500.0), [storey] * 4)
+damped = bm.WithModalDamping(frame, [0.05], fixed_base=True)
+drifts = {name: frame.drift(0, place)[1] for name, place in (("left", (-10.0, 0.0)), ("right", (10.0, 0.0)))}
+wave = bm.PlaneWave.sh(soil, angle=0.4).field_from_across(record, origin=-12.0, azimuth=0.3)
+run = in_plan(damped, bm.Coulomb(0.6), wave, probes=[bm.Probe.displacement(*own) for own in drifts.items()])
+print({name: f"{1e3 * own.magnitude:.1f} mm" for name, own in run.probes.items()})
 
 # %% [markdown]
 # Where the energy went in the first runs.

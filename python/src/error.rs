@@ -34,6 +34,14 @@ pub(crate) fn has_raised() -> bool {
     RAISED.with_borrow(Option::is_some)
 }
 
+/// What user code says, or `otherwise` (which ends the step) if it raises.
+pub(crate) fn asked<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
+    Python::attach(ask).unwrap_or_else(|error| {
+        keep(error);
+        otherwise
+    })
+}
+
 /// Takes the exception of user code, if there is one.
 pub(crate) fn take_raised() -> Option<PyErr> {
     RAISED.take()
@@ -150,5 +158,27 @@ pub(crate) trait OrRaise<T> {
 impl<T> OrRaise<T> for basemat::Result<T> {
     fn or_raise(self) -> PyResult<T> {
         self.map_err(raise)
+    }
+}
+
+/// A part of the core in the making, whose methods are called with the arguments that were given.
+pub(crate) trait WithGiven<B>: Sized {
+    fn with<T>(
+        self,
+        given: Option<T>,
+        method: impl FnOnce(B, T) -> basemat::Result<B>,
+    ) -> basemat::Result<B>;
+}
+
+impl<B> WithGiven<B> for basemat::Result<B> {
+    fn with<T>(
+        self,
+        given: Option<T>,
+        method: impl FnOnce(B, T) -> basemat::Result<B>,
+    ) -> basemat::Result<B> {
+        match given {
+            Some(given) => method(self?, given),
+            None => self,
+        }
     }
 }

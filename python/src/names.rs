@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, refuse};
 
 /// All modes, in the order of their numbers in arrays.
-const MODES: [(Mode, &str); 9] = [
+pub(crate) const MODES: [(Mode, &str); 9] = [
     (Mode::Stick, "stick"),
     (Mode::SlipLeft, "slip left"),
     (Mode::SlipRight, "slip right"),
@@ -18,25 +18,19 @@ const MODES: [(Mode, &str); 9] = [
     (Mode::YieldSlip, "yield slip"),
 ];
 
-/// Names of the modes, in the order of their numbers in arrays.
-pub(crate) const MODE_NAMES: [&str; MODES.len()] = {
-    let mut names = [""; MODES.len()];
-    let mut number = 0;
-    while number < MODES.len() {
-        names[number] = MODES[number].1;
-        number += 1;
-    }
-    names
-};
-
-pub(crate) fn mode_name(mode: Mode) -> PyResult<&'static str> {
-    Ok(MODE_NAMES[usize::from(mode_number(mode)?)])
+/// Its number in arrays, and its name.
+fn known(mode: Mode) -> PyResult<(u8, &'static str)> {
+    let mut all = (0..).zip(MODES);
+    let found = all.find_map(|(number, (own, name))| (own == mode).then_some((number, name)));
+    found.ok_or_else(|| refuse(format!("mode '{mode}' has no number")))
 }
 
-/// Its number in arrays: the place in [`MODE_NAMES`].
+pub(crate) fn mode_name(mode: Mode) -> PyResult<&'static str> {
+    known(mode).map(|(_, name)| name)
+}
+
 pub(crate) fn mode_number(mode: Mode) -> PyResult<u8> {
-    let found = (0..).zip(MODES).find(|(_, (own, _))| *own == mode);
-    found.map(|(number, _)| number).ok_or_else(|| refuse(format!("mode '{mode}' has no number")))
+    known(mode).map(|(number, _)| number)
 }
 
 /// The mode of a name.

@@ -144,6 +144,7 @@ impl PySoilProfile {
 }
 
 /// A profile, given as such or as a soil.
+#[derive(Clone)]
 pub(crate) struct Profile(pub(crate) SoilProfile);
 
 impl<'py> FromPyObject<'_, 'py> for Profile {

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use basemat::Result;
-use basemat::structure::{ContactNode, Structure, Triplets};
+use basemat::structure::{ContactNode, FaceNode, Structure, Triplets};
 
 use crate::dof_names::DofNames;
 
@@ -31,6 +31,10 @@ impl<T: Structure + Sync> Structure for Shared<T> {
 
     fn foundation_ends(&self) -> Vec<usize> {
         self.0.foundation_ends()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.0.contact_faces()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

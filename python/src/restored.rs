@@ -1,4 +1,4 @@
-//! Results as bytes, for pickles and files.
+//! Results and small values as bytes, for pickles and files.
 
 use pyo3::PyClass;
 use pyo3::prelude::*;
@@ -12,7 +12,10 @@ use crate::ground::PyImpedances;
 use crate::motion::PySpectrum;
 use crate::refine::PyRefinement;
 use crate::results::{PyEnergyBalance, PyExtremes, PyPeak, PyRun, PyServiceCheck, PySummary};
+use crate::row::PyDofCombination;
 use crate::simulation::PyFoundation;
+use crate::soil::PySoil;
+use crate::structure::{PyContactNode, PyFaceNode};
 
 /// The function that makes a result again, the name of its class, and its bytes.
 type Reduced<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
@@ -33,39 +36,36 @@ fn read<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
     read.map_err(|error| refuse(format!("these bytes are no {}: {error}", T::NAME)))
 }
 
-/// What pickles: classes, each with what makes its object of Python from `$own`.
-macro_rules! results {
-    ($($class:ident: |$py:ident, $own:ident| $made:expr;)+) => {
+/// Classes that pickle.
+macro_rules! reduces {
+    ($($class:ident)+) => {
         $(#[pymethods]
         impl $class {
             fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
                 reduced(slf)
             }
         })+
+    };
+}
+
+/// The results beside a run.
+macro_rules! results {
+    ($($class:ident)+) => {
+        reduces! { PyRun $($class)+ }
 
         /// The result of the class ``kind`` from the bytes ``data`` that its pickle holds.
         #[pyfunction(name = "_restored")]
         pub(crate) fn restored(py: Python<'_>, kind: &str, data: &[u8]) -> PyResult<Py<PyAny>> {
             match kind {
-                $(<$class as PyClass>::NAME => {
-                    let ($py, $own) = (py, read::<$class>(data)?);
-                    Ok($made?.into_any())
-                })+
-                _ => Err(refuse(format!("kind is '{kind}', which is no result"))),
+                <PyRun as PyClass>::NAME => Ok(read::<PyRun>(data)?.create(py)?.into_any()),
+                $(<$class as PyClass>::NAME => Ok(Py::new(py, read::<$class>(data)?)?.into_any()),)+
+                _ => Err(refuse(format!("kind is '{kind}', which is not kept as bytes"))),
             }
         }
     };
 }
 
 results! {
-    PyRun: |py, own| own.create(py);
-    PyPeak: |py, own| Py::new(py, own);
-    PyExtremes: |py, own| Py::new(py, own);
-    PyEnergyBalance: |py, own| Py::new(py, own);
-    PySummary: |py, own| Py::new(py, own);
-    PyServiceCheck: |py, own| Py::new(py, own);
-    PyFoundation: |py, own| Py::new(py, own);
-    PySpectrum: |py, own| Py::new(py, own);
-    PyImpedances: |py, own| Py::new(py, own);
-    PyRefinement: |py, own| Py::new(py, own);
+    PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
+    PySoil PyContactNode PyFaceNode PyDofCombination
 }

@@ -15,7 +15,7 @@ use crate::names::choice;
 /// ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
 /// is asked for. Rows add, subtract and scale.
 #[pyclass(name = "DofCombination", module = "basemat", frozen, eq)]
-#[derive(Clone)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) Order);
 
 impl PartialEq for PyDofCombination {
@@ -30,11 +30,16 @@ impl From<DofCombination> for PyDofCombination {
     }
 }
 
+/// Rows of the core, of three directions.
+pub(crate) fn rows(rows: [DofCombination; 3]) -> [PyDofCombination; 3] {
+    rows.map(PyDofCombination::from)
+}
+
 /// A row in any of the forms that Python may give it.
 pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) Order);
 
 /// The number of degrees of freedom of the structure that a row is for, known if it was given all weights.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Order(pub(crate) Option<usize>);
 
 impl Order {
@@ -103,8 +108,7 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
 }
 
 /// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
-/// force (N/m) or a moment (N·m/m). ``unit``: "N/m" (the default) or "N·m/m". For
-/// :meth:`Probe.section`.
+/// force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For :meth:`Probe.section`.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
 pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) Order);
 
@@ -116,7 +120,7 @@ impl From<SectionRows> for PySectionRows {
 
 getters! {
     PySectionRows, own;
-    /// SI unit of the resultant: "N/m" or "N·m/m".
+    /// SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m".
     unit: &'static str = own.0.unit;
     /// The :class:`DofCombination` of displacements.
     displacement: PyDofCombination = PyDofCombination(own.0.displacement.clone(), own.1);
@@ -136,7 +140,7 @@ impl PySectionRows {
         acceleration: RowLike,
         unit: &str,
     ) -> PyResult<Self> {
-        let unit = choice("unit", unit, &["N/m", "N·m/m"].map(|own| (own, own)))?;
+        let unit = choice("unit", unit, &["N/m", "N·m/m", "N", "N·m"].map(|own| (own, own)))?;
         let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
         let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
         Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))

@@ -9,7 +9,7 @@ use crate::error::OrRaise;
 /// ``density`` (kg/m³). A run warns of a speed of shear waves outside 10 to 5 000 m/s or a density
 /// outside 500 to 10 000 kg/m³, which a slip of units often makes.
 #[pyclass(name = "Soil", module = "basemat", frozen, eq)]
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySoil(pub(crate) Soil);
 
 getters! {
@@ -57,10 +57,6 @@ impl PySoil {
     }
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        self.__getnewargs__().into_pyobject(py)?.hash()
-    }
-
-    fn __getnewargs__(&self) -> (f64, f64, f64) {
-        (self.0.shear_modulus(), self.0.poisson(), self.0.density())
+        (self.shear_modulus(), self.poisson(), self.density()).into_pyobject(py)?.hash()
     }
 }

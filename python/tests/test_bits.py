@@ -33,17 +33,19 @@ SERIES = [
 ]
 
 
+def rusts(reference: Path, *arguments: str) -> np.ndarray:
+    """Time series as Rust has them, a column each."""
+    command = [str(reference), *arguments]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    bits = [[int(word, 16) for word in line.split()] for line in text.splitlines()]
+    return np.array(bits, np.uint64).view(np.float64)
+
+
 @pytest.mark.parametrize("friction", [None, math.inf, 0.2])
 def test_containment(reference: Path, friction: float | None) -> None:
     steps = 5000
     name = "bonded" if friction is None else repr(friction)
-    command = [str(reference), "containment", name, str(steps)]
-    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    bits = np.array(
-        [[int(word, 16) for word in line.split()] for line in text.splitlines()], np.uint64
-    )
-    rust = bits.view(np.float64)
-
+    rust = rusts(reference, "containment", name, str(steps))
     run = containment.scene(friction, steps=steps).simulation.run(steps)
     assert rust.shape == (steps + 1, len(SERIES) + 1)
     for column, key in enumerate(SERIES):
@@ -52,6 +54,37 @@ def test_containment(reference: Path, friction: float | None) -> None:
     # It shook, and where it may it opened: zeros would be equal, too.
     assert run.base_shear.magnitude > 1.0e5
     assert (run.uplifted_fraction.value > 0.0) == (friction is not None)
+
+
+def block(friction: float) -> bm.Simulation:
+    body, record = bm.RigidBody.cuboid(8.0, 8.0, 10.0, 400.0), bm.el_centro_1940()
+    motion = bm.triaxial(record, record.scaled(0.8), record.scaled(0.5))
+    ground = bm.ElasticGround.under(bm.Soil(80e6, 0.25, 1900.0), body, 4)
+    return bm.Simulation(0.01, body, ground, bm.Coulomb(friction), motion=motion)
+
+
+def storeys(friction: float) -> bm.Simulation:
+    mat = bm.RigidBody.cuboid(18.0, 12.0, 1.0, 2500.0)
+    storey = bm.PlanStorey(3.2, 250e3, (18.0, 12.0), (4e8, 3e8, 2e10), stiffness_center=(-4.0, 0.0))
+    law = bm.Bilinear(3e8, 1e6, 0.1)
+    building = bm.StoreyBuilding(mat, [storey] * 3, laws={(0, "y"): law})
+    wave = bm.PlaneWave.sh(bm.Soil(80e6, 0.25, 1900.0), 0.5)
+    motion = wave.field_from_across(bm.el_centro_1940(), -12.0, azimuth=0.6)
+    ground = bm.SpringGround.under(building, 4, 30e6, 20e6, dashpots=(4e5, 3e5))
+    return bm.Simulation(0.01, building, ground, bm.Coulomb(friction), motion=motion)
+
+
+@pytest.mark.parametrize("scene", [block, storeys])
+def test_scenes_in_plan(reference: Path, scene) -> None:
+    rust = rusts(reference, scene.__name__, "0.15", "400")
+    run = scene(0.15).run(400)
+    names = list(run.series)
+    assert len(names) == 21 and rust.shape == (401, len(names) + 1)
+    for column, key in enumerate(names):
+        assert same_bits(run[key], np.ascontiguousarray(rust[:, column])), key
+    # It twisted, lifted and slid.
+    assert abs(run.extremes("twist").magnitude) > 0.0 and run.largest_slip.value > 1e-4
+    assert run.energy_error < 1e-9
 
 
 def test_steps_and_runs_are_the_same(rocking) -> None:

@@ -204,6 +204,11 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_GravityStage": lambda word: simulation(gravity_stage=word),
     "_Coordinates": lambda word: simulation(coordinates=word),
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),
+    "_PlanDirection": lambda word: bm.StoreyBuilding(
+        bm.RigidBody.cuboid(2.0, 2.0, 1.0, 2e3),
+        [bm.PlanStorey(3.0, 1e3, (2.0, 2.0), (1e6, 1e6, 1e6))],
+        laws={(0, word): bm.Bilinear(1e6, 1e3, 0.1)},  # type: ignore[dict-item]
+    ),
     "_Mass": lambda word: bm.FemModel(mesh(), mass=word),
     "_Formulation": lambda word: bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3), formulation=word),
     "_Direction": lambda word: bm.FemModel(mesh()).dof_at(0, word),

@@ -176,7 +176,7 @@ def test_errors_name_the_argument_and_what_it_should_be(
     ("text", "call"),
     [
         ("soil: of the type float, but must be a Soil or a SoilProfile", lambda: bm.ElasticGround(80e6, [])),
-        ("strips: of the type int, but must be a Strip or a list", lambda: bm.SpringGround(3, 1e8, 1e8)),
+        ("strips: of the type int, but must be a Strip, a list of them", lambda: bm.SpringGround(3, 1e8, 1e8)),
     ],
 )
 def test_wrong_types_are_named_in_pythons_words(text: str, call: Callable[[], object]) -> None:

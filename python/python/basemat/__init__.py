@@ -23,6 +23,7 @@ for _class, _name, _method in (
     (Run, "floor_spectra", _frames.floor_spectra),
     (Run, "plot", _plots.plot_run),
     (Run, "plot_modes", _plots.plot_modes),
+    (Run, "plot_contact_plan", _plots.plot_contact_plan),
     (Run, "animate", _plots.animate),
     (Run, "save", _save),
     (Spectrum, "to_frame", _frames.spectrum_frame),

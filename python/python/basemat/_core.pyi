@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import UserHysteresis, UserLaw, UserStructure
+from ._protocols import UserHysteresis, UserLaw, UserPlanLaw, UserPlanStructure, UserStructure
 
 __version__: str
 MODES: list[_Mode]
@@ -42,13 +42,15 @@ _ControlPoint: TypeAlias = Literal["outcrop", "within"]
 _InclinedControl: TypeAlias = Literal["outcrop horizontal", "outcrop vertical", "incident"]
 _GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
 _Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
-_SectionUnit: TypeAlias = Literal["N/m", "N·m/m"]
+_SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
+_PlanDirection: TypeAlias = Literal["x", "y", "twist"]
 _Mass: TypeAlias = Literal["consistent", "lumped"]
 _Formulation: TypeAlias = Literal["incompatible modes", "full", "one point", "hourglass"]
 _Direction: TypeAlias = Literal["x", "y", "rotation"]
 _SpringDirection: TypeAlias = Literal["x", "y", "rotation", "axial"]
 
-_Interface: TypeAlias = Union["InterfaceLaw", UserLaw]
+_Interface: TypeAlias = Union["InterfaceLaw", UserLaw, UserPlanLaw]
+_Structure: TypeAlias = Union["Structure", UserStructure, UserPlanStructure]
 _RowLike: TypeAlias = Union[
     "DofCombination", int, Mapping[int, float], Sequence[tuple[int, float]], NDArray[np.float64]
 ]
@@ -102,7 +104,12 @@ class Ground:
 
     @property
     def elements(self) -> NDArray[np.float64]:
-        """Ends of the contact elements from left to right: array of shape (elements, 2), m."""
+        """Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m."""
+    @property
+    def depths(self) -> NDArray[np.float64]:
+        """Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; 0 and 1, the
+        metre of thickness, in the plane.
+        """
 
 @final
 class ElasticGround(Ground):
@@ -135,7 +142,7 @@ class ElasticGround(Ground):
     @staticmethod
     def under(
         soil: Soil | SoilProfile,
-        structure: Structure | UserStructure,
+        structure: _Structure,
         count: int,
         *,
         grading: _Grading = "cosine",
@@ -148,15 +155,16 @@ class ElasticGround(Ground):
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
         """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-        :class:`RigidBody` a :class:`Plan` with ``count`` cells along the shorter side of its base.
+        structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base; an error says if they miss or
+        exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
 
         ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
         ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
         """
-    def impedances(self, frequencies: ArrayLike, *, contact: _StripContact = "bonded") -> Impedances:
+    def impedances(self, frequencies: ArrayLike, *, contact: _StripContact = "bonded") -> Any:
         """Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array
-        of shape (m,), Hz). ``contact``: "bonded" (the default: soil and strips move together) or
+        of shape (m,), Hz); in plan the array of :meth:`Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
         "relaxed" (vertical motions without shear, horizontal ones without pressure).
         """
 
@@ -203,33 +211,36 @@ class Impedances:
 class SpringGround(Ground):
     """Independent springs and dashpots under each element (Winkler bed).
 
-    ``strips``: a :class:`Strip` or a list of them. ``normal_stiffness``, ``tangential_stiffness``: Pa/m.
-    ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps
-    them, ½ to 1; ½ unless given.
+    ``strips``: a :class:`Strip` or a list of them, or a :class:`Plan`, whose outer cells then end with the mat.
+    ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential one unless
+    given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps them, ½ to 1; ½ unless
+    given.
     """
 
     def __new__(
         cls,
-        strips: Strip | Sequence[Strip],
+        strips: Strip | Sequence[Strip] | Plan,
         normal_stiffness: float,
         tangential_stiffness: float,
         *,
+        across_stiffness: float | None = None,
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
     ) -> Self: ...
     @staticmethod
     def under(
-        structure: Structure | UserStructure,
+        structure: _Structure,
         count: int,
         normal_stiffness: float,
         tangential_stiffness: float,
         *,
+        across_stiffness: float | None = None,
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
     ) -> SpringGround:
-        """Strips of ``count`` equal elements under each foundation of a ``structure``; ``normal_stiffness``,
-        ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
-        if given.
+        """Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
+        the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
+        and ``theta`` are those of the class, the last three if given.
         """
 
 @final
@@ -249,10 +260,10 @@ class Strip:
 @final
 class Plan:
     """Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
-    cover, convex polygons by their corners (list of lists of x and y, m), with ``cells`` along the shorter side of them all.
+    cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
     """
 
-    def __new__(cls, faces: Sequence[Sequence[tuple[float, float]]], cells: int) -> Self: ...
+    def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
     @staticmethod
     def disc(center: tuple[float, float], radius: float, cells: int) -> Plan:
         """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
@@ -265,6 +276,28 @@ class Plan:
         moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
         "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
         """
+    @staticmethod
+    def masked(
+        corner: tuple[float, float], pitch: tuple[float, float], mask: Any
+    ) -> Plan:
+        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
+        away, each a list from left to right.
+        """
+    def with_unions(self, along: Sequence[int], across: Sequence[int]) -> Plan:
+        """The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
+        ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
+        """
+    def without_overhang(self) -> Plan:
+        """The plan with cells that end where the faces do: for springs, and for given pressures."""
+    @property
+    def pitch(self) -> list[float]:
+        """Sides of a cell along x and y, m."""
+    @property
+    def middle(self) -> list[float]:
+        """Middle of the bounding rectangle, x and y, m: what impedances refer to."""
+    @property
+    def area_error(self) -> float:
+        """Area of the cells inside the outline less that of the faces, relative to it."""
 
 @disjoint_base
 class InterfaceLaw:
@@ -285,6 +318,10 @@ class InterfaceLaw:
         """The mode to try next after the ``trial`` (:class:`ContactState`) that ``mode`` led to in the step
         that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
         ``tolerance`` left aside.
+        """
+    def limits(self, start: PreviousContact) -> Limits:
+        """The :class:`Limits` of an element's tractions on a ground in plan, in the step after ``start``
+        (:class:`PreviousContact`).
         """
 
 @final
@@ -389,6 +426,8 @@ class FreeField:
         """Displacement (to the right, up), m, at ``x`` (m) and ``time`` (s)."""
     def velocity(self, x: float, time: float) -> list[float]:
         """Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s)."""
+    def displacement_at(self, x: float, y: float, time: float) -> list[float]:
+        """Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s)."""
 
 @final
 class Record(FreeField):
@@ -539,10 +578,29 @@ class PlaneWave:
     @property
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
-    def field_from_horizontal(self, record: Record, origin: float) -> FreeField:
-        """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``."""
-    def field_from_vertical(self, record: Record, origin: float) -> FreeField:
-        """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``."""
+    def field_from_horizontal(
+        self, record: Record, origin: float, *, azimuth: float = 0.0
+    ) -> FreeField:
+        """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+        :func:`travelling_wave`.
+        """
+    def field_from_vertical(
+        self, record: Record, origin: float, *, azimuth: float = 0.0
+    ) -> FreeField:
+        """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+        :func:`travelling_wave`.
+        """
+    @staticmethod
+    def sh(soil: Soil, angle: float) -> PlaneWave:
+        """SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
+        across its direction only.
+        """
+    def field_from_across(
+        self, record: Record, origin: float, *, azimuth: float = 0.0
+    ) -> FreeField:
+        """The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
+        (rad; 0 by default) is that of :func:`travelling_wave`.
+        """
 
 @final
 class SoilColumn:
@@ -584,6 +642,19 @@ class SoilColumn:
         ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
         ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
         ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
+        """
+    @staticmethod
+    def surface_in_plan(
+        profile: SoilProfile,
+        x: Record | None = None,
+        y: Record | None = None,
+        up: Record | None = None,
+        *,
+        control: _ControlPoint = "outcrop",
+    ) -> list[Record | None]:
+        """Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
+        default) or "within", of a ``profile`` (:class:`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
+        is None stays so.
         """
 
 @final
@@ -691,11 +762,17 @@ class InclinedWave:
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
     def field(
-        self, record: Record, origin: float, *, control: _InclinedControl = "outcrop horizontal"
+        self,
+        record: Record,
+        origin: float,
+        *,
+        control: _InclinedControl = "outcrop horizontal",
+        azimuth: float = 0.0,
     ) -> FreeField:
         """The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
         (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
-        vertical" (motions of the base without layers) or "incident" (the incident wave alone).
+        vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
+        default) is that of :func:`travelling_wave`.
         """
 
 @final
@@ -837,7 +914,7 @@ class Summary:
 
     def extremes(self, quantity: str) -> Extremes:
         """The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
-        "base_shear" or "free_field_horizontal".
+        "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
         """
     @property
     def ends(self) -> list[float]:
@@ -884,6 +961,9 @@ class Summary:
     @property
     def least_overturning_safety(self) -> Peak:
         """Least factor of safety against overturning, a :class:`Peak`."""
+    @property
+    def residual_slip_across(self) -> float:
+        """In plan: slip along y averaged over it at the end, m."""
 
 @final
 class ServiceCheck:
@@ -1004,6 +1084,9 @@ class Run(Summary):
     def steps(self) -> int:
         """Number of steps made."""
     @property
+    def in_plan(self) -> bool:
+        """Whether the ground was one in plan: results are then those of the whole body, N in place of N/m."""
+    @property
     def start(self) -> float:
         """Time at the beginning, s."""
     @property
@@ -1022,7 +1105,8 @@ class Run(Summary):
     @property
     def contact(self) -> dict[str, Any]:
         """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-        (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements).
+        (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+        "shear_across" (Pa), along y.
         """
     @property
     def motion(self) -> dict[str, Any]:
@@ -1043,7 +1127,8 @@ class Run(Summary):
     def contact_frame(self) -> Any:
         """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
-        Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
+        Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
+        "y", "slip_across" (m) and "shear_across" (Pa).
         """
     def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> Any:
         """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
@@ -1055,9 +1140,12 @@ class Run(Summary):
     def envelope_frame(self) -> Any:
         """:attr:`Run.envelope` as a pandas frame: a row per element."""
     def foundation_frame(self) -> Any:
-        """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs."""
+        """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs.
+
+        Columns are those of the scalar time series, in plan also of the directions across: "torque" and others.
+        """
     def energy_frame(self) -> Any:
-        """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m."""
+        """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     def floor_spectra(
         self, periods: ArrayLike, damping: float = 0.05, *, probes: Sequence[str] | None = None
     ) -> Any:
@@ -1069,20 +1157,28 @@ class Run(Summary):
             probes: names of acceleration probes; all those with the unit "m/s²" unless given.
         """
     def plot(self, axes: Any = None) -> list[Any]:
-        """Draws base shear, contact modes and energies over time; returns the list of axes.
+        """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
         Contact modes are those of the snapshots, if ``contact_every`` was given to
         :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
         new figure unless given.
         """
     def plot_modes(self, axes: Any = None) -> Any:
-        """Draws the contact mode of every element over time; returns the axes.
+        """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
         It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
         matplotlib to draw into; those of a new figure unless given.
         """
+    def plot_contact_plan(self, time: float | None = None, axes: Any = None) -> Any:
+        """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
+
+        It needs snapshots of the contact on a ground in plan: ``contact_every`` of :meth:`Simulation.run`. ``time`` (s): the
+        snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
+        into; those of a new figure unless given.
+        """
     def animate(self, scale: float | None = None) -> Any:
-        """Moving picture of the base, its gaps and the pressure under it, element by element.
+        """Moving picture of the base, its gaps and the pressure under it, element by element; in plan of what
+        :meth:`plot_contact_plan` draws.
 
         It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
         on gaps; the largest one is a tenth of the base's length unless given. Returns a
@@ -1125,7 +1221,7 @@ class Run(Summary):
     def envelope(self) -> dict[str, Any]:
         """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
         "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
-        "open" (s).
+        "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y.
         """
     @property
     def mode_changes(self) -> int:
@@ -1154,7 +1250,9 @@ class Run(Summary):
     def wall(self) -> float:
         """Wall time, s."""
     def summary(self) -> dict[str, Any]:
-        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME"."""
+        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
+        service "is_serviceable".
+        """
 
 @final
 class DofCombination:
@@ -1173,9 +1271,9 @@ class DofCombination:
         """The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit."""
     def weights(self, dofs: int) -> NDArray[np.float64]:
         """All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``."""
-    def relative_to_base(self, structure: Structure | UserStructure) -> DofCombination:
+    def relative_to_base(self, structure: _Structure) -> DofCombination:
         """This displacement to the right less that of the middle of the base of the ``structure``."""
-    def total_drift(self, structure: Structure | UserStructure, height: float) -> DofCombination:
+    def total_drift(self, structure: _Structure, height: float) -> DofCombination:
         """This displacement to the right less that of the base of the ``structure``, its rotation included,
         which moves what is ``height`` (m) above it: the lateral deformation.
         """
@@ -1185,14 +1283,12 @@ class DofCombination:
     def __mul__(self, factor: float, /) -> DofCombination: ...
     def __rmul__(self, factor: float, /) -> DofCombination: ...
     def __truediv__(self, divisor: float, /) -> DofCombination: ...
-    def __getnewargs__(self) -> tuple[Any]: ...
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
 class SectionRows:
     """A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
-    force (N/m) or a moment (N·m/m). ``unit``: "N/m" (the default) or "N·m/m". For
-    :meth:`Probe.section`.
+    force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For :meth:`Probe.section`.
     """
 
     def __new__(
@@ -1206,7 +1302,7 @@ class SectionRows:
     def __getnewargs_ex__(self) -> tuple[tuple[DofCombination, DofCombination, DofCombination], dict[str, Any]]: ...
     @property
     def unit(self) -> str:
-        """SI unit of the resultant: "N/m" or "N·m/m"."""
+        """SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m"."""
     @property
     def displacement(self) -> DofCombination:
         """The :class:`DofCombination` of displacements."""
@@ -1284,7 +1380,7 @@ class Simulation:
     def __new__(
         cls,
         time_step: float,
-        structure: Structure | UserStructure,
+        structure: _Structure,
         ground: Ground,
         interface: _Interface | Sequence[_Interface],
         *,
@@ -1503,7 +1599,7 @@ class State:
         """Total pressure on the soil, N/m."""
     @property
     def uplifted_fraction(self) -> float:
-        """Ratio of the length of open elements to that of the base."""
+        """Ratio of the length of open elements to that of the base, in plan of areas."""
     @property
     def mean_slip(self) -> float:
         """Slip averaged over the base, m."""
@@ -1546,6 +1642,16 @@ class State:
         """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
         has none.
         """
+    @property
+    def slip_across(self) -> NDArray[np.float64]:
+        """In plan: slip of each element along y: array of shape (elements,), m; 0 in the plane."""
+    @property
+    def shear_across(self) -> NDArray[np.float64]:
+        """In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane."""
+    def value(self, quantity: str) -> float:
+        """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
+        also "torque" or "uplifted_area".
+        """
 
 @final
 class FoundationState:
@@ -1567,7 +1673,7 @@ class FoundationState:
         """Total pressure, N/m."""
     @property
     def uplifted_fraction(self) -> float:
-        """Ratio of its open length to its length."""
+        """Ratio of its open length to its length, in plan of areas."""
     @property
     def mean_slip(self) -> float:
         """Slip averaged over it, m."""
@@ -1583,6 +1689,15 @@ class FoundationState:
     @property
     def torque(self) -> float:
         """In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m."""
+    @property
+    def mean_slip_across(self) -> float:
+        """In plan: slip along y averaged over it, m."""
+    @property
+    def rotation_across(self) -> float:
+        """In plan: rotation about x, rad."""
+    @property
+    def twist(self) -> float:
+        """In plan: rotation about the vertical axis, counter-clockwise from above, rad."""
 
 @final
 class Soil:
@@ -1615,7 +1730,6 @@ class Soil:
     @property
     def pressure_wave_speed(self) -> float:
         """Speed of pressure waves, m/s."""
-    def __getnewargs__(self) -> tuple[float, float, float]: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
 
@@ -1634,13 +1748,15 @@ class Structure:
     def dof(self, name: str) -> DofCombination:
         """The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`."""
     def contact_nodes(self) -> list[ContactNode]:
-        """Points of the base that touch the ground: list of :class:`ContactNode`, from left to right."""
+        """Points of the base that touch the ground: list of :class:`ContactNode`, from left to right; none in plan."""
     def mass(self) -> NDArray[np.float64]:
         """Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom."""
     def stiffness(self) -> NDArray[np.float64]:
         """Stiffness matrix (n × n array, N/m per metre)."""
     def damping(self) -> NDArray[np.float64]:
         """Viscous damping matrix (n × n array, N s/m per metre)."""
+    def contact_faces(self) -> list[list[FaceNode]]:
+        """Faces of the base of a structure in plan: list of lists of :class:`FaceNode`; none in the plane."""
 
 @final
 class RigidBlock(Structure):
@@ -1692,7 +1808,7 @@ class RigidBlock(Structure):
 class RigidBody(Structure):
     """A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
     x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for :meth:`dof`. It stands on
-    a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid` and :meth:`cylinder` make one.
+    a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid`, :meth:`cylinder` and :meth:`from_mass` make one.
     """
 
     @staticmethod
@@ -1724,6 +1840,25 @@ class RigidBody(Structure):
     @property
     def total_mass(self) -> float:
         """Mass, kg."""
+    @staticmethod
+    def from_mass(
+        outline: Sequence[tuple[float, float]],
+        mass: float,
+        inertia: Sequence[Sequence[float]],
+        gravity_center: Sequence[float],
+        *,
+        center: tuple[float, float] = (0.0, 0.0),
+        p_delta: float | None = None,
+    ) -> RigidBody:
+        """Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
+        freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
+        the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
+        those of :meth:`cuboid`, if given.
+        """
+    def displacement_at(self, x: float, y: float, z: float) -> list[DofCombination]:
+        """The three :class:`DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
+        from the middle of the base (m).
+        """
 
 @final
 class Storey:
@@ -1812,6 +1947,70 @@ class ShearBuilding(Structure):
         """
 
 @final
+class PlanStorey:
+    """A storey of a :class:`StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
+    ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
+
+    ``inertia``: of the floor about x, y and z through its centre of mass (kg m²), that of the rectangle unless given.
+    ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default. ``damping``: dashpots
+    beside the three stiffnesses, N s/m and N m s; 0 by default.
+    """
+
+    def __new__(
+        cls,
+        height: float,
+        mass: float,
+        sides: Sequence[float],
+        stiffness: Sequence[float],
+        *,
+        inertia: Sequence[float] | None = None,
+        mass_center: Sequence[float] = (0.0, 0.0),
+        stiffness_center: Sequence[float] = (0.0, 0.0),
+        damping: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> Self: ...
+
+@final
+class StoreyBuilding(Structure):
+    """Rigid floors on sway columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y and twist, and
+    tilt with the mat.
+
+    Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
+    floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor 0 x",
+    "floor 0 y", "floor 0 rz", "floor 1 x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
+    gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
+    (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
+    given.
+    """
+
+    def __new__(
+        cls,
+        mat: RigidBody,
+        storeys: Sequence[PlanStorey],
+        *,
+        p_delta: float | None = None,
+        laws: Mapping[tuple[int, _PlanDirection], Hysteresis | UserHysteresis] | None = None,
+    ) -> Self: ...
+    @property
+    def total_mass(self) -> float:
+        """Mass of mat and floors, kg."""
+    def floor(self, storey: int, place: Sequence[float] = (0.0, 0.0)) -> list[DofCombination]:
+        """The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+        (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
+        """
+    def drift(self, storey: int, place: Sequence[float] | None = None) -> list[DofCombination]:
+        """The three :class:`DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
+        at a ``place`` (x and y from the middle of the mat, m); at its centre of stiffness unless given.
+        """
+    def total_drift(self, storey: int, place: Sequence[float] = (0.0, 0.0)) -> list[DofCombination]:
+        """The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+        (0: the lowest) less the rigid motion of the mat, at a ``place`` as for :meth:`floor`.
+        """
+    def shear(self, storey: int) -> list[SectionRows]:
+        """The three :class:`SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
+        what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
+        """
+
+@final
 class RayleighDamping:
     """Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness."""
 
@@ -1837,7 +2036,7 @@ class ReducedModel(Structure):
 
     def __new__(
         cls,
-        structure: Structure | UserStructure,
+        structure: _Structure,
         modes: int,
         *,
         keep: Sequence[int] | None = None,
@@ -1861,7 +2060,7 @@ class StructureGroup(Structure):
     ``(structure, shift)`` from left to right, each moved to the right by its shift (m).
     """
 
-    def __new__(cls, members: Sequence[tuple[Structure | UserStructure, float]]) -> Self: ...
+    def __new__(cls, members: Sequence[tuple[_Structure, float]]) -> Self: ...
     def row(self, member: int, row: _RowLike) -> DofCombination:
         """A ``row`` of the structure ``member`` (0: the leftmost) as a :class:`DofCombination` of the group."""
 
@@ -1874,7 +2073,7 @@ class WithModalDamping(Structure):
     are those of the structure by itself, far higher: of 5 %, the first mode of five storeys on a base then has 0.9 %.
     """
 
-    def __new__(cls, structure: Structure | UserStructure, ratios: ArrayLike, *, fixed_base: bool = False) -> Self: ...
+    def __new__(cls, structure: _Structure, ratios: ArrayLike, *, fixed_base: bool = False) -> Self: ...
     @property
     def frequencies(self) -> NDArray[np.float64]:
         """Frequencies of the modes that are not rigid: array of shape (modes,), Hz."""
@@ -1905,7 +2104,44 @@ class ContactNode:
     @property
     def vertical(self) -> DofCombination:
         """The :class:`DofCombination` of its displacement up."""
-    def __getnewargs__(self) -> tuple[float, DofCombination, DofCombination]: ...
+
+@final
+class FaceNode:
+    """A corner of a face of a base in plan: its coordinates ``x`` (to the right) and ``y`` (away), m, and the rows
+    (:class:`DofCombination`, or what makes one) of its displacement along x, ``horizontal``, along y, ``across``, and up,
+    ``vertical``.
+    """
+
+    def __new__(
+        cls,
+        x: float,
+        y: float,
+        horizontal: _RowLike,
+        across: _RowLike,
+        vertical: _RowLike,
+    ) -> Self: ...
+    @staticmethod
+    def rigid_base(
+        corners: Sequence[tuple[float, float]], center: tuple[float, float], dofs: Sequence[int]
+    ) -> list[FaceNode]:
+        """The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
+        whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
+        """
+    @property
+    def x(self) -> float:
+        """Coordinate to the right, m."""
+    @property
+    def y(self) -> float:
+        """Coordinate away from the reader, m."""
+    @property
+    def horizontal(self) -> DofCombination:
+        """The :class:`DofCombination` of its displacement along x."""
+    @property
+    def across(self) -> DofCombination:
+        """The :class:`DofCombination` of its displacement along y."""
+    @property
+    def vertical(self) -> DofCombination:
+        """The :class:`DofCombination` of its displacement up."""
 
 @final
 class FemModel(Structure):
@@ -2064,7 +2300,8 @@ class MatrixModel(Structure):
 
     ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
     (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
-    points of its base, a list of :class:`ContactNode` from left to right. ``damping`` (n × n, N s/m per
+    points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
+    lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
     (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
     list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
@@ -2074,7 +2311,7 @@ class MatrixModel(Structure):
         cls,
         mass: _MatrixLike,
         stiffness: _MatrixLike,
-        contact: Sequence[ContactNode],
+        contact: Sequence[ContactNode] | Sequence[FaceNode] | Sequence[Sequence[FaceNode]],
         *,
         damping: _MatrixLike | None = None,
         active_damping: bool = False,
@@ -2192,7 +2429,7 @@ class WithSprings(Structure):
     """
 
     def __new__(
-        cls, structure: Structure | UserStructure, springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]]
+        cls, structure: _Structure, springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]]
     ) -> Self: ...
 
 @final
@@ -2312,7 +2549,7 @@ class PreviousContact:
         """Whether the element has been open."""
     @property
     def slip_rate(self) -> float:
-        """Slip rate of the step before, m/s."""
+        """Slip rate of the step before, m/s; its magnitude in plan."""
     @property
     def static_pressure(self) -> float:
         """Pressure of the static state, Pa."""
@@ -2322,6 +2559,59 @@ class PreviousContact:
     @property
     def memory(self) -> list[float]:
         """State variables of the law: list of numbers."""
+    @property
+    def slip_across(self) -> float:
+        """Slip along y in plan, m; positive away."""
+    @property
+    def shear_across(self) -> float:
+        """Shear traction of the structure on the soil along y in plan, Pa; positive away."""
+
+@final
+class Limits:
+    """Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
+    :meth:`UserPlanLaw.limits` returns.
+
+    Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
+    traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
+    ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
+    ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
+    element that has opened with a tension, an attraction or a shear strength loses them in that step.
+    """
+
+    def __new__(
+        cls,
+        friction: float = 0.0,
+        *,
+        attraction: float = 0.0,
+        shear_strength: float = 0.0,
+        tension: float = 0.0,
+        pressure_cap: float = 1e999,
+        gap_offset: float = 0.0,
+        bonded: bool = False,
+    ) -> Self: ...
+    @property
+    def friction(self) -> float:
+        """Friction coefficient; infinite where nothing slides."""
+    @property
+    def attraction(self) -> float:
+        """Pressure that friction acts on beside that of the contact, Pa."""
+    @property
+    def shear_strength(self) -> float:
+        """Shear traction that is borne beside friction, Pa."""
+    @property
+    def tension(self) -> float:
+        """Tensile strength, Pa."""
+    @property
+    def pressure_cap(self) -> float:
+        """Greatest pressure, Pa."""
+    @property
+    def gap_offset(self) -> float:
+        """Gap of a closed element, m."""
+    @property
+    def bonded(self) -> bool:
+        """Whether base and soil neither separate nor slide."""
+    def __getnewargs_ex__(self) -> tuple[tuple[float], dict[str, Any]]: ...
+    def __eq__(self, other: object, /) -> bool: ...
 
 def refine(
     elements: int,
@@ -2343,8 +2633,9 @@ def free_field(
     acceleration: Callable[[float], float | Sequence[float]] | None = None,
     time_step: float | None = None,
     duration: float | None = None,
+    displacement_at: Callable[[float, float, float], Sequence[float]] | None = None,
 ) -> FreeField:
-    """A motion of functions, named by what they return: give one of the two.
+    """A motion of functions, named by what they return: give one of them.
 
     ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
     (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
@@ -2354,8 +2645,11 @@ def free_field(
     a :class:`Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
     velocity stays what it is by then.
 
-    Either may return a number instead, the motion to the right, and may raise. None is for the other one,
-    and for its ``time_step`` and ``duration``.
+    ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
+    the point x, y (m).
+
+    The first two may return a number instead, the motion to the right, and all may raise. None is for the other ones,
+    and for their ``time_step`` and ``duration``.
     """
 def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
     """``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
@@ -2371,9 +2665,12 @@ def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None
     """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a :class:`Record`), the same everywhere at
     once, for a ground in plan; what is None rests.
     """
-def travelling_wave(motion: FreeField, apparent_velocity: float, origin: float) -> FreeField:
+def travelling_wave(
+    motion: FreeField, apparent_velocity: float, origin: float, *, azimuth: float = 0.0
+) -> FreeField:
     """A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
-    negative), as it is at the ``origin`` (x, m).
+    negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
+    from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
     """
 def ricker(
     amplitude: float, sigma: float, center: float, *, vertical: bool = False

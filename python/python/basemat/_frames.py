@@ -24,14 +24,12 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "x left right gap slip mean_slip residual_slip displacement",
-    "Pa": "pressure shear static_pressure lowest_pressure highest_pressure",
+    "m": "depth x y left right front back gap slip slip_across residual_slip residual_slip_across displacement",
+    "Pa": "shear_modulus pressure shear shear_across static_pressure lowest_pressure highest_pressure",
     "s": "time open period",
     "m/s": "pseudo_velocity",
-    "m/s²": "acceleration pseudo_acceleration",
-    "N/m": "static_normal_force base_shear normal_force coupling",
-    "N·m/m": "base_moment",
-    "rad": "base_rotation",
+    "m/s²": "acceleration pseudo_acceleration peak_acceleration",
+    "N/m": "coupling",
     "N/m²": "horizontal vertical",
     "N": "rocking",
     "Hz": "frequency",
@@ -57,18 +55,18 @@ def to_frame(self: Run) -> Any:
 def contact_frame(self: Run) -> Any:
     """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
-    Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
+    Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
+    "y", "slip_across" (m) and "shear_across" (Pa).
     """
-    columns = self.contact
-    frames, elements = columns["gap"].shape
-    x = 0.5 * (self.envelope["left"] + self.envelope["right"])
-    table = {
-        "time": np.repeat(columns["time"], elements),
-        "element": np.tile(np.arange(elements), frames),
-        "x": np.tile(x, frames),
-    }
-    table.update({name: columns[name].ravel() for name in ("gap", "slip", "pressure", "shear")})
-    modes = pandas().Categorical.from_codes(columns["mode"].ravel(), categories=MODES)
+    columns = {**self.contact}
+    time, modes = columns.pop("time"), columns.pop("mode")
+    frames, elements = modes.shape
+    table = {"time": np.repeat(time, elements), "element": np.tile(np.arange(elements), frames)}
+    sides = {"x": ("left", "right"), "y": ("front", "back")} if self.in_plan else {"x": ("left", "right")}
+    for name, (low, high) in sides.items():
+        table[name] = np.tile(0.5 * (self.envelope[low] + self.envelope[high]), frames)
+    table.update({name: values.ravel() for name, values in columns.items()})
+    modes = pandas().Categorical.from_codes(modes.ravel(), categories=MODES)
     return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT)
 
 
@@ -93,28 +91,30 @@ def envelope_frame(self: Run) -> Any:
     return _with_units(frame.rename_axis("element"), _UNIT)
 
 
+_FOUNDATION = ("base_shear", "base_moment", "normal_force", "base_rotation", "uplifted_fraction", "mean_slip")
+_FOUNDATION_IN_PLAN = ("shear_across", "moment_across", "torque", "rotation_across", "twist", "mean_slip_across")
+
+
 def foundation_frame(self: Run) -> Any:
-    """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs."""
-    rows = [
-        {
-            "left": own.ends[0],
-            "right": own.ends[1],
-            "static_normal_force": own.static_normal_force,
-            "base_shear": own.base_shear.largest.value,
-            "base_moment": own.base_moment.largest.value,
-            "normal_force": own.normal_force.largest.value,
-            "base_rotation": own.base_rotation.largest.value,
-            "uplifted_fraction": own.uplifted_fraction.value,
-            "mean_slip": own.mean_slip.largest.value,
-            "residual_slip": own.residual_slip,
-        }
-        for own in self.foundations
-    ]
-    return _with_units(pandas().DataFrame(rows).rename_axis("foundation"), _UNIT)
+    """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs.
+
+    Columns are those of the scalar time series, in plan also of the directions across: "torque" and others.
+    """
+    names = _FOUNDATION + _FOUNDATION_IN_PLAN if self.in_plan else _FOUNDATION
+    rows = []
+    for own in self.foundations:
+        row = {"left": own.ends[0], "right": own.ends[1], "static_normal_force": own.static_normal_force}
+        row.update({name: own.extremes(name).largest.value for name in names})
+        row["residual_slip"] = own.residual_slip
+        if self.in_plan:
+            row["residual_slip_across"] = own.residual_slip_across
+        rows.append(row)
+    units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}
+    return _with_units(pandas().DataFrame(rows).rename_axis("foundation"), units)
 
 
 def energy_frame(self: Run) -> Any:
-    """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m."""
+    """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     frame = pandas().DataFrame(self.energy_balances).set_index("time")
     return _with_units(frame, self.units)
 
@@ -141,26 +141,25 @@ def floor_spectra(
     return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")})
 
 
+def _of(own: Any, index: str, columns: str) -> Any:
+    """A frame of arrays of an object, the first of which is its index."""
+    values = {name: getattr(own, name) for name in columns.split()}
+    frame = pandas().DataFrame(values, index=pandas().Index(getattr(own, index), name=index))
+    return _with_units(frame, _UNIT)
+
+
 def equivalent_linear_frame(self: EquivalentLinear) -> Any:
     """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
-    columns = ("shear_modulus", "modulus_ratio", "damping", "largest_strain", "effective_strain")
-    values = {name: getattr(self, name) for name in columns}
-    values["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
-    frame = pandas().DataFrame(values, index=pandas().Index(self.depth, name="depth"))
-    return _with_units(frame, {"depth": "m", "shear_modulus": "Pa", "peak_acceleration": "m/s²"})
+    frame = _of(self, "depth", "shear_modulus modulus_ratio damping largest_strain effective_strain")
+    frame["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
+    return _with_units(frame, _UNIT)
 
 
 def spectrum_frame(self: Spectrum) -> Any:
     """The spectrum as a pandas frame, indexed by the period (s)."""
-    columns = ("displacement", "pseudo_velocity", "pseudo_acceleration", "acceleration")
-    values = {name: getattr(self, name) for name in columns}
-    index = pandas().Index(self.period, name="period")
-    return _with_units(pandas().DataFrame(values, index=index), _UNIT)
+    return _of(self, "period", "displacement pseudo_velocity pseudo_acceleration acceleration")
 
 
 def impedance_frame(self: Impedances) -> Any:
     """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
-    columns = ("horizontal", "vertical", "rocking", "coupling")
-    values = {name: getattr(self, name) for name in columns}
-    index = pandas().Index(self.frequency, name="frequency")
-    return _with_units(pandas().DataFrame(values, index=index), _UNIT)
+    return _of(self, "frequency", "horizontal vertical rocking coupling")

@@ -23,6 +23,9 @@ _CALLS = "_calls"
 _RETURNING = (
     (_core.PlaneWave, "field_from_horizontal"),
     (_core.PlaneWave, "field_from_vertical"),
+    (_core.PlaneWave, "field_from_across"),
+    (_core.Plan, "with_unions"),
+    (_core.Plan, "without_overhang"),
     (_core.PlaneWave, "reversed"),
     (_core.InclinedWave, "field"),
     (_core.SoilColumn, "equivalent_linear"),
@@ -31,7 +34,7 @@ _RETURNING = (
 )
 """Methods that return descriptions."""
 
-_FUNCTIONS = ("free_field", "ricker", "travelling_wave", "vertical_incidence")
+_FUNCTIONS = ("free_field", "ricker", "travelling_wave", "triaxial", "vertical_incidence")
 """Functions that return descriptions."""
 
 
@@ -93,7 +96,8 @@ def _kept(value: Any) -> Any:
 
 def _is_part(value: Any) -> bool:
     """Whether this is a function, a structure or a law of the user's, whatever else it may be."""
-    return callable(value) or hasattr(value, "contact_nodes") or hasattr(value, "conditions")
+    methods = ("contact_nodes", "contact_faces", "conditions", "limits")
+    return callable(value) or any(hasattr(value, method) for method in methods)
 
 
 def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]) -> Made:
@@ -101,15 +105,26 @@ def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]
     return Made(owner, name, tuple(map(_kept, arguments)), named)
 
 
+def _noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
+    """``call``, after which ``note`` hears of its result and arguments."""
+
+    @functools.wraps(call)
+    def noting(*arguments: Any, **keywords: Any) -> Any:
+        found = call(*arguments, **keywords)
+        note(found, arguments, keywords)
+        return found
+
+    return noting
+
+
 def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Callable[..., Any]:
     """``make``, which leaves in its result how it was made: by the ``owner``, or by itself."""
 
-    @functools.wraps(make)
-    def remember(*arguments: Any, **keywords: Any) -> Any:
-        found = make(*arguments, **keywords)
-        vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
-        return found
+    def note(found: Any, arguments: Any, keywords: Any) -> None:
+        if hasattr(found, "__dict__"):
+            vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
 
+    remember = _noting(make, note)
     return remember
 
 
@@ -187,28 +202,21 @@ def _prepare(described: Any) -> None:
 
 def _prepare_method(owner: Any, name: str) -> None:
     """A method that returns a description."""
-    method = getattr(owner, name)
 
-    @functools.wraps(method)
-    def remember(self: Any, *arguments: Any, **keywords: Any) -> Any:
-        found = method(self, *arguments, **keywords)
-        vars(found)[_MADE] = _made(self, name, arguments, keywords)
-        return found
+    def note(found: Any, arguments: Any, keywords: Any) -> None:
+        vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
 
-    setattr(owner, name, remember)
+    setattr(owner, name, _noting(getattr(owner, name), note))
 
 
 def _prepare_call(name: str) -> None:
     """A method that adds to a mesh."""
-    method = getattr(_core.Mesh, name)
 
-    @functools.wraps(method)
-    def remember(self: Any, *arguments: Any, **keywords: Any) -> Any:
-        found = method(self, *arguments, **keywords)
-        vars(self).setdefault(_CALLS, []).append((name, _kept(arguments), _kept(keywords)))
-        return found
+    def note(_: Any, arguments: Any, keywords: Any) -> None:
+        own, *others = arguments
+        vars(own).setdefault(_CALLS, []).append((name, tuple(map(_kept, others)), _kept(keywords)))
 
-    setattr(_core.Mesh, name, remember)
+    setattr(_core.Mesh, name, _noting(getattr(_core.Mesh, name), note))
 
 
 def _prepare_all() -> None:

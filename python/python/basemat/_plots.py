@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ._core import MODES, Impedances, Run, SoilProfile, Spectrum
+from ._errors import InputError
 
 _COLORS = ("#d9d9d9", "#fdae6b", "#e6550d", "#3182bd", "#74c476", "#31a354", "#006d2c", "#e6550d", "#006d2c")
 """Of the modes, in their order."""
+_OPEN = "#164878"
+"""Of open elements in plan."""
 
 
 def _pyplot() -> Any:
@@ -42,7 +46,7 @@ def _label(axes: Any, x: str | None, y: str) -> None:
 
 
 def plot_run(self: Run, axes: Any = None) -> list[Any]:
-    """Draws base shear, contact modes and energies over time; returns the list of axes.
+    """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
     Contact modes are those of the snapshots, if ``contact_every`` was given to
     :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
@@ -55,8 +59,12 @@ def plot_run(self: Run, axes: Any = None) -> list[Any]:
     else:
         has_modes = True
     own = _axes(axes, 3 if has_modes else 2)
-    own[0].plot(self.time, 1e-3 * self["base_shear"], linewidth=0.8, color="black")
-    _label(own[0], None, "base shear, kN/m")
+    names = {"base_shear": "base shear", "shear_across": "across"} if self.in_plan else {"base_shear": "base shear"}
+    for name, color in zip(names, ("black", "#3182bd")):
+        own[0].plot(self.time, 1e-3 * self[name], linewidth=0.8, color=color, label=names[name])
+    _label(own[0], None, f"base shear, k{self.units['base_shear']}")
+    if self.in_plan:
+        own[0].legend(fontsize="small", ncols=2)
     if has_modes:
         plot_modes(self, own[1])
         own[1].set_xlabel("")
@@ -68,13 +76,13 @@ def plot_run(self: Run, axes: Any = None) -> list[Any]:
     for name, values in terms.items():
         if np.nanmax(np.abs(values), initial=0.0) > 1e-3 * np.nanmax(np.abs(total), initial=0.0):
             own[-1].plot(time, 1e-3 * values, linewidth=0.8, label=name.replace("_", " "))
-    _label(own[-1], "time, s", "energy, kJ/m")
+    _label(own[-1], "time, s", f"energy, k{self.units['input']}")
     own[-1].legend(fontsize="small", ncols=2)
     return own
 
 
 def plot_modes(self: Run, axes: Any = None) -> Any:
-    """Draws the contact mode of every element over time; returns the axes.
+    """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
     It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
     matplotlib to draw into; those of a new figure unless given.
@@ -85,6 +93,16 @@ def plot_modes(self: Run, axes: Any = None) -> Any:
 
     frames = self.contact
     time, modes = frames["time"], frames["mode"]
+    found = np.unique(modes)
+    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
+    patches = [Patch(color=_COLORS[mode], label=MODES[mode]) for mode in found]
+    own.legend(handles=patches, fontsize="small", ncols=len(patches), **place)
+    if self.in_plan:
+        area = np.prod([high - low for low, high in _sides(self)], axis=0)
+        areas = [(modes == mode) @ area for mode in found]
+        own.stackplot(time, areas, colors=[_COLORS[mode] for mode in found])
+        _label(own, "time, s", "area of the elements, m²")
+        return own
     edges, rows = [self.envelope["left"][0]], []
     for left, right, row in zip(self.envelope["left"], self.envelope["right"], modes.T):
         if left > edges[-1]:
@@ -103,25 +121,84 @@ def plot_modes(self: Run, axes: Any = None) -> Any:
         vmax=len(MODES) - 0.5,
         rasterized=True,
     )
-    found = np.unique(modes)
-    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
-    patches = [Patch(color=_COLORS[mode], label=MODES[mode]) for mode in found]
-    own.legend(handles=patches, fontsize="small", ncols=len(patches), **place)
     _label(own, "time, s", "x, m")
     own.grid(visible=False)
     return own
 
 
+def _sides(run: Run) -> list[tuple[Any, Any]]:
+    """Ends of the elements along x and along y, of a run in plan."""
+    return [(run.envelope[low], run.envelope[high]) for low, high in (("left", "right"), ("front", "back"))]
+
+
+def plot_contact_plan(self: Run, time: float | None = None, axes: Any = None) -> Any:
+    """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
+
+    It needs snapshots of the contact on a ground in plan: ``contact_every`` of :meth:`Simulation.run`. ``time`` (s): the
+    snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
+    into; those of a new figure unless given.
+    """
+    times, modes = self.contact["time"], self.contact["mode"]
+    open_ones = (modes == MODES.index("open")).sum(axis=1)
+    frame = int(np.argmax(open_ones) if time is None else np.argmin(np.abs(times - time)))
+    axes, draw = _plan(self, axes)
+    draw(frame)
+    return axes
+
+
+def _plan(run: Run, axes: Any) -> tuple[Any, Callable[[int], list[Any]]]:
+    """Axes with the base in plan, and the function that draws a snapshot into it."""
+    if not run.in_plan:
+        raise InputError("the ground is no one in plan: plot_modes draws a base in the plane")
+    frames = run.contact
+    [own] = _axes(axes, 1, figsize=(6.5, 5.0))
+    from matplotlib import colormaps
+    from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Patch
+
+    (left, right), (front, back) = _sides(run)
+    corners = np.stack([[left, right, right, left], [front, front, back, back]], axis=-1).swapaxes(0, 1)
+    colors = colormaps["OrRd"].with_extremes(bad=_OPEN)
+    cells = PolyCollection(list(corners), cmap=colors, edgecolors="white", linewidths=0.5)
+    pressures = 1e-3 * frames["pressure"]
+    cells.set_clim(0.0, max(float(pressures.max()), 1e-9))
+    own.add_collection(cells)
+    x, y, size = 0.5 * (left + right), 0.5 * (front + back), 0.5 * np.minimum(right - left, back - front)
+    arrows = own.quiver(x, y, 0.0 * x, 0.0 * y, angles="xy", scale_units="xy", scale=1.0, pivot="mid", width=0.004)
+    own.figure.colorbar(cells, ax=own, label="pressure, kPa")
+    own.legend(handles=[Patch(color=_OPEN, label="open")], fontsize="small", loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    own.set(xlabel="x, m", ylabel="y, m", aspect="equal")
+    own.autoscale_view()
+
+    def draw(frame: int) -> list[Any]:
+        mode, shears = frames["mode"][frame], [frames[name][frame] for name in ("shear", "shear_across")]
+        cells.set_array(np.ma.masked_where(mode == MODES.index("open"), pressures[frame]))
+        largest = np.hypot(*shears)
+        # Over the soil they move along the shear traction on it.
+        slides = np.isin(mode, [MODES.index(name) for name in ("slip", "yield slip")]) & (largest > 0.0)
+        factor = np.ma.masked_where(~slides, size / np.where(slides, largest, 1.0))
+        arrows.set_UVC(factor * shears[0], factor * shears[1])
+        own.set_title(f"{frames['time'][frame]:.2f} s", fontsize="medium", loc="left")
+        return [cells, arrows]
+
+    return own, draw
+
+
 def animate(self: Run, scale: float | None = None) -> Any:
-    """Moving picture of the base, its gaps and the pressure under it, element by element.
+    """Moving picture of the base, its gaps and the pressure under it, element by element; in plan of what
+    :meth:`plot_contact_plan` draws.
 
     It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
     on gaps; the largest one is a tenth of the base's length unless given. Returns a
     ``matplotlib.animation.FuncAnimation``, whose ``save`` writes a file.
     """
     frames = self.contact
-    above, below = _axes(None, 2)
     from matplotlib.animation import FuncAnimation
+
+    if self.in_plan:
+        axes, show = _plan(self, None)
+        return FuncAnimation(axes.figure, show, frames=len(frames["time"]), interval=40, blit=False)
+    above, below = _axes(None, 2)
 
     left, right = self.envelope["left"], self.envelope["right"]
     largest = float(np.max(frames["gap"], initial=0.0))

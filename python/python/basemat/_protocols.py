@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
-__all__ = ["UserHysteresis", "UserLaw", "UserStructure"]
+__all__ = ["UserHysteresis", "UserLaw", "UserPlanLaw", "UserPlanStructure", "UserStructure"]
 
 if TYPE_CHECKING:
-    from ._core import Condition, ContactNode, ContactState, PreviousContact, Tolerance
+    from ._core import Condition, ContactNode, ContactState, FaceNode, Limits, PreviousContact, Tolerance
 
 
 class UserStructure(Protocol):
@@ -16,7 +16,8 @@ class UserStructure(Protocol):
 
     If it has them, these are called too: ``damping()`` (n × n), ``load(time)`` (shape (n,), N/m),
     ``foundation_ends()`` (numbers of the contact nodes that end a foundation but the last),
-    ``active_damping`` (a flag: the damping matrix is taken as it is).
+    ``active_damping`` (a flag: the damping matrix is taken as it is). One for a ground in plan is a
+    :class:`UserPlanStructure`.
 
     A nonlinear structure has ``force(u)`` (shape (n,), N/m, beyond K u) and ``tangent(u)`` (n × n)
     of displacements u (shape (n,), m and rad), which change nothing, and if it has them
@@ -38,6 +39,20 @@ class UserStructure(Protocol):
         """Stiffness matrix (n × n, dense or of ``scipy.sparse``, N/m per metre)."""
 
 
+class UserPlanStructure(Protocol):
+    """A structure for a ground in plan written in Python: all that a :class:`UserStructure` is and may have, but with faces
+    in place of contact nodes, and matrices of the whole body."""
+
+    def contact_faces(self) -> Sequence[Sequence[FaceNode]]:
+        """Faces of the base, each convex, flat and at one height; a rigid base needs one, its outline."""
+
+    def mass(self) -> Any:
+        """Mass matrix (n × n, dense or of ``scipy.sparse``, kg)."""
+
+    def stiffness(self) -> Any:
+        """Stiffness matrix (n × n, dense or of ``scipy.sparse``, N/m)."""
+
+
 class UserLaw(Protocol):
     """A law between base and ground written in Python. It keeps nothing itself.
 
@@ -45,6 +60,7 @@ class UserLaw(Protocol):
     ``memory`` (count of the numbers that it remembers of each element),
     ``initial_state_variables(start)`` and ``commit(start, end, mode)`` (which return them),
     ``friction_coefficient`` (for the factor of safety), ``check(gravity, time_step)`` (may refuse).
+    On a ground in plan it is a :class:`UserPlanLaw`.
 
     What they raise comes out of the run; the simulation stays at the last accepted step.
     """
@@ -62,6 +78,18 @@ class UserLaw(Protocol):
         """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""
 
 
+class UserPlanLaw(Protocol):
+    """A law for grounds in plan written in Python; one that is a :class:`UserLaw` too acts on any ground.
+
+    Slip is along the shear traction there, and the law says how far tractions go. If it has them, ``memory``,
+    ``initial_state_variables``, ``commit``, ``compliance`` (of the mode "stick"), ``friction_coefficient`` and ``check``
+    count as for a :class:`UserLaw`.
+    """
+
+    def limits(self, start: PreviousContact) -> Limits:
+        """Limits of an element's tractions in the step after ``start``; asked once per attempted step."""
+
+
 class UserHysteresis(Protocol):
     """A spring with a memory written in Python: for storeys and isolators of a :class:`ShearBuilding`
     and for :class:`WithSprings`.
@@ -70,8 +98,8 @@ class UserHysteresis(Protocol):
     Newton's method wants; only ``commit(deformation)``, called if it is there, accepts one and
     changes internal variables. If it has them, these are called too: ``tangent(deformation)`` (slope of
     the force, N/m per metre; otherwise by differences of ``force``, two more calls),
-    ``energy(deformation)`` (stored, and dissipated until then, J/m; otherwise all work counts as
-    stored), ``save()`` and ``restore(values)`` (internal variables, always as many, for checkpoints).
+    ``energy(deformation)`` (stored, and dissipated until then, J/m; otherwise it is taken to unload
+    with its first stiffness, and to store all work if it has no ``commit``), ``save()`` and ``restore(values)`` (internal variables, always as many, for checkpoints).
 
     Every simulation works on a deep copy; :attr:`Simulation.hysteresis` gives it back with its
     internal variables. What it raises comes out of the run, as for a :class:`UserStructure`.

@@ -87,8 +87,7 @@ def probes(model: FemModel) -> list[Probe]:
     feet = DofCombination([])
     for node in model.contact_nodes():
         feet = feet + node.horizontal
-    share = 1.0 / len(feet.terms)
-    sway = DofCombination(model.row(corner, "x").terms + [(unknown, -share * w) for unknown, w in feet.terms])
+    sway = model.row(corner, "x") - (1.0 / len(feet.terms)) * feet
     shear, _, _ = model.section(height)
     return [
         Probe.absolute_displacement("roof x", model.row(corner, "x")),

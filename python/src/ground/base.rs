@@ -1,12 +1,15 @@
-//! The base class of grounds.
+//! The base class of grounds, and impedances of a rigid strip.
 
 use std::sync::Arc;
 
+use basemat::bem::layered::{StripContact, StripImpedance};
 use basemat::bem::{ContactElement, Ground};
-use numpy::PyArray2;
+use numpy::{Complex64, PyArray2};
 use pyo3::prelude::*;
 
+use crate::array::{Array, complex};
 use crate::error::OrRaise;
+use crate::names::choice;
 use crate::recipe::Recipe;
 
 /// A ground: a description from which every simulation makes one of its own.
@@ -14,6 +17,7 @@ use crate::recipe::Recipe;
 pub(crate) struct PyGround {
     pub(crate) make: Recipe<dyn Ground>,
     elements: Vec<ContactElement>,
+    depths: Vec<[f64; 2]>,
 }
 
 impl PyGround {
@@ -21,17 +25,51 @@ impl PyGround {
     pub(crate) fn new<G: Ground + 'static>(
         make: impl Fn() -> basemat::Result<G> + Send + Sync + 'static,
     ) -> PyResult<Self> {
-        let elements = make().or_raise()?.elements().to_vec();
-        Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements })
+        let ground = make().or_raise()?;
+        let elements = ground.elements().to_vec();
+        let depths = (0..elements.len()).map(|element| ground.depth(element)).collect();
+        Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements, depths })
     }
 }
 
 #[pymethods]
 impl PyGround {
-    /// Ends of the contact elements from left to right: array of shape (elements, 2), m.
+    /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
     #[getter]
     fn elements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let ends: Vec<Vec<f64>> = self.elements.iter().map(|e| vec![e.left, e.right]).collect();
         Ok(PyArray2::from_vec2(py, &ends)?)
     }
+
+    /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; 0 and 1, the
+    /// metre of thickness, in the plane.
+    #[getter]
+    fn depths<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let ends: Vec<Vec<f64>> = self.depths.iter().map(|ends| ends.to_vec()).collect();
+        Ok(PyArray2::from_vec2(py, &ends)?)
+    }
+}
+
+/// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
+/// arrays of shape (m,), one value per frequency; the imaginary part is that of radiation and damping.
+#[pyclass(name = "Impedances", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
+
+pub(super) fn contact(name: &str) -> PyResult<StripContact> {
+    choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
+}
+
+getters! {
+    PyImpedances, own;
+    /// Frequencies: array of shape (m,), Hz.
+    frequency: Array = own.0.iter().map(|at| at.frequency).collect();
+    /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
+    horizontal: Array<Complex64> = own.0.iter().map(|at| complex(at.horizontal)).collect();
+    /// Vertical force by vertical translation: complex array of shape (m,), N/m².
+    vertical: Array<Complex64> = own.0.iter().map(|at| complex(at.vertical)).collect();
+    /// Moment by rotation: complex array of shape (m,), N.
+    rocking: Array<Complex64> = own.0.iter().map(|at| complex(at.rocking)).collect();
+    /// Horizontal force by rotation: complex array of shape (m,), N/m.
+    coupling: Array<Complex64> = own.0.iter().map(|at| complex(at.coupling)).collect();
 }

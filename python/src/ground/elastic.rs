@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::history::{HistoryMethod, HistoryOptions};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::PyGround;
-use super::impedance::{PyImpedances, contact};
-use super::plan::{self, PyPlan};
-use super::strip::{Strips, grading, under};
+use super::base::contact;
+use super::strip::{Elements, grading};
+use super::{PyGround, PyImpedances, PyPlan};
 use crate::array::{Numbers, whole};
-use crate::error::OrRaise;
+use crate::error::{OrRaise, WithGiven};
 use crate::profile::Profile;
 use crate::ticker::watched;
 
@@ -55,24 +55,7 @@ impl PySharedKernels {
 #[pyclass(name = "ElasticGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyElasticGround {
     make: Box<dyn Fn() -> basemat::Result<ElasticGround> + Send + Sync>,
-}
-
-/// Elements in the plane or in plan.
-#[derive(Clone)]
-enum Elements {
-    Strips(Strips),
-    Plan(PyPlan),
-}
-
-impl<'py> FromPyObject<'_, 'py> for Elements {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        match object.cast::<PyPlan>() {
-            Ok(plan) => Ok(Self::Plan(plan.get().clone())),
-            Err(_) => object.extract().map(Self::Strips),
-        }
-    }
+    plan: Option<(Profile, PyPlan)>,
 }
 
 #[pymethods]
@@ -95,32 +78,30 @@ impl PyElasticGround {
         options.memory = history_memory.unwrap_or(options.memory);
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
+        let plan = match &strips {
+            Elements::Strips(_) => None,
+            Elements::Plan(plan) => Some((soil.clone(), PyPlan(plan.clone()))),
+        };
+        let profile = soil;
         let make = move || {
             let ground = match &strips {
-                Elements::Strips(strips) => ElasticGround::new(soil.0.clone(), strips.0.clone()),
-                Elements::Plan(plan) => ElasticGround::in_plan(soil.0.clone(), plan.0.clone()),
+                Elements::Strips(strips) => ElasticGround::new(profile.0.clone(), strips),
+                Elements::Plan(plan) => ElasticGround::in_plan(profile.0.clone(), plan.clone()),
             };
-            let mut ground = ground?.with_history(options)?;
-            if let Some(stages) = stages {
-                ground = ground.with_stages(stages);
-            }
-            if let Some(tolerance) = tolerance {
-                ground = ground.with_tolerance(tolerance)?;
-            }
-            if let Some(file) = &kernel_file {
-                ground = ground.with_kernel_file(file);
-            }
-            Ok(match &kernels {
-                Some(kernels) => ground.with_shared_kernels(kernels),
-                None => ground,
-            })
+            ground
+                .and_then(|ground| ground.with_history(options))
+                .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
+                .with(tolerance, ElasticGround::with_tolerance)
+                .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))
+                .with(kernels.as_ref(), |ground, own| Ok(ground.with_shared_kernels(own)))
         };
         let base = PyGround::new(make.clone())?;
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make) }))
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make), plan }))
     }
 
     /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-    /// :class:`RigidBody` a :class:`Plan` with ``count`` cells along the shorter side of its base.
+    /// structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base; an error says if they miss or
+    /// exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
     ///
     /// ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -138,16 +119,12 @@ impl PyElasticGround {
         grading: &str,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let class = structure.py().get_type::<Self>();
-        if let Some(plan) = plan::under(&structure, count)? {
-            return class.call((soil, plan), options);
-        }
-        let strips = under(&structure, count, self::grading(grading)?)?;
-        class.call((soil, strips), options)
+        let elements = Elements::under(&structure, count, self::grading(grading)?)?;
+        structure.py().get_type::<Self>().call((soil, elements), options)
     }
 
     /// Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array
-    /// of shape (m,), Hz). ``contact``: "bonded" (the default: soil and strips move together) or
+    /// of shape (m,), Hz); in plan the array of :meth:`Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
     /// "relaxed" (vertical motions without shear, horizontal ones without pressure).
     #[pyo3(signature = (frequencies, *, contact="bonded"))]
     fn impedances(
@@ -155,11 +132,14 @@ impl PyElasticGround {
         py: Python<'_>,
         frequencies: Numbers,
         contact: &str,
-    ) -> PyResult<PyImpedances> {
+    ) -> PyResult<Py<PyAny>> {
+        if let Some((soil, plan)) = &self.plan {
+            return plan.impedances(py, soil.clone(), frequencies, contact)?.into_py_any(py);
+        }
         let (ground, contact) = ((self.make)().or_raise()?, self::contact(contact)?);
         let found = py.detach(move || {
             watched(None, |observer| ground.impedances_observed(&frequencies.0, contact, observer))
         });
-        Ok(PyImpedances(found?))
+        PyImpedances(found?).into_py_any(py)
     }
 }

@@ -4,26 +4,37 @@ use basemat::bem::plan::{Plan, impedances_in_plan_observed};
 use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
-use super::impedance::contact;
+use super::base::contact;
 use crate::array::{Numbers, complex, whole};
-use crate::error::OrRaise;
+use crate::error::{OrRaise, refuse};
 use crate::profile::Profile;
-use crate::structure::recipe;
 use crate::ticker::watched;
 
 /// Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
-/// cover, convex polygons by their corners (list of lists of x and y, m), with ``cells`` along the shorter side of them all.
+/// cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
 
+getters! {
+    PyPlan, own;
+    /// Sides of a cell along x and y, m.
+    pitch: [f64; 2] = own.0.pitch();
+    /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
+    middle: [f64; 2] = own.0.middle();
+    /// Area of the cells inside the outline less that of the faces, relative to it.
+    area_error: f64 = own.0.area_error();
+}
+
 #[pymethods]
 impl PyPlan {
     #[new]
-    fn new(
-        faces: Vec<Vec<[f64; 2]>>,
-        #[pyo3(from_py_with = whole)] cells: usize,
-    ) -> PyResult<Self> {
+    fn new(faces: Bound<'_, PyAny>, #[pyo3(from_py_with = whole)] cells: usize) -> PyResult<Self> {
+        // One face may be given by itself.
+        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
+        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
+        let all = faces.extract().or_else(one);
+        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
         Ok(Self(Plan::on_faces(&faces, cells).or_raise()?))
     }
 
@@ -37,6 +48,38 @@ impl PyPlan {
         Ok(Self(Plan::disc(center.into(), radius, cells).or_raise()?))
     }
 
+    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
+    /// away, each a list from left to right.
+    #[staticmethod]
+    fn masked(
+        corner: [f64; 2],
+        pitch: [f64; 2],
+        mask: Vec<Vec<Bound<'_, PyAny>>>,
+    ) -> PyResult<Self> {
+        let columns = mask.first().map_or(0, Vec::len);
+        if mask.iter().any(|row| row.len() != columns) {
+            return Err(refuse(format!("mask has a row that is not {columns} cells long")));
+        }
+        let mask = mask.iter().flatten().map(PyAnyMethods::is_truthy);
+        let mask = mask.collect::<PyResult<Vec<_>>>()?;
+        Ok(Self(Plan::masked(corner, pitch, columns, &mask).or_raise()?))
+    }
+
+    /// The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
+    /// ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
+    fn with_unions(
+        &self,
+        #[pyo3(from_py_with = whole)] along: Vec<usize>,
+        #[pyo3(from_py_with = whole)] across: Vec<usize>,
+    ) -> PyResult<Self> {
+        Ok(Self(self.0.clone().with_unions(&along, &across).or_raise()?))
+    }
+
+    /// The plan with cells that end where the faces do: for springs, and for given pressures.
+    fn without_overhang(&self) -> PyResult<Self> {
+        Ok(Self(self.0.clone().without_overhang().or_raise()?))
+    }
+
     fn __len__(&self) -> usize {
         self.0.count()
     }
@@ -46,7 +89,7 @@ impl PyPlan {
     /// moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
     /// "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
     #[pyo3(signature = (soil, frequencies, *, contact="bonded"))]
-    fn impedances<'py>(
+    pub(super) fn impedances<'py>(
         &self,
         py: Python<'py>,
         soil: Profile,
@@ -65,14 +108,4 @@ impl PyPlan {
             .collect();
         Ok(PyArray3::from_vec3(py, &matrices)?)
     }
-}
-
-/// The cells under the faces of a structure; `None` of one in the plane.
-pub(super) fn under(structure: &Bound<'_, PyAny>, cells: usize) -> PyResult<Option<PyPlan>> {
-    let faces = recipe(structure)?().or_raise()?.contact_faces();
-    if faces.is_empty() {
-        return Ok(None);
-    }
-    let corners = faces.iter().map(|face| face.iter().map(|node| [node.x, node.y]).collect());
-    PyPlan::new(corners.collect(), cells).map(Some)
 }

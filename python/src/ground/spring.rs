@@ -1,54 +1,60 @@
 //! Winkler's spring bed.
 
 use basemat::bem::{Grading, SpringGround};
-use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::PyGround;
-use super::strip::{Strips, under};
+use super::strip::Elements;
 use crate::array::whole;
+use crate::error::WithGiven;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// ``strips``: a :class:`Strip` or a list of them. ``normal_stiffness``, ``tangential_stiffness``: Pa/m.
-/// ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps
-/// them, ½ to 1; ½ unless given.
+/// ``strips``: a :class:`Strip` or a list of them, or a :class:`Plan`, whose outer cells then end with the mat.
+/// ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential one unless
+/// given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps them, ½ to 1; ½ unless
+/// given.
 #[pyclass(name = "SpringGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PySpringGround;
 
 #[pymethods]
 impl PySpringGround {
     #[new]
-    #[pyo3(signature = (strips, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
+    #[pyo3(signature = (strips, normal_stiffness, tangential_stiffness, *, across_stiffness=None, dashpots=None, theta=None))]
     fn new(
-        strips: Strips,
+        strips: Elements,
         normal_stiffness: f64,
         tangential_stiffness: f64,
+        across_stiffness: Option<f64>,
         dashpots: Option<[f64; 2]>,
         theta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let base = PyGround::new(move || {
             let (normal, tangential) = (normal_stiffness, tangential_stiffness);
-            let mut ground = SpringGround::on_strips(&strips.0, normal, tangential)?;
-            if let Some([normal, tangential]) = dashpots {
-                ground = ground.with_dashpots(normal, tangential)?;
-            }
-            match theta {
-                Some(theta) => ground.with_theta(theta),
-                None => Ok(ground),
-            }
+            let ground = match &strips {
+                Elements::Strips(strips) => SpringGround::on_strips(strips, normal, tangential),
+                Elements::Plan(plan) => {
+                    let across = across_stiffness.unwrap_or(tangential);
+                    SpringGround::in_plan(plan.clone(), [normal, tangential, across])
+                }
+            };
+            ground
+                .with(dashpots, |ground, [normal, tangential]| {
+                    ground.with_dashpots(normal, tangential)
+                })
+                .with(theta, SpringGround::with_theta)
         })?;
         Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 
-    /// Strips of ``count`` equal elements under each foundation of a ``structure``; ``normal_stiffness``,
-    /// ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
-    /// if given.
+    /// Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
+    /// the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
+    /// and ``theta`` are those of the class, the last three if given.
     #[staticmethod]
     #[pyo3(
         signature = (structure, count, *stiffness, **options),
-        text_signature = "(structure, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None)"
+        text_signature = "(structure, count, normal_stiffness, tangential_stiffness, *, across_stiffness=None, dashpots=None, theta=None)"
     )]
     fn under<'py>(
         structure: Bound<'py, PyAny>,
@@ -56,10 +62,10 @@ impl PySpringGround {
         stiffness: &Bound<'py, PyTuple>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut arguments =
-            vec![under(&structure, count, Grading::Uniform)?.into_bound_py_any(structure.py())?];
-        arguments.extend(stiffness);
         let py = structure.py();
+        let mut arguments =
+            vec![Elements::under(&structure, count, Grading::Uniform)?.into_bound(py)];
+        arguments.extend(stiffness);
         py.get_type::<Self>().call(PyTuple::new(py, arguments)?, options)
     }
 }

@@ -1,8 +1,12 @@
-//! Strips of contact elements.
+//! Contact elements: strips of them in the plane, or those of a plan.
 
+use basemat::bem::plan::Plan;
 use basemat::bem::{Grading, Strip};
+use basemat::structure::FaceNode;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
+use super::PyPlan;
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, no_such};
 
@@ -46,30 +50,45 @@ impl PyStrip {
     }
 }
 
-/// The strips under the foundations of a structure.
-pub(super) fn under(
-    structure: &Bound<'_, PyAny>,
-    count: usize,
-    grading: Grading,
-) -> PyResult<Vec<PyStrip>> {
-    let structure = crate::structure::recipe(structure)?().or_raise()?;
-    let strips = Strip::under(&*structure, count, grading).or_raise()?;
-    Ok(strips.into_iter().map(PyStrip).collect())
+/// Elements in the plane, one strip or a list of them, or in plan.
+#[derive(Clone)]
+pub(super) enum Elements {
+    Strips(Vec<Strip>),
+    Plan(Plan),
 }
 
-/// One strip, or a list of them.
-#[derive(Clone)]
-pub(super) struct Strips(pub(super) Vec<Strip>);
+impl Elements {
+    /// Those under the foundations of a structure, or under its faces in plan.
+    pub(super) fn under(
+        structure: &Bound<'_, PyAny>,
+        count: usize,
+        grading: Grading,
+    ) -> PyResult<Py<PyAny>> {
+        let py = structure.py();
+        let structure = crate::structure::recipe(structure)?().or_raise()?;
+        let faces = structure.contact_faces();
+        if faces.is_empty() {
+            let strips = Strip::under(&*structure, count, grading).or_raise()?;
+            return strips.into_iter().map(PyStrip).collect::<Vec<_>>().into_py_any(py);
+        }
+        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+        let faces: Vec<_> = faces.iter().map(corners).collect();
+        PyPlan(Plan::on_faces(&faces, count).or_raise()?).into_py_any(py)
+    }
+}
 
-impl<'py> FromPyObject<'_, 'py> for Strips {
+impl<'py> FromPyObject<'_, 'py> for Elements {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(plan) = object.cast::<PyPlan>() {
+            return Ok(Self::Plan(plan.get().0.clone()));
+        }
         if let Ok(strip) = object.cast::<PyStrip>() {
-            return Ok(Self(vec![strip.get().0.clone()]));
+            return Ok(Self::Strips(vec![strip.get().0.clone()]));
         }
         let list: Vec<Bound<'_, PyStrip>> =
-            object.extract().map_err(|_| no_such(&object, "a Strip or a list of them"))?;
-        Ok(Self(list.iter().map(|strip| strip.get().0.clone()).collect()))
+            object.extract().map_err(|_| no_such(&object, "a Strip, a list of them, or a Plan"))?;
+        Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
     }
 }

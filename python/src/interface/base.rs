@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, heard, refuse};
 use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
-use crate::user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance, UserLaw};
+use crate::user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance, UserLaw};
 
 /// A law between base and ground: what an element of the contact does in a step, its mode (see
 /// :data:`MODES`), and which conditions that imposes.
@@ -59,30 +59,40 @@ impl PyInterfaceLaw {
         heard(|| {
             let law = (self.make)().or_raise()?;
             let mode = self::mode(mode)?;
-            mode_name(law.next_mode(mode, &start.core(), &trial.core(), tolerance.core()))
+            mode_name(law.next_mode(mode, &start.core(), &trial.0, tolerance.core()))
         })
+    }
+
+    /// The :class:`Limits` of an element's tractions on a ground in plan, in the step after ``start``
+    /// (:class:`PreviousContact`).
+    fn limits(&self, start: &PyPreviousContact) -> PyResult<PyLimits> {
+        heard(|| (self.make)().and_then(|law| law.limits(&start.core())).or_raise().map(PyLimits))
     }
 }
 
-/// The recipe of a law of this package, or of one written in Python.
-fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
+/// The recipe of a law of this package, or of one written in Python, for a ground in plan or in the plane.
+fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn InterfaceLaw>> {
     if let Ok(own) = object.cast::<PyInterfaceLaw>() {
         return Ok(own.get().make.clone());
     }
-    if object.hasattr("conditions")? {
+    if object.hasattr("conditions")? || (in_plan && object.hasattr("limits")?) {
         let law = UserLaw::new(object)?;
         return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
     }
     Err(refuse(format!(
-        "{} is no interface law: it has no method `conditions`",
-        object.get_type().name()?
+        "{} is no interface law for this ground: it has no method `{}`",
+        object.get_type().name()?,
+        if in_plan { "limits" } else { "conditions" }
     )))
 }
 
 /// One law for all elements, or a sequence of one each.
-pub(crate) fn recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
+pub(crate) fn recipes(
+    object: &Bound<'_, PyAny>,
+    in_plan: bool,
+) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
     match object.extract::<Vec<Bound<'_, PyAny>>>() {
-        Ok(list) => list.iter().map(recipe).collect(),
-        Err(_) => Ok(vec![recipe(object)?]),
+        Ok(list) => list.iter().map(|law| recipe(law, in_plan)).collect(),
+        Err(_) => Ok(vec![recipe(object, in_plan)?]),
     }
 }

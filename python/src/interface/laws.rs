@@ -1,11 +1,18 @@
 //! The core's laws.
 
-use basemat::interface::{Bonded, Cohesive, Coulomb, ThinLayer, UnilateralCondition, Yielding};
+use std::sync::Arc;
+
+use basemat::interface::{
+    Bonded, Cohesive, Coulomb, PreviousContact, ThinLayer, UnilateralCondition, VariableFriction,
+    Yielding,
+};
 use pyo3::prelude::*;
 
 use super::PyInterfaceLaw;
-use crate::error::OrRaise;
+use crate::array::real;
+use crate::error::{OrRaise, WithGiven, asked, refuse};
 use crate::soil::PySoil;
+use crate::user::PyPreviousContact;
 
 /// Base and ground never part.
 #[pyclass(name = "Bonded", module = "basemat", extends = PyInterfaceLaw, frozen)]
@@ -42,14 +49,12 @@ impl PyCoulomb {
         tensile_strength: f64,
         closed_below: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let mut law = Coulomb::new(friction)
+        let condition =
+            closed_below.map(|closed_below| UnilateralCondition::Velocity { closed_below });
+        let law = Coulomb::new(friction)
             .and_then(|law| law.with_tensile_strength(tensile_strength))
+            .with(condition, Coulomb::with_unilateral_condition)
             .or_raise()?;
-        if let Some(closed_below) = closed_below {
-            law = law
-                .with_unilateral_condition(UnilateralCondition::Velocity { closed_below })
-                .or_raise()?;
-        }
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
     }
 
@@ -103,30 +108,22 @@ impl PyYielding {
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
-fn layer(
-    mut law: ThinLayer,
-    thickness_ratio: Option<f64>,
-    debonded_share: Option<f64>,
-    slip_stiffness_share: Option<f64>,
-    friction_limit: Option<&str>,
-    slip_sense: Option<&str>,
-) -> PyResult<PyClassInitializer<PyThinLayer>> {
-    if let Some(ratio) = thickness_ratio {
-        law = law.with_thickness_ratio(ratio).or_raise()?;
+impl PyThinLayer {
+    fn of(
+        law: basemat::Result<ThinLayer>,
+        debonded_share: Option<f64>,
+        slip_stiffness_share: Option<f64>,
+        friction_limit: Option<&str>,
+        slip_sense: Option<&str>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let law = law
+            .with(debonded_share, ThinLayer::with_debonded_ratio)
+            .with(slip_stiffness_share, ThinLayer::with_slip_stiffness_ratio)
+            .with(friction_limit, |law, limit| Ok(law.with_friction_limit(limit.parse()?)))
+            .with(slip_sense, |law, sense| Ok(law.with_slip_sense(sense.parse()?)))
+            .or_raise()?;
+        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
     }
-    if let Some(share) = debonded_share {
-        law = law.with_debonded_ratio(share).or_raise()?;
-    }
-    if let Some(share) = slip_stiffness_share {
-        law = law.with_slip_stiffness_ratio(share).or_raise()?;
-    }
-    if let Some(limit) = friction_limit {
-        law = law.with_friction_limit(limit.parse().or_raise()?);
-    }
-    if let Some(sense) = slip_sense {
-        law = law.with_slip_sense(sense.parse().or_raise()?);
-    }
-    Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(PyThinLayer(law)))
 }
 
 #[pymethods]
@@ -143,9 +140,9 @@ impl PyThinLayer {
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let law = ThinLayer::new(soil.0, neighbour_height, friction).or_raise()?;
-        let shares = (thickness_ratio, debonded_share, slip_stiffness_share);
-        layer(law, shares.0, shares.1, shares.2, friction_limit, slip_sense)
+        let law = ThinLayer::new(soil.0, neighbour_height, friction)
+            .with(thickness_ratio, ThinLayer::with_thickness_ratio);
+        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
     }
 
     /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
@@ -163,14 +160,49 @@ impl PyThinLayer {
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
     ) -> PyResult<Py<Self>> {
-        let law = ThinLayer::from_stiffness(normal, shear, friction).or_raise()?;
-        let shares = (debonded_share, slip_stiffness_share);
-        Py::new(py, layer(law, None, shares.0, shares.1, friction_limit, slip_sense)?)
+        let law = ThinLayer::from_stiffness(normal, shear, friction);
+        let own = Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense);
+        Py::new(py, own?)
     }
 
     /// Normal and shear stiffness, Pa/m.
     #[getter]
     fn stiffness(&self) -> [f64; 2] {
         self.0.stiffness()
+    }
+}
+
+/// Coulomb friction whose coefficient is a function of the start of the step:
+/// ``coefficient(start)`` returns a number for a :class:`PreviousContact`. It may raise: the exception
+/// comes out of the run. ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens.
+#[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
+pub(crate) struct PyVariableFriction;
+
+#[pymethods]
+impl PyVariableFriction {
+    #[new]
+    #[pyo3(signature = (coefficient, *, tensile_strength=0.0))]
+    fn new(
+        coefficient: Bound<'_, PyAny>,
+        tensile_strength: f64,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        if !coefficient.is_callable() {
+            return Err(refuse("the coefficient must be a function of the start of a step"));
+        }
+        let function = Arc::new(coefficient.unbind());
+        // A strength that is refused is refused now.
+        VariableFriction::new(|_| 0.0).with_tensile_strength(tensile_strength).or_raise()?;
+        let make = move || {
+            let function = Arc::clone(&function);
+            let own = move |start: &PreviousContact<'_>| {
+                asked(f64::NAN, |py| {
+                    let found = function.call1(py, (PyPreviousContact::of(start),))?;
+                    real("the coefficient's function", found.bind(py))
+                })
+            };
+            Ok(Box::new(VariableFriction::new(own).with_tensile_strength(tensile_strength)?)
+                as Box<_>)
+        };
+        Ok(PyClassInitializer::from(PyInterfaceLaw { make: Arc::new(make) }).add_subclass(Self))
     }
 }

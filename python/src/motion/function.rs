@@ -1,16 +1,60 @@
-//! Motions given as functions.
+//! The base class of free fields, and motions given as functions.
 
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use basemat::motion::{FreeFieldFn, Record, VerticalIncidence};
+use basemat::motion::{FreeField, FreeFieldFn, Record, VerticalIncidence};
 use pyo3::prelude::*;
 
-use super::PyFreeField;
 use crate::array::real;
-use crate::error::{OrRaise, has_raised, heard, keep, refuse};
+use crate::error::{self, OrRaise, has_raised, heard, refuse};
+use crate::recipe::Recipe;
 
-/// A motion of functions, named by what they return: give one of the two.
+/// Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
+/// :func:`free_field` makes of a function. Until t = 0 the ground rests.
+#[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
+pub(crate) struct PyFreeField {
+    pub(crate) make: Recipe<dyn FreeField>,
+    /// Time at which it ends (s), if that is known.
+    pub(crate) duration: Option<f64>,
+}
+
+#[pymethods]
+impl PyFreeField {
+    /// Displacement (to the right, up), m, at ``x`` (m) and ``time`` (s).
+    fn displacement(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
+        heard(|| Ok((self.make)().or_raise()?.displacement(x, time)))
+    }
+
+    /// Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s).
+    fn displacement_at(&self, x: f64, y: f64, time: f64) -> PyResult<[f64; 3]> {
+        heard(|| Ok((self.make)().or_raise()?.displacement_at([x, y], time)))
+    }
+
+    /// Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s).
+    fn velocity(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
+        heard(|| Ok((self.make)().or_raise()?.velocity(x, time)))
+    }
+}
+
+/// The free field that Python gives.
+pub(crate) fn given<'a, 'py>(
+    object: &'a Bound<'py, PyAny>,
+) -> PyResult<&'a Bound<'py, PyFreeField>> {
+    if let Ok(own) = object.cast::<PyFreeField>() {
+        return Ok(own);
+    }
+    Err(refuse(if object.is_callable() {
+        "a function is no motion before it is said what it returns: \
+         free_field(displacement=function), or free_field(acceleration=function, time_step=…, \
+         duration=…)"
+            .into()
+    } else {
+        format!("{} is no motion: no FreeField, Record or wave", object.get_type().name()?)
+    }))
+}
+
+/// A motion of functions, named by what they return: give one of them.
 ///
 /// ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
 /// (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
@@ -20,21 +64,25 @@ use crate::error::{OrRaise, has_raised, heard, keep, refuse};
 /// a :class:`Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
 /// velocity stays what it is by then.
 ///
-/// Either may return a number instead, the motion to the right, and may raise. None is for the other one,
-/// and for its ``time_step`` and ``duration``.
+/// ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
+/// the point x, y (m).
+///
+/// The first two may return a number instead, the motion to the right, and all may raise. None is for the other ones,
+/// and for their ``time_step`` and ``duration``.
 #[pyfunction]
-#[pyo3(signature = (*, displacement=None, acceleration=None, time_step=None, duration=None))]
+#[pyo3(signature = (*, displacement=None, acceleration=None, time_step=None, duration=None, displacement_at=None))]
 pub(crate) fn free_field(
     displacement: Option<Bound<'_, PyAny>>,
     acceleration: Option<Bound<'_, PyAny>>,
     time_step: Option<f64>,
     duration: Option<f64>,
+    displacement_at: Option<Bound<'_, PyAny>>,
 ) -> PyResult<PyFreeField> {
-    match (displacement, acceleration) {
-        (Some(function), None) => {
-            if time_step.is_some() || duration.is_some() {
-                return Err(refuse("time_step and duration are those of an acceleration"));
-            }
+    if acceleration.is_none() && (time_step.is_some() || duration.is_some()) {
+        return Err(refuse("time_step and duration are those of an acceleration"));
+    }
+    match (displacement, acceleration, displacement_at) {
+        (Some(function), None, None) => {
             let function = Arc::new(callable("displacement", &function)?);
             Ok(PyFreeField {
                 make: Arc::new(move || {
@@ -46,7 +94,12 @@ pub(crate) fn free_field(
                 duration: None,
             })
         }
-        (None, Some(function)) => {
+        (None, None, Some(function)) => {
+            let function = Arc::new(callable("displacement_at", &function)?);
+            let make = move || Ok(Box::new(InPlan(Arc::clone(&function))) as Box<_>);
+            Ok(PyFreeField { make: Arc::new(make), duration: None })
+        }
+        (None, Some(function), None) => {
             let function = callable("acceleration", &function)?;
             let (Some(time_step), Some(duration)) = (time_step, duration) else {
                 return Err(refuse("an acceleration is sampled: give its time_step and duration"));
@@ -62,7 +115,9 @@ pub(crate) fn free_field(
                 duration: Some(end),
             })
         }
-        _ => Err(refuse("give the displacement or the acceleration as a function, one of them")),
+        _ => Err(refuse(
+            "give the displacement, the acceleration or displacement_at as a function, one of them",
+        )),
     }
 }
 
@@ -94,27 +149,49 @@ fn sampled(
     Ok((VerticalIncidence { horizontal: Some(right), vertical: Some(up) }, end))
 }
 
+/// A function `(x, y, time)` of the displacement in plan.
+struct InPlan(Arc<Py<PyAny>>);
+
+impl FreeField for InPlan {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        let [along, _, up] = self.displacement_at([x, 0.0], time);
+        [along, up]
+    }
+
+    fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
+        error::asked([f64::NAN; 3], |py| {
+            let found = self.0.call1(py, (x, y, time))?;
+            let found = found.bind(py);
+            numbers("displacement_at", found).ok_or_else(|| {
+                wrong("displacement_at", found, "three numbers (along x, along y, up)")
+            })
+        })
+    }
+}
+
 /// What a function returns: a pair, or a number to the right. NaN, which ends the step, if it raises.
 fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f64; 2] {
-    Python::attach(|py| {
-        let found = call(py).and_then(|value| {
-            let value = value.bind(py);
-            let pair = || {
-                let [right, up]: [Bound<'_, PyAny>; 2] = value.extract()?;
-                Ok([real(name, &right)?, real(name, &up)?])
-            };
-            let right = real(name, value).map(|right| [right, 0.0]);
-            right.or_else(|_: PyErr| pair()).or_else(|_: PyErr| {
-                Err(refuse(format!(
-                    "the function of the motion's {name} returned {}, but must return a pair of \
-                     numbers (to the right, up) or a number (to the right)",
-                    value.repr()?
-                )))
-            })
-        });
-        found.unwrap_or_else(|error: PyErr| {
-            keep(error);
-            [f64::NAN; 2]
-        })
+    error::asked([f64::NAN; 2], |py| {
+        let found = call(py)?;
+        let found = found.bind(py);
+        if let Ok(right) = real(name, found) {
+            return Ok([right, 0.0]);
+        }
+        let needed = "a pair of numbers (to the right, up) or a number (to the right)";
+        numbers(name, found).ok_or_else(|| wrong(name, found, needed))
     })
+}
+
+/// So many numbers, if these are.
+fn numbers<const N: usize>(name: &str, found: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+    let all: [Bound<'_, PyAny>; N] = found.extract().ok()?;
+    let all: Result<Vec<f64>, _> = all.iter().map(|own| real(name, own)).collect();
+    all.ok()?.try_into().ok()
+}
+
+fn wrong(name: &str, found: &Bound<'_, PyAny>, needed: &str) -> PyErr {
+    let found = found.repr().map_or_else(|_| "something".into(), |text| text.to_string());
+    refuse(format!(
+        "the function of the motion's {name} returned {found}, but must return {needed}"
+    ))
 }

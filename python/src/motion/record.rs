@@ -1,13 +1,15 @@
-//! Records of ground acceleration.
+//! Records of ground acceleration, their files, and response spectra.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use basemat::motion::Record;
+use basemat::motion::{
+    AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record,
+    RecordFormat, SpectralOrdinate,
+};
 use pyo3::prelude::*;
 
-use super::formats::{baseline, read, unit};
-use super::{PyFreeField, PySpectrum};
+use super::PyFreeField;
 use crate::array::{Array, Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::ticker::watched;
@@ -205,4 +207,111 @@ impl PyRecord {
     fn __getnewargs__(&self) -> (f64, Array) {
         (self.time_step(), self.accelerations())
     }
+}
+
+/// A response spectrum: arrays of shape (m,), one value per natural period.
+#[pyclass(name = "Spectrum", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>);
+
+/// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
+/// (count,).
+#[pyfunction]
+pub(crate) fn log_spaced(
+    first: f64,
+    last: f64,
+    #[pyo3(from_py_with = whole)] count: usize,
+) -> PyResult<Array> {
+    Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
+}
+
+getters! {
+    PySpectrum, own;
+    /// Natural periods: array of shape (m,), s.
+    period: Array = own.0.iter().map(|ordinate| ordinate.period).collect();
+    /// Largest displacements relative to the ground or floor: array of shape (m,), m.
+    displacement: Array = own.0.iter().map(|ordinate| ordinate.displacement).collect();
+    /// Pseudo-velocities: array of shape (m,), m/s.
+    pseudo_velocity: Array = own.0.iter().map(|ordinate| ordinate.pseudo_velocity).collect();
+    /// Pseudo-accelerations: array of shape (m,), m/s².
+    pseudo_acceleration: Array = own.0.iter().map(|ordinate| ordinate.pseudo_acceleration).collect();
+    /// Largest total accelerations: array of shape (m,), m/s².
+    acceleration: Array = own.0.iter().map(|ordinate| ordinate.acceleration).collect();
+}
+
+#[pymethods]
+impl PySpectrum {
+    /// Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
+    /// by default (U.S. NRC R.G. 1.122).
+    #[pyo3(signature = (share=0.15))]
+    fn broadened(&self, share: f64) -> PyResult<Self> {
+        Ok(Self(basemat::results::broadened(&self.0, share).or_raise()?))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Spectrum({} periods)", self.0.len())
+    }
+}
+
+/// A unit of acceleration by its symbol.
+fn unit(symbol: &str) -> PyResult<AccelerationUnit> {
+    symbol.parse().or_raise()
+}
+
+/// A treatment of the baseline by its name, which may hold a degree of its own.
+fn baseline(name: &str, degree: usize) -> PyResult<Baseline> {
+    let alone = name.parse::<Baseline>();
+    alone.or_else(|error| format!("{name}({degree})").parse().map_err(|_| error)).or_raise()
+}
+
+/// Reads a file; the arguments are those of `Record.read`.
+fn read(
+    path: PathBuf,
+    format: &str,
+    unit_symbol: Option<&str>,
+    time_step: Option<f64>,
+    columns: Option<[usize; 2]>,
+    channel: Option<usize>,
+) -> PyResult<Record> {
+    let needs_unit =
+        || unit(unit_symbol.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?);
+    let reader: Box<dyn RecordFormat> = match format {
+        "columns" => {
+            let columns = columns.unwrap_or([1, 2]);
+            Box::new(match time_step {
+                Some(step) => {
+                    let format = ColumnFormat::equally_spaced(needs_unit()?, step);
+                    let other = (columns != [1, 2]).then_some(columns[1]);
+                    ColumnFormat { acceleration_column: other, ..format }
+                }
+                None => ColumnFormat {
+                    time_column: columns[0],
+                    acceleration_column: Some(columns[1]),
+                    ..ColumnFormat::new(needs_unit()?)
+                },
+            })
+        }
+        "peer" => Box::new(PeerFormat),
+        "cosmos" => {
+            let mut format = CosmosFormat::default();
+            if let Some(channel) = channel {
+                format.channel = channel;
+            }
+            if let Some(symbol) = unit_symbol {
+                format.unit = Some(unit(symbol)?);
+            }
+            Box::new(format)
+        }
+        "k-net" => Box::new(KNetFormat),
+        _ => {
+            return Err(refuse(format!(
+                "format is '{format}', but must be 'columns', 'peer', 'cosmos' or 'k-net'"
+            )));
+        }
+    };
+    Record::read(path, reader.as_ref()).or_raise()
 }

@@ -49,6 +49,12 @@ pub(crate) fn vertical_incidence(
     Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
 }
 
+/// Records along x, y and up.
+fn records(given: [Option<Bound<'_, PyRecord>>; 3]) -> Triaxial {
+    let [x, y, up] = given.map(|record| record.map(|record| Record::clone(&record.get().0)));
+    Triaxial { x, y, up }
+}
+
 /// Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a :class:`Record`), the same everywhere at
 /// once, for a ground in plan; what is None rests.
 #[pyfunction]
@@ -63,21 +69,34 @@ pub(crate) fn triaxial(
     let Some(duration) = duration.reduce(f64::max) else {
         return Err(refuse("give a record along x, along y or up"));
     };
-    let [x, y, up] = given.map(|record| record.map(|record| Record::clone(&record.get().0)));
-    let motion = Triaxial { x, y, up };
+    let motion = records(given);
     Ok(PyFreeField { duration: Some(duration), ..field(move || Ok(motion.clone()))? })
 }
 
 /// A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
-/// negative), as it is at the ``origin`` (x, m).
+/// negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
+/// from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
 #[pyfunction]
+#[pyo3(signature = (motion, apparent_velocity, origin, *, azimuth=0.0))]
 pub(crate) fn travelling_wave(
     motion: Bound<'_, PyAny>,
     apparent_velocity: f64,
     origin: f64,
+    azimuth: f64,
 ) -> PyResult<PyFreeField> {
     let motion = given(&motion)?.get().make.clone();
-    field(move || TravellingWave::new(motion()?, apparent_velocity, origin))
+    turned(azimuth, move || TravellingWave::new(motion()?, apparent_velocity, origin))
+}
+
+/// A wave that runs in the direction of an azimuth.
+fn turned(
+    azimuth: f64,
+    make: impl Fn() -> basemat::Result<TravellingWave> + Send + Sync + 'static,
+) -> PyResult<PyFreeField> {
+    field(move || {
+        // Along x velocities are exact.
+        if azimuth == 0.0 { make() } else { make()?.with_azimuth(azimuth) }
+    })
 }
 
 /// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
@@ -110,6 +129,13 @@ impl PyPlaneWave {
         Ok(Self(PlaneWave::sv(soil.0, angle).or_raise()?))
     }
 
+    /// SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
+    /// across its direction only.
+    #[staticmethod]
+    fn sh(soil: &PySoil, angle: f64) -> PyResult<Self> {
+        Ok(Self(PlaneWave::sh(soil.0, angle).or_raise()?))
+    }
+
     /// P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
     /// right if positive.
     #[staticmethod]
@@ -134,16 +160,43 @@ impl PyPlaneWave {
         self.0.apparent_velocity()
     }
 
-    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``.
-    fn field_from_horizontal(&self, record: &PyRecord, origin: f64) -> PyResult<PyFreeField> {
+    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+    /// :func:`travelling_wave`.
+    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+    fn field_from_horizontal(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
         let (wave, record) = (self.0, Arc::clone(&record.0));
-        field(move || wave.field_from_horizontal(&record, origin))
+        turned(azimuth, move || wave.field_from_horizontal(&record, origin))
     }
 
-    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``.
-    fn field_from_vertical(&self, record: &PyRecord, origin: f64) -> PyResult<PyFreeField> {
+    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+    /// :func:`travelling_wave`.
+    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+    fn field_from_vertical(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
         let (wave, record) = (self.0, Arc::clone(&record.0));
-        field(move || wave.field_from_vertical(&record, origin))
+        turned(azimuth, move || wave.field_from_vertical(&record, origin))
+    }
+
+    /// The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
+    /// (rad; 0 by default) is that of :func:`travelling_wave`.
+    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+    fn field_from_across(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
+        let (wave, record) = (self.0, Arc::clone(&record.0));
+        turned(azimuth, move || wave.field_from_across(&record, origin))
     }
 }
 
@@ -159,8 +212,15 @@ fn control(name: &str) -> PyResult<ControlPoint> {
 /// Part of its peak that a motion may lack without a warning: less than response spectra show.
 const UNSEEN: f64 = 1e-4;
 
-/// The record of a motion, with a warning if it lacks what can be seen.
-fn record(py: Python<'_>, step: f64, motion: SiteMotion) -> PyResult<Py<PyRecord>> {
+/// The record of what a column makes of one, with a warning if it lacks what can be seen.
+fn through(
+    py: Python<'_>,
+    record: &PyRecord,
+    control: &str,
+    column: impl FnOnce(ControlPoint, f64, &[f64]) -> basemat::Result<SiteMotion>,
+) -> PyResult<Py<PyRecord>> {
+    let (control, step) = (self::control(control)?, record.0.time_step());
+    let motion = column(control, step, record.0.accelerations()).or_raise()?;
     if motion.before.max(motion.after).max(motion.rounding) > UNSEEN * motion.peak() {
         let text = format!("{motion}: give the record quiet time on both sides (padded)");
         crate::error::warn(py, text)?;
@@ -200,9 +260,7 @@ impl PyColumn {
         record: &PyRecord,
         control: &str,
     ) -> PyResult<Py<PyRecord>> {
-        let control = self::control(control)?;
-        let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        self::record(py, step, self.0.to_surface(control, step, samples).or_raise()?)
+        through(py, record, control, |control, step, own| self.0.to_surface(control, step, own))
     }
 
     /// The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
@@ -215,9 +273,27 @@ impl PyColumn {
         record: &PyRecord,
         control: &str,
     ) -> PyResult<Py<PyRecord>> {
-        let control = self::control(control)?;
-        let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        self::record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
+        through(py, record, control, |control, step, own| self.0.from_surface(control, step, own))
+    }
+
+    /// Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
+    /// default) or "within", of a ``profile`` (:class:`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
+    /// is None stays so.
+    #[staticmethod]
+    #[pyo3(signature = (profile, x=None, y=None, up=None, *, control="outcrop"))]
+    fn surface_in_plan(
+        py: Python<'_>,
+        profile: &PySoilProfile,
+        x: Option<Bound<'_, PyRecord>>,
+        y: Option<Bound<'_, PyRecord>>,
+        up: Option<Bound<'_, PyRecord>>,
+        control: &str,
+    ) -> PyResult<[Option<Py<PyRecord>>; 3]> {
+        let (motion, control) = (records([x, y, up]), self::control(control)?);
+        let found = SoilColumn::surface_in_plan(&profile.0, control, &motion).or_raise()?;
+        let own =
+            |record: Option<Record>| record.map(|own| PyRecord::create(py, Ok(own))).transpose();
+        Ok([own(found.x)?, own(found.y)?, own(found.up)?])
     }
 
     /// Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
@@ -272,9 +348,16 @@ impl PyInclinedWave {
 
     /// The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
     /// (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
-    /// vertical" (motions of the base without layers) or "incident" (the incident wave alone).
-    #[pyo3(signature = (record, origin, *, control="outcrop horizontal"))]
-    fn field(&self, record: &PyRecord, origin: f64, control: &str) -> PyResult<PyFreeField> {
+    /// vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
+    /// default) is that of :func:`travelling_wave`.
+    #[pyo3(signature = (record, origin, *, control="outcrop horizontal", azimuth=0.0))]
+    fn field(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        control: &str,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
         let all = [
             ("outcrop horizontal", InclinedControl::OutcropHorizontal),
             ("outcrop vertical", InclinedControl::OutcropVertical),
@@ -282,6 +365,6 @@ impl PyInclinedWave {
         ];
         let control = choice("control", control, &all)?;
         let (wave, record) = (self.0.clone(), Arc::clone(&record.0));
-        field(move || wave.field(control, &record, origin))
+        turned(azimuth, move || wave.field(control, &record, origin))
     }
 }

@@ -46,6 +46,8 @@ getters! {
     mean_slip: PyExtremes = PyExtremes(own.0.mean_slip);
     /// Slip averaged over it at the end, m.
     residual_slip: f64 = own.0.residual_slip;
+    /// In plan: slip along y averaged over it at the end, m.
+    residual_slip_across: f64 = own.0.residual_slip_across;
     /// Largest slip of any element, m: its :class:`Peak`.
     largest_slip: PyPeak = PyPeak(own.0.largest_slip.highest);
     /// Slip events: list of tuples (start in s, end in s, slip in m).
@@ -61,7 +63,7 @@ getters! {
 #[pymethods]
 impl PySummary {
     /// The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
-    /// "base_shear" or "free_field_horizontal".
+    /// "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
     fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
         Ok(PyExtremes(self.0.extremes(quantity.parse().or_raise()?)))
     }

@@ -2,7 +2,7 @@
 
 use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 /// Energies since the start, J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
@@ -46,11 +46,7 @@ getters! {
 impl PyEnergyBalance {
     /// All terms by their names: dict of numbers, J/m.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let terms = PyDict::new(py);
-        for term in EnergyTerm::ALL {
-            terms.set_item(term.to_string(), self.0.term(term))?;
-        }
-        Ok(terms)
+        EnergyTerm::ALL.map(|term| (term.to_string(), self.0.term(term))).into_py_dict(py)
     }
 
     fn _repr_html_(&self) -> String {

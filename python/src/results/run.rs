@@ -3,7 +3,7 @@
 use basemat::coupled::EnergyTerm;
 use basemat::results::{ElementEnvelope, Quantity, Run, TimeSeries};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use super::base::preformatted;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
@@ -11,7 +11,27 @@ use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
 
-type Column = fn(&ElementEnvelope) -> f64;
+type Column = (&'static str, fn(&ElementEnvelope) -> f64);
+
+/// Columns of the envelope.
+const ENVELOPE: [Column; 9] = [
+    ("left", |own| own.element.left),
+    ("right", |own| own.element.right),
+    ("static_pressure", |own| own.static_pressure),
+    ("lowest_pressure", |own| own.pressure.lowest.value),
+    ("highest_pressure", |own| own.pressure.highest.value),
+    ("shear", |own| own.shear.value),
+    ("gap", |own| own.gap.value),
+    ("slip", |own| own.slip.value),
+    ("open", |own| own.open),
+];
+/// Columns of that in plan beside them.
+const ENVELOPE_IN_PLAN: [Column; 4] = [
+    ("front", |own| own.depth[0]),
+    ("back", |own| own.depth[1]),
+    ("shear_across", |own| own.shear_across.value),
+    ("slip_across", |own| own.slip_across.value),
+];
 
 /// A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
@@ -57,6 +77,8 @@ getters! {
     PyRun, own;
     /// Number of steps made.
     steps: usize = own.run.steps;
+    /// Whether the ground was one in plan: results are then those of the whole body, N in place of N/m.
+    in_plan: bool = own.run.in_plan;
     /// Time at the beginning, s.
     start: f64 = own.run.start;
     /// Time at the end, s.
@@ -113,7 +135,8 @@ impl PyRun {
     }
 
     /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-    /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements).
+    /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+    /// "shear_across" (Pa), along y.
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         series::contact(py, self.kept()?)
@@ -153,68 +176,44 @@ impl PyRun {
     /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
     #[getter]
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let probes = PyDict::new(py);
-        for probe in &self.run.probes {
-            probes.set_item(&probe.name, Py::new(py, PyExtremes(probe.extremes))?)?;
-        }
-        Ok(probes)
+        let own = self.run.probes.iter();
+        own.map(|probe| (&probe.name, PyExtremes(probe.extremes))).into_py_dict(py)
     }
 
     /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let units = PyDict::new(py);
-        units.set_item("time", "s")?;
         let in_plan = self.run.in_plan;
-        for quantity in Quantity::of(in_plan) {
-            units.set_item(quantity.to_string(), quantity.unit(in_plan))?;
-        }
-        for probe in &self.run.probes {
-            units.set_item(&probe.name, &probe.unit)?;
-        }
-        for term in EnergyTerm::ALL {
-            units.set_item(term.to_string(), if in_plan { "J" } else { "J/m" })?;
-        }
-        Ok(units)
+        let scalars = Quantity::of(in_plan).map(|own| (own.to_string(), own.unit(in_plan)));
+        let probes = self.run.probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
+        let energy = if in_plan { "J" } else { "J/m" };
+        let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
+        let time = [("time".to_owned(), "s")].into_iter();
+        time.chain(scalars).chain(probes).chain(terms).into_py_dict(py)
     }
 
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
     /// "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
-    /// "open" (s).
+    /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y.
     #[getter]
     fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns: [(&str, Column); 9] = [
-            ("left", |own| own.element.left),
-            ("right", |own| own.element.right),
-            ("static_pressure", |own| own.static_pressure),
-            ("lowest_pressure", |own| own.pressure.lowest.value),
-            ("highest_pressure", |own| own.pressure.highest.value),
-            ("shear", |own| own.shear.value),
-            ("gap", |own| own.gap.value),
-            ("slip", |own| own.slip.value),
-            ("open", |own| own.open),
-        ];
-        let envelope = PyDict::new(py);
-        for (name, value) in columns {
-            let column: Array = self.run.envelope.iter().map(value).collect();
-            envelope.set_item(name, column)?;
-        }
-        Ok(envelope)
+        let in_plan = if self.run.in_plan { &ENVELOPE_IN_PLAN[..] } else { &[] };
+        let column = |value: &fn(&ElementEnvelope) -> f64| -> Array {
+            self.run.envelope.iter().map(value).collect()
+        };
+        let columns = ENVELOPE.iter().chain(in_plan);
+        columns.map(|(name, value)| (name, column(value))).into_py_dict(py)
     }
 
     /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
     /// is not positive.
     #[getter]
     fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(energy) = self.run.energy_balance.shares() else { return Ok(None) };
-        let shares = PyDict::new(py);
-        for (name, share) in energy {
-            shares.set_item(name, share)?;
-        }
-        Ok(Some(shares))
+        self.run.energy_balance.shares().map(|shares| shares.into_py_dict(py)).transpose()
     }
 
-    /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME".
+    /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
+    /// service "is_serviceable".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
         let numbers = PyDict::new(py);
@@ -233,6 +232,9 @@ impl PyRun {
             ("energy_error", Some(run.energy_error)),
         ] {
             numbers.set_item(name, value)?;
+        }
+        if let Some(is_serviceable) = run.is_serviceable() {
+            numbers.set_item("is_serviceable", is_serviceable)?;
         }
         for probe in &run.probes {
             numbers.set_item(format!("peak {}", probe.name), probe.extremes.largest().value)?;

@@ -1,11 +1,11 @@
 //! Time series and snapshots as arrays.
 
-use basemat::coupled::EnergyTerm;
+use basemat::coupled::{EnergyBalance, EnergyTerm};
 use basemat::interface::ContactState;
-use basemat::results::{ContactFrame, Quantity, TimeSeries};
-use numpy::{PyArray1, PyArrayMethods, ToPyArray};
+use basemat::results::{ContactFrame, MotionFrame, Quantity, TimeSeries};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict, PyDictMethods};
 
 use crate::array::Array;
 use crate::error::refuse;
@@ -38,11 +38,10 @@ pub(super) fn names(histories: &TimeSeries) -> Vec<String> {
 
 /// All scalars and probes by their names.
 pub(super) fn all<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
-    let series = PyDict::new(py);
-    series.set_item("time", Array::from(histories.times()))?;
-    for quantity in Quantity::of(!histories.depths().is_empty()) {
-        series.set_item(quantity.to_string(), Array::from(histories.series(quantity)))?;
-    }
+    let time = ("time".to_owned(), Array::from(histories.times()));
+    let scalars = Quantity::of(!histories.depths().is_empty())
+        .map(|quantity| (quantity.to_string(), Array::from(histories.series(quantity))));
+    let series = std::iter::once(time).chain(scalars).into_py_dict(py)?;
     for name in names(histories) {
         series.set_item(&name, named(histories, &name)?)?;
     }
@@ -54,18 +53,18 @@ pub(super) fn energy_balances<'py>(
     py: Python<'py>,
     histories: &TimeSeries,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let series = PyDict::new(py);
-    series.set_item("time", Array::from(histories.times()))?;
-    for term in EnergyTerm::ALL {
-        let values =
-            histories.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
-        series.set_item(term.to_string(), values.collect::<Array>())?;
-    }
-    let residuals =
-        histories.energy_balances().iter().map(basemat::coupled::EnergyBalance::residual);
-    series.set_item("residual", residuals.collect::<Array>())?;
+    let balances = histories.energy_balances().iter();
+    let terms = EnergyTerm::ALL.map(|term| {
+        (term.to_string(), balances.clone().map(|balance| balance.term(term)).collect::<Array>())
+    });
+    let series = [("time", Array::from(histories.times()))].into_py_dict(py)?;
+    series.update(terms.into_py_dict(py)?.as_mapping())?;
+    series.set_item("residual", balances.map(EnergyBalance::residual).collect::<Array>())?;
     Ok(series)
 }
+
+/// Name and value of a column of a snapshot of the base.
+type Column = (&'static str, fn(&ContactState) -> f64);
 
 /// Snapshots of the base: times, and arrays of shape (frames, elements).
 pub(super) fn contact<'py>(
@@ -83,10 +82,18 @@ pub(super) fn contact<'py>(
         let values = frames.iter().flat_map(|frame| frame.states).map(pick);
         PyArray1::from_iter(py, values).reshape(shape)
     };
-    columns.set_item("gap", value(|state| state.gap)?)?;
-    columns.set_item("slip", value(|state| state.slip)?)?;
-    columns.set_item("pressure", value(|state| state.pressure)?)?;
-    columns.set_item("shear", value(|state| state.shear)?)?;
+    let all: [Column; 6] = [
+        ("gap", |state| state.gap),
+        ("slip", |state| state.slip),
+        ("pressure", |state| state.pressure),
+        ("shear", |state| state.shear),
+        ("slip_across", |state| state.slip_across),
+        ("shear_across", |state| state.shear_across),
+    ];
+    let count = if histories.depths().is_empty() { 4 } else { 6 };
+    for (name, pick) in &all[..count] {
+        columns.set_item(name, value(*pick)?)?;
+    }
     let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| mode_number(*mode));
     let modes = modes.collect::<PyResult<Vec<_>>>()?;
     columns.set_item("mode", PyArray1::from_vec(py, modes).reshape(shape)?)?;
@@ -100,14 +107,14 @@ pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<B
         return Err(refuse("no motion was kept: give `motion_every` to `run`"));
     };
     let shape = [frames.len(), first.displacement.len()];
+    let all = |pick: fn(&MotionFrame<'_>) -> Vec<f64>, shape: [usize; 2]| {
+        PyArray1::from_vec(py, frames.iter().flat_map(pick).collect()).reshape(shape)
+    };
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
-    let displacement: Vec<f64> =
-        frames.iter().flat_map(|frame| frame.displacement).copied().collect();
-    columns.set_item("displacement", displacement.to_pyarray(py).reshape(shape)?)?;
-    let velocity: Vec<f64> = frames.iter().flat_map(|frame| frame.velocity).copied().collect();
-    columns.set_item("velocity", velocity.to_pyarray(py).reshape(shape)?)?;
-    let free: Vec<f64> = frames.iter().flat_map(|frame| frame.free_field).collect();
-    columns.set_item("free_field", free.to_pyarray(py).reshape([frames.len(), 2])?)?;
+    columns.set_item("displacement", all(|frame| frame.displacement.to_vec(), shape)?)?;
+    columns.set_item("velocity", all(|frame| frame.velocity.to_vec(), shape)?)?;
+    let two = [frames.len(), 2];
+    columns.set_item("free_field", all(|frame| frame.free_field.to_vec(), two)?)?;
     Ok(columns)
 }

@@ -1,19 +1,13 @@
 //! From Python's arguments to a simulation of the core.
 
 use basemat::Simulation;
-use basemat::contact::ContactSearch;
-use basemat::coupled::{Checkpoint, Coordinates, GravityStage, Probe, SimulationBuilder};
-use basemat::results::{Quantity, Serviceability};
+use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};
+use basemat::results::Quantity;
 use pyo3::prelude::*;
 
 use crate::error::{self, OrRaise, refuse, take_raised};
 use crate::probe::PyProbe;
 use crate::ticker::{progress_function, watched};
-
-/// A gravity stage by its name.
-pub(super) fn gravity_stage(name: &str) -> PyResult<GravityStage> {
-    name.parse().or_raise()
-}
 
 /// Coordinates by their name, or the tolerance of reduced ones.
 pub(super) fn coordinates(given: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
@@ -41,21 +35,6 @@ pub(super) fn probes<'a, 'py: 'a>(
             Ok(probe.clone())
         })
         .collect()
-}
-
-/// Limits of service, each if it is given.
-pub(super) fn limits(
-    slip: Option<f64>,
-    gap: Option<f64>,
-    uplifted_fraction: Option<f64>,
-    rotation: Option<f64>,
-) -> Serviceability {
-    Serviceability { slip, gap, uplifted_fraction, rotation }
-}
-
-/// The search that follows the paper's flow chart with so many iterations, or the robust one.
-pub(super) fn search(flow_chart: Option<usize>) -> ContactSearch {
-    flow_chart.map_or(ContactSearch::Robust, |iterations| ContactSearch::FlowChart { iterations })
 }
 
 /// What a line of progress counts before the steps.

@@ -3,8 +3,9 @@
 use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
+use basemat::contact::ContactSearch;
 use basemat::coupled::Checkpoint;
-use basemat::results::Recorder;
+use basemat::results::{Recorder, Serviceability};
 use pyo3::prelude::*;
 
 use super::build;
@@ -154,7 +155,8 @@ impl PySimulation {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         take_raised();
-        let laws = interface::recipes(&interface)?;
+        let ground = made(&ground.get().make)?;
+        let laws = interface::recipes(&interface, ground.directions() == 3)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
         user::made_springs();
         let (structure, object) = structure::made(&structure)?;
@@ -163,16 +165,15 @@ impl PySimulation {
         let names = DofNames::of(&object, dofs)?;
         let mut builder = Simulation::builder(time_step)
             .structure(structure)
-            .ground(made(&ground.get().make)?)
+            .ground(ground)
             .interfaces(laws)
-            .gravity_stage(build::gravity_stage(gravity_stage)?)
-            .contact_search(build::search(flow_chart_iterations))
-            .serviceability(build::limits(
-                allowable_slip,
-                allowable_gap,
-                allowable_uplifted_fraction,
-                allowable_rotation,
-            ))
+            .gravity_stage(gravity_stage.parse().or_raise()?)
+            .serviceability(Serviceability {
+                slip: allowable_slip,
+                gap: allowable_gap,
+                uplifted_fraction: allowable_uplifted_fraction,
+                rotation: allowable_rotation,
+            })
             .probes(build::probes(probes.iter().flatten(), dofs)?);
         for load in loads.iter().flatten() {
             load.get().order.check("a load", dofs)?;
@@ -185,6 +186,9 @@ impl PySimulation {
             initial_displacement(initial_displacement.map(|numbers| numbers.0)),
             initial_velocity(initial_velocity.map(|numbers| numbers.0)),
             scheme(scheme.map(|own| made(&own.get().make)).transpose()?),
+            contact_search(
+                flow_chart_iterations.map(|iterations| ContactSearch::FlowChart { iterations })
+            ),
             coordinates(coordinates.map(|own| build::coordinates(&own)).transpose()?),
             expected_steps(expected_steps),
             moment_center(moment_center),

@@ -6,7 +6,7 @@ use basemat::coupled::Load;
 use pyo3::prelude::*;
 
 use crate::array::{Numbers, real};
-use crate::error::{OrRaise, keep, refuse};
+use crate::error::{OrRaise, asked, refuse};
 use crate::motion::PyRecord;
 use crate::row::{Order, RowLike};
 
@@ -37,7 +37,11 @@ impl PyLoad {
         let (RowLike(row, order), value) = (row, Arc::new(value.unbind()));
         Ok(Self::of(order, move || {
             let value = Arc::clone(&value);
-            Ok(Load::new(row.clone(), move |time| value_of(&value, time)))
+            Ok(Load::new(row.clone(), move |time| {
+                asked(f64::NAN, |py| {
+                    real("the value of a load's function", value.call1(py, (time,))?.bind(py))
+                })
+            }))
         }))
     }
 
@@ -68,16 +72,4 @@ impl PyLoad {
         Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;
         Ok(Self::of(row.1, move || Load::table(row.0.clone(), &times.0, &forces.0)))
     }
-}
-
-/// Value of the function, or NaN (which ends the step) if it raises.
-fn value_of(function: &Py<PyAny>, time: f64) -> f64 {
-    Python::attach(|py| {
-        let found = function.call1(py, (time,));
-        let found = found.and_then(|value| real("the value of a load's function", value.bind(py)));
-        found.unwrap_or_else(|error: PyErr| {
-            keep(error);
-            f64::NAN
-        })
-    })
 }

@@ -1,11 +1,12 @@
-//! The state at the end of a step.
+//! The state at the end of a step, steps as an iterator, and checkpoints that pickle.
 
 use basemat::contact::SearchMethod;
-use basemat::coupled::{Foundation, State};
+use basemat::coupled::{Checkpoint, Foundation, State};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::array::{Array, whole};
-use crate::error::refuse;
+use crate::error::{OrRaise, refuse};
 use crate::names::{mode_name, mode_number};
 use crate::results::PyEnergyBalance;
 
@@ -18,29 +19,38 @@ pub(crate) struct PyState(pub(super) State);
 
 /// A foundation at the end of a step; forces are those of the structure on the soil, per metre
 /// of thickness in the plane, of the whole body in plan (N and N·m).
-#[pyclass(name = "FoundationState", module = "basemat", frozen, get_all)]
+#[pyclass(name = "FoundationState", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyFoundation {
+pub(crate) struct PyFoundation(Foundation);
+
+getters! {
+    PyFoundation, own;
     /// Numbers of its first element and of the one after its last.
-    elements: (usize, usize),
+    elements: (usize, usize) = (own.0.elements.start, own.0.elements.end);
     /// Horizontal force on the soil, positive to the right, N/m.
-    shear: f64,
+    shear: f64 = own.0.base_shear;
     /// Moment on the soil about its middle, counter-clockwise, N·m/m.
-    moment: f64,
+    moment: f64 = own.0.base_moment;
     /// Total pressure, N/m.
-    normal_force: f64,
-    /// Ratio of its open length to its length.
-    uplifted_fraction: f64,
+    normal_force: f64 = own.0.normal_force;
+    /// Ratio of its open length to its length, in plan of areas.
+    uplifted_fraction: f64 = own.0.uplifted_fraction;
     /// Slip averaged over it, m.
-    mean_slip: f64,
+    mean_slip: f64 = own.0.mean_slip;
     /// Rotation of its chord, rad.
-    rotation: f64,
+    rotation: f64 = own.0.base_rotation;
     /// In plan: force on the soil along y, positive away, N.
-    shear_across: f64,
+    shear_across: f64 = own.0.shear_across;
     /// In plan: moment on the soil about x, N·m.
-    moment_across: f64,
+    moment_across: f64 = own.0.moment_across;
     /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
-    torque: f64,
+    torque: f64 = own.0.torque;
+    /// In plan: slip along y averaged over it, m.
+    mean_slip_across: f64 = own.0.mean_slip_across;
+    /// In plan: rotation about x, rad.
+    rotation_across: f64 = own.0.rotation_across;
+    /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.
+    twist: f64 = own.0.twist;
 }
 
 getters! {
@@ -57,6 +67,10 @@ getters! {
     pressure: Array = own.0.contact.iter().map(|contact| contact.pressure).collect();
     /// Shear traction on each element: array of shape (elements,), Pa.
     shear: Array = own.0.contact.iter().map(|contact| contact.shear).collect();
+    /// In plan: slip of each element along y: array of shape (elements,), m; 0 in the plane.
+    slip_across: Array = own.0.contact.iter().map(|contact| contact.slip_across).collect();
+    /// In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane.
+    shear_across: Array = own.0.contact.iter().map(|contact| contact.shear_across).collect();
     /// Values of the probes: array of shape (probes,), in their order.
     probes: Array = own.0.probes.as_slice().into();
     /// Horizontal force on the soil, positive to the right, N/m.
@@ -65,7 +79,7 @@ getters! {
     base_moment: f64 = own.0.base_moment;
     /// Total pressure on the soil, N/m.
     normal_force: f64 = own.0.normal_force;
-    /// Ratio of the length of open elements to that of the base.
+    /// Ratio of the length of open elements to that of the base, in plan of areas.
     uplifted_fraction: f64 = own.0.uplifted_fraction;
     /// Slip averaged over the base, m.
     mean_slip: f64 = own.0.mean_slip;
@@ -110,19 +124,13 @@ impl PyState {
     /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PyFoundation> {
-        let own = |foundation: &Foundation| PyFoundation {
-            elements: (foundation.elements.start, foundation.elements.end),
-            shear: foundation.base_shear,
-            moment: foundation.base_moment,
-            normal_force: foundation.normal_force,
-            uplifted_fraction: foundation.uplifted_fraction,
-            mean_slip: foundation.mean_slip,
-            rotation: foundation.base_rotation,
-            shear_across: foundation.shear_across,
-            moment_across: foundation.moment_across,
-            torque: foundation.torque,
-        };
-        self.0.foundations.iter().map(own).collect()
+        self.0.foundations.iter().cloned().map(PyFoundation).collect()
+    }
+
+    /// Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
+    /// also "torque" or "uplifted_area".
+    fn value(&self, quantity: &str) -> PyResult<f64> {
+        Ok(self.0.value(quantity.parse().or_raise()?))
     }
 
     /// Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal".
@@ -149,5 +157,71 @@ impl PyState {
 
     fn __repr__(&self) -> String {
         format!("State(step {}, {} s)", self.0.step, self.0.time)
+    }
+}
+
+/// An iterator that makes a step whenever it is asked and yields the :class:`State` at its end, as long
+/// as ``len()`` of them are left: see :meth:`Simulation.steps`.
+#[pyclass(name = "Steps", module = "basemat")]
+pub(crate) struct PySteps {
+    /// Has a method `step`.
+    pub(super) simulation: Py<PyAny>,
+    pub(super) left: usize,
+}
+
+#[pymethods]
+impl PySteps {
+    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
+        if self.left == 0 {
+            return Ok(None);
+        }
+        py.check_signals()?;
+        let state = self.simulation.call_method0(py, "step")?;
+        self.left -= 1;
+        Ok(Some(state))
+    }
+
+    fn __len__(&self) -> usize {
+        self.left
+    }
+}
+
+/// A run between two steps: :meth:`Simulation.checkpoint` makes it, :meth:`Simulation.resume` goes
+/// on from it, to the same bits. It pickles. ``data``: the bytes that :meth:`to_bytes` returned.
+#[pyclass(name = "Checkpoint", module = "basemat", frozen, eq)]
+#[derive(PartialEq)]
+pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
+
+#[pymethods]
+impl PyCheckpoint {
+    #[new]
+    fn new(data: &[u8]) -> PyResult<Self> {
+        let read = postcard::from_bytes(data);
+        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
+    }
+
+    /// Steps made before it.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.0.steps()
+    }
+
+    /// All of it as bytes, for a file.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let written = postcard::to_allocvec(&self.0);
+        let bytes = written.map_err(|error| refuse(format!("checkpoint: {error}")))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyBytes>,)> {
+        Ok((self.to_bytes(py)?,))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Checkpoint(after {} steps)", self.0.steps())
     }
 }

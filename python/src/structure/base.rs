@@ -6,7 +6,7 @@ use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::PyContactNode;
+use super::{PyContactNode, PyFaceNode};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
@@ -43,7 +43,7 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
     if let Ok(own) = object.cast::<PyStructure>() {
         return Ok(own.get().make.clone());
     }
-    if object.hasattr("contact_nodes")? {
+    if has_base(object)? {
         let object = object.clone().unbind();
         return Ok(Arc::new(move || {
             let made = Python::attach(|py| UserStructure::new(object.bind(py)));
@@ -51,9 +51,14 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
         }));
     }
     Err(refuse(format!(
-        "{} is no structure: it has no method `contact_nodes`",
+        "{} is no structure: it has no method `contact_nodes` or `contact_faces`",
         object.get_type().name()?
     )))
+}
+
+/// Whether this may be a structure.
+fn has_base(object: &Bound<'_, PyAny>) -> PyResult<bool> {
+    Ok(object.hasattr("contact_nodes")? || object.hasattr("contact_faces")?)
 }
 
 /// A structure for one simulation, and the object that has its internal variables: a copy if it is a
@@ -61,7 +66,7 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
 pub(crate) fn made<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Structure>, Bound<'py, PyAny>)> {
-    if object.cast::<PyStructure>().is_err() && object.hasattr("contact_nodes")? {
+    if object.cast::<PyStructure>().is_err() && has_base(object)? {
         let own = UserStructure::new(object)?;
         let copy = own.object(object.py());
         return Ok((Box::new(own), copy));
@@ -126,9 +131,15 @@ impl PyStructure {
         Ok(DofCombination::from(names.number(name)?).into())
     }
 
-    /// Points of the base that touch the ground: list of :class:`ContactNode`, from left to right.
+    /// Points of the base that touch the ground: list of :class:`ContactNode`, from left to right; none in plan.
     fn contact_nodes(&self) -> PyResult<Vec<PyContactNode>> {
         Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode::from).collect())
+    }
+
+    /// Faces of the base of a structure in plan: list of lists of :class:`FaceNode`; none in the plane.
+    fn contact_faces(&self) -> PyResult<Vec<Vec<PyFaceNode>>> {
+        let faces = (self.make)().or_raise()?.contact_faces().into_iter();
+        Ok(faces.map(|face| face.into_iter().map(PyFaceNode::from).collect()).collect())
     }
 
     /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom.

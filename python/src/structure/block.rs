@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 
 use super::PyStructure;
 use crate::dof_names::DofNames;
-use crate::error::OrRaise;
-use crate::row::PyDofCombination;
+use crate::error::{OrRaise, WithGiven};
+use crate::row::{PyDofCombination, rows};
 
 /// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
 /// the right, displacement up, rotation: "x", "y", "rotation" for :meth:`dof`.
@@ -17,14 +17,12 @@ use crate::row::PyDofCombination;
 pub(crate) struct PyRigidBlock(RigidBlock);
 
 fn placed(
-    block: RigidBlock,
+    block: basemat::Result<RigidBlock>,
     center: f64,
     p_delta: Option<f64>,
 ) -> PyResult<PyClassInitializer<PyRigidBlock>> {
-    let mut block = block.centered_at(center).or_raise()?;
-    if let Some(gravity) = p_delta {
-        block = block.with_p_delta(gravity).or_raise()?;
-    }
+    let block = block.and_then(|block| block.centered_at(center));
+    let block = block.with(p_delta, RigidBlock::with_p_delta).or_raise()?;
     let names = ["x", "y", "rotation"].map(String::from).to_vec();
     let base = PyStructure::copied(block.clone()).named(Some(DofNames::new(names, 3)?));
     Ok(PyClassInitializer::from(base).add_subclass(PyRigidBlock(block)))
@@ -49,7 +47,7 @@ impl PyRigidBlock {
         center: f64,
         p_delta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        placed(RigidBlock::new(width, height, density).or_raise()?, center, p_delta)
+        placed(RigidBlock::new(width, height, density), center, p_delta)
     }
 
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
@@ -67,7 +65,7 @@ impl PyRigidBlock {
         p_delta: Option<f64>,
     ) -> PyResult<Py<Self>> {
         let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
-        Py::new(py, placed(block.or_raise()?, center, p_delta)?)
+        Py::new(py, placed(block, center, p_delta)?)
     }
 
     /// Number of the degree of freedom of the displacement to the right.
@@ -93,9 +91,9 @@ impl PyRigidBlock {
 
 /// A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
 /// x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for :meth:`dof`. It stands on
-/// a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid` and :meth:`cylinder` make one.
+/// a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid`, :meth:`cylinder` and :meth:`from_mass` make one.
 #[pyclass(name = "RigidBody", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyRigidBody(RigidBody);
+pub(crate) struct PyRigidBody(pub(super) RigidBody);
 
 getters! {
     PyRigidBody, own;
@@ -109,10 +107,8 @@ fn body(
     center: [f64; 2],
     p_delta: Option<f64>,
 ) -> PyResult<Py<PyRigidBody>> {
-    let mut body = made.and_then(|body| body.centered_at(center)).or_raise()?;
-    if let Some(gravity) = p_delta {
-        body = body.with_p_delta(gravity).or_raise()?;
-    }
+    let body = made.and_then(|body| body.centered_at(center));
+    let body = body.with(p_delta, RigidBody::with_p_delta).or_raise()?;
     let names = ["x", "y", "z", "rx", "ry", "rz"].map(String::from).to_vec();
     let base = PyStructure::copied(body.clone()).named(Some(DofNames::new(names, 6)?));
     Py::new(py, PyClassInitializer::from(base).add_subclass(PyRigidBody(body)))
@@ -156,5 +152,33 @@ impl PyRigidBody {
         p_delta: Option<f64>,
     ) -> PyResult<Py<Self>> {
         body(py, RigidBody::cylinder(radius, height, density), center.into(), p_delta)
+    }
+
+    /// Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
+    /// freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
+    /// the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
+    /// those of :meth:`cuboid`, if given.
+    #[staticmethod]
+    #[pyo3(
+        signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
+        text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"
+    )]
+    fn from_mass(
+        py: Python<'_>,
+        outline: Vec<[f64; 2]>,
+        mass: f64,
+        inertia: [[f64; 3]; 3],
+        gravity_center: [f64; 3],
+        center: (f64, f64),
+        p_delta: Option<f64>,
+    ) -> PyResult<Py<Self>> {
+        let made = RigidBody::from_mass(outline, mass, inertia, gravity_center);
+        body(py, made, center.into(), p_delta)
+    }
+
+    /// The three :class:`DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
+    /// from the middle of the base (m).
+    fn displacement_at(&self, x: f64, y: f64, z: f64) -> [PyDofCombination; 3] {
+        rows(self.0.displacement_at([x, y, z]))
     }
 }

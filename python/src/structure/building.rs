@@ -1,18 +1,21 @@
-//! Shear buildings.
+//! Shear buildings, in the plane and in plan.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey, Structure};
+use basemat::structure::{
+    Hysteresis, IsolationLevel, PlanStorey, ShearBuilding, Storey, StoreyBuilding, Structure,
+};
 use pyo3::prelude::*;
 
-use super::PyStructure;
 use super::hysteresis::LawLike;
+use super::{PyRigidBody, PyStructure};
 use crate::array::whole;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, WithGiven, refuse};
+use crate::names::choice;
 use crate::recipe::Recipe;
-use crate::row::{PyDofCombination, PySectionRows};
+use crate::row::{PyDofCombination, PySectionRows, rows};
 
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
 /// of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
@@ -45,12 +48,14 @@ type GivenLaws = Option<BTreeMap<i64, LawLike>>;
 
 /// Recipes of laws by storey.
 fn recipes(laws: GivenLaws) -> PyResult<Laws> {
-    let own = |(storey, LawLike(law)): (i64, LawLike)| {
-        let storey = usize::try_from(storey)
-            .map_err(|_| refuse(format!("laws: storey is {storey}, but must be 0 or more")))?;
-        Ok((storey, law))
-    };
+    let own = |(storey, LawLike(law)): (i64, LawLike)| Ok((number(storey)?, law));
     laws.into_iter().flatten().map(own).collect()
+}
+
+/// Number of the storey of a law.
+fn number(storey: i64) -> PyResult<usize> {
+    let text = || refuse(format!("laws: storey is {storey}, but must be 0 or more"));
+    usize::try_from(storey).map_err(|_| text())
 }
 
 /// The building with its laws.
@@ -125,14 +130,10 @@ impl PyShearBuilding {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
         let laws = recipes(laws)?;
         Self::of(move || {
-            let mut building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
-                .centered_at(center)?;
-            if let Some(ratio) = damping {
-                building = building.with_stiffness_damping(ratio)?;
-            }
-            if let Some(gravity) = p_delta {
-                building = building.with_p_delta(gravity)?;
-            }
+            let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
+                .centered_at(center)
+                .with(damping, ShearBuilding::with_stiffness_damping)
+                .with(p_delta, ShearBuilding::with_p_delta)?;
             following(building, &laws)
         })
     }
@@ -184,5 +185,144 @@ impl PyShearBuilding {
     /// lowest) on what is below; of a storey that follows a law, from the inertia above.
     fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
         Ok(self.made()?.shear(storey).or_raise()?.into())
+    }
+}
+
+/// A storey of a :class:`StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
+/// ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
+///
+/// ``inertia``: of the floor about x, y and z through its centre of mass (kg m²), that of the rectangle unless given.
+/// ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default. ``damping``: dashpots
+/// beside the three stiffnesses, N s/m and N m s; 0 by default.
+#[pyclass(name = "PlanStorey", module = "basemat", frozen, dict)]
+pub(crate) struct PyPlanStorey(PlanStorey);
+
+#[pymethods]
+impl PyPlanStorey {
+    #[new]
+    #[pyo3(
+        signature = (height, mass, sides, stiffness, *, inertia=None, mass_center=[0.0; 2], stiffness_center=[0.0; 2], damping=[0.0; 3]),
+        text_signature = "(height, mass, sides, stiffness, *, inertia=None, mass_center=(0.0, 0.0), stiffness_center=(0.0, 0.0), damping=(0.0, 0.0, 0.0))"
+    )]
+    fn new(
+        height: f64,
+        mass: f64,
+        sides: [f64; 2],
+        stiffness: [f64; 3],
+        inertia: Option<[f64; 3]>,
+        mass_center: [f64; 2],
+        stiffness_center: [f64; 2],
+        damping: [f64; 3],
+    ) -> Self {
+        let own = PlanStorey::new(height, mass, sides, stiffness);
+        let inertia = inertia.unwrap_or(own.inertia);
+        Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own })
+    }
+}
+
+/// Directions of the laws of storeys in plan.
+const DIRECTIONS: [(&str, usize); 3] =
+    [("x", StoreyBuilding::ALONG), ("y", StoreyBuilding::ACROSS), ("twist", StoreyBuilding::TWIST)];
+
+/// Rigid floors on sway columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y and twist, and
+/// tilt with the mat.
+///
+/// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
+/// floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor 0 x",
+/// "floor 0 y", "floor 0 rz", "floor 1 x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
+/// gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
+/// (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
+/// given.
+#[pyclass(name = "StoreyBuilding", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyStoreyBuilding(Arc<dyn Fn() -> basemat::Result<StoreyBuilding> + Send + Sync>);
+
+impl PyStoreyBuilding {
+    fn made(&self) -> PyResult<StoreyBuilding> {
+        (self.0)().or_raise()
+    }
+}
+
+getters! {
+    PyStoreyBuilding, own;
+    /// Mass of mat and floors, kg.
+    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
+}
+
+#[pymethods]
+impl PyStoreyBuilding {
+    #[new]
+    #[pyo3(signature = (mat, storeys, *, p_delta=None, laws=None))]
+    fn new(
+        mat: &PyRigidBody,
+        storeys: Vec<Bound<'_, PyPlanStorey>>,
+        p_delta: Option<f64>,
+        laws: Option<BTreeMap<(i64, String), LawLike>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let storeys: Vec<PlanStorey> = storeys.iter().map(|storey| storey.get().0).collect();
+        let (mat, floors) = (mat.0.clone(), storeys.len());
+        let laws = laws.into_iter().flatten().map(|((storey, direction), LawLike(law))| {
+            let direction = choice("direction of a law", &direction, &DIRECTIONS)?;
+            Ok((number(storey)?, direction, law))
+        });
+        let laws: Vec<_> = laws.collect::<PyResult<_>>()?;
+        let make = Arc::new(move || {
+            let building = StoreyBuilding::new(mat.clone(), &storeys);
+            let mut building = building.with(p_delta, StoreyBuilding::with_p_delta)?;
+            for (storey, direction, law) in &laws {
+                building = building.with_law(*storey, *direction, law()?)?;
+            }
+            Ok(building)
+        });
+        let dofs = make().or_raise()?.dofs();
+        let own = ["x", "y", "z", "rx", "ry", "rz"].map(String::from).into_iter();
+        let floor = |storey| ["x", "y", "rz"].map(|name| format!("floor {storey} {name}"));
+        let names = own.chain((0..floors).flat_map(floor)).collect();
+        let names = DofNames::new(names, dofs)?;
+        let own = Arc::clone(&make);
+        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?)))).named(Some(names));
+        Ok(PyClassInitializer::from(base).add_subclass(Self(make)))
+    }
+
+    /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+    /// (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
+    #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
+    fn floor(
+        &self,
+        #[pyo3(from_py_with = whole)] storey: usize,
+        place: [f64; 2],
+    ) -> PyResult<[PyDofCombination; 3]> {
+        Ok(rows(self.made()?.floor(storey, place).or_raise()?))
+    }
+
+    /// The three :class:`DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
+    /// at a ``place`` (x and y from the middle of the mat, m); at its centre of stiffness unless given.
+    #[pyo3(signature = (storey, place=None))]
+    fn drift(
+        &self,
+        #[pyo3(from_py_with = whole)] storey: usize,
+        place: Option<[f64; 2]>,
+    ) -> PyResult<[PyDofCombination; 3]> {
+        let found = match place {
+            Some(place) => self.made()?.drift_at(storey, place),
+            None => self.made()?.drift(storey),
+        };
+        Ok(rows(found.or_raise()?))
+    }
+
+    /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+    /// (0: the lowest) less the rigid motion of the mat, at a ``place`` as for :meth:`floor`.
+    #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
+    fn total_drift(
+        &self,
+        #[pyo3(from_py_with = whole)] storey: usize,
+        place: [f64; 2],
+    ) -> PyResult<[PyDofCombination; 3]> {
+        Ok(rows(self.made()?.total_drift(storey, place).or_raise()?))
+    }
+
+    /// The three :class:`SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
+    /// what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
+    fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<[PySectionRows; 3]> {
+        Ok(self.made()?.shear(storey).or_raise()?.map(PySectionRows::from))
     }
 }

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use super::{PyStructure, recipe};
 use crate::array::{Numbers, whole};
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, WithGiven, refuse};
 use crate::recipe::{Recipe, Shared};
 use crate::row::{PyDofCombination, RowLike};
 
@@ -66,11 +66,7 @@ impl PyReducedModel {
         let full = recipe(&structure)?().or_raise()?;
         let reduction = CraigBampton::new(modes).keep(&keep.unwrap_or_default());
         let reduced = py.detach(move || {
-            let reduced = reduction.reduce(full)?;
-            match damping_ratio {
-                Some(ratio) => reduced.with_damping_ratio(ratio),
-                None => Ok(reduced),
-            }
+            reduction.reduce(full).with(damping_ratio, ReducedModel::with_damping_ratio)
         });
         let reduced = Arc::new(reduced.or_raise()?);
         let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));

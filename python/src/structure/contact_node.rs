@@ -1,15 +1,16 @@
-//! Points of the base.
+//! Points of the base: nodes of a line in the plane, corners of faces in plan.
 
-use basemat::structure::ContactNode;
+use basemat::structure::{ContactNode, FaceNode};
 use pyo3::prelude::*;
 
 use crate::array::whole;
+use crate::error::no_such;
 use crate::row::{Order, PyDofCombination, RowLike};
 
 /// A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
 #[pyclass(name = "ContactNode", module = "basemat", frozen)]
-#[derive(Clone)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyContactNode(pub(crate) ContactNode, Order);
 
 impl From<ContactNode> for PyContactNode {
@@ -62,18 +63,105 @@ impl PyContactNode {
             self.0.vertical.to_vec()
         )
     }
+}
 
-    fn __getnewargs__(&self) -> (f64, PyDofCombination, PyDofCombination) {
-        (self.x(), self.horizontal(), self.vertical())
+/// A corner of a face of a base in plan: its coordinates ``x`` (to the right) and ``y`` (away), m, and the rows
+/// (:class:`DofCombination`, or what makes one) of its displacement along x, ``horizontal``, along y, ``across``, and up,
+/// ``vertical``.
+#[pyclass(name = "FaceNode", module = "basemat", frozen)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
+pub(crate) struct PyFaceNode(FaceNode, Order);
+
+impl From<FaceNode> for PyFaceNode {
+    fn from(node: FaceNode) -> Self {
+        Self(node, Order::default())
     }
 }
 
-/// Contact nodes as Python gives them, of a structure of so many degrees of freedom.
-pub(crate) fn nodes(list: &[Bound<'_, PyContactNode>], dofs: usize) -> PyResult<Vec<ContactNode>> {
-    let own = |node: &Bound<'_, PyContactNode>| {
-        let PyContactNode(node, order) = node.get();
-        order.check(&format!("the contact node at {} m", node.x), dofs)?;
-        Ok(node.clone())
-    };
-    list.iter().map(own).collect()
+getters! {
+    PyFaceNode, own;
+    /// Coordinate to the right, m.
+    x: f64 = own.0.x;
+    /// Coordinate away from the reader, m.
+    y: f64 = own.0.y;
+    /// The :class:`DofCombination` of its displacement along x.
+    horizontal: PyDofCombination = PyDofCombination(own.0.horizontal.clone(), own.1);
+    /// The :class:`DofCombination` of its displacement along y.
+    across: PyDofCombination = PyDofCombination(own.0.across.clone(), own.1);
+    /// The :class:`DofCombination` of its displacement up.
+    vertical: PyDofCombination = PyDofCombination(own.0.vertical.clone(), own.1);
+}
+
+#[pymethods]
+impl PyFaceNode {
+    #[new]
+    fn new(
+        x: f64,
+        y: f64,
+        horizontal: RowLike,
+        across: RowLike,
+        vertical: RowLike,
+    ) -> PyResult<Self> {
+        let order = horizontal.1.and(across.1)?.and(vertical.1)?;
+        let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
+        Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
+    }
+
+    /// The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
+    /// whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
+    #[staticmethod]
+    fn rigid_base(
+        corners: Vec<[f64; 2]>,
+        center: [f64; 2],
+        #[pyo3(from_py_with = whole)] dofs: [usize; 6],
+    ) -> Vec<Self> {
+        FaceNode::rigid_base(&corners, center, dofs).into_iter().map(Self::from).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        let FaceNode { x, y, horizontal, across, vertical } = &self.0;
+        format!("FaceNode({x:?}, {y:?}, {:?}, {:?}, {:?})", &**horizontal, &**across, &**vertical)
+    }
+}
+
+/// What touches the ground, as Python gives it: nodes of a line in the plane, or faces in plan.
+pub(crate) enum Contact<'py> {
+    Line(Vec<Bound<'py, PyContactNode>>),
+    Faces(Vec<Vec<Bound<'py, PyFaceNode>>>),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Contact<'py> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let line = object.extract().map(Self::Line);
+        let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
+        // One face may be given by itself.
+        let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
+        line.map_err(|_: PyErr| {
+            no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")
+        })
+    }
+}
+
+impl Contact<'_> {
+    /// Nodes and faces, one of them empty, of a structure of so many degrees of freedom.
+    pub(crate) fn of(&self, dofs: usize) -> PyResult<(Vec<ContactNode>, Vec<Vec<FaceNode>>)> {
+        let check = |order: Order, x: f64| order.check(&format!("the contact node at {x} m"), dofs);
+        let node = |node: &Bound<'_, PyContactNode>| {
+            let PyContactNode(node, order) = node.get();
+            check(*order, node.x).map(|()| node.clone())
+        };
+        let corner = |node: &Bound<'_, PyFaceNode>| {
+            let PyFaceNode(node, order) = node.get();
+            check(*order, node.x).map(|()| node.clone())
+        };
+        Ok(match self {
+            Self::Line(line) => (line.iter().map(node).collect::<PyResult<_>>()?, Vec::new()),
+            Self::Faces(faces) => {
+                let faces = faces.iter().map(|face| face.iter().map(corner).collect());
+                (Vec::new(), faces.collect::<PyResult<_>>()?)
+            }
+        })
+    }
 }

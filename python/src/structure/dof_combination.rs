@@ -1,5 +1,6 @@
 //! What Python can do with a weighted sum of degrees of freedom.
 
+use basemat::structure::Structure;
 use numpy::PyArray1;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -8,6 +9,19 @@ use super::recipe;
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::row::{PyDofCombination, RowLike};
+
+impl PyDofCombination {
+    /// The structure in the plane that this row is for.
+    fn in_plane(&self, structure: &Bound<'_, PyAny>) -> PyResult<Box<dyn Structure>> {
+        let structure = recipe(structure)?().or_raise()?;
+        if !structure.contact_faces().is_empty() {
+            let needed = "in plan subtract rows of its mat, or take StoreyBuilding.total_drift";
+            return Err(refuse(format!("the structure is none of the plane: {needed}")));
+        }
+        self.1.check("the row", structure.dofs())?;
+        Ok(structure)
+    }
+}
 
 #[pymethods]
 impl PyDofCombination {
@@ -57,16 +71,14 @@ impl PyDofCombination {
 
     /// This displacement to the right less that of the middle of the base of the ``structure``.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
-        let structure = recipe(&structure)?().or_raise()?;
-        self.1.check("the row", structure.dofs())?;
+        let structure = self.in_plane(&structure)?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
     /// This displacement to the right less that of the base of the ``structure``, its rotation included,
     /// which moves what is ``height`` (m) above it: the lateral deformation.
     fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
-        let structure = recipe(&structure)?().or_raise()?;
-        self.1.check("the row", structure.dofs())?;
+        let structure = self.in_plane(&structure)?;
         Ok(Self(self.0.total_drift(structure.as_ref(), height).or_raise()?, self.1))
     }
 
@@ -96,12 +108,5 @@ impl PyDofCombination {
 
     fn __repr__(&self) -> String {
         format!("DofCombination({:?})", &*self.0)
-    }
-
-    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>,)> {
-        match self.1.0 {
-            Some(dofs) => Ok((self.weights(py, dofs)?.into_any(),)),
-            None => Ok((self.terms().into_pyobject(py)?,)),
-        }
     }
 }

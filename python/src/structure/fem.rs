@@ -13,7 +13,7 @@ use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::mesh::{PyMaterial, PyMesh, direction, formulation};
 use crate::array::whole;
-use crate::error::OrRaise;
+use crate::error::{OrRaise, WithGiven};
 use crate::recipe::Shared;
 use crate::row::{PyDofCombination, PySectionRows};
 
@@ -59,22 +59,18 @@ impl PyFemModel {
         active_damping: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
         let mesh = mesh.0.clone();
-        let mut model = match contact {
+        let model = match contact {
             None => FemModel::on_base(mesh),
             Some(Contact::Nodes(nodes)) => FemModel::new(mesh, &nodes),
             Some(Contact::Lines(lines)) => FemModel::on_foundations(mesh, &lines),
-        }
-        .or_raise()?;
-        model = model.with_mass(mass.parse().or_raise()?);
-        if let Some(damping) = rayleigh {
-            model = model.with_rayleigh(damping.0);
-        }
+        };
+        let mut model = model
+            .with(Some(mass), |model, mass| Ok(model.with_mass(mass.parse()?)))
+            .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)));
         for (leader, followers) in rigid_links.into_iter().flatten() {
-            model = model.with_rigid_link(leader, &followers).or_raise()?;
+            model = model.and_then(|model| model.with_rigid_link(leader, &followers));
         }
-        if let Some(gravity) = p_delta {
-            model = model.with_p_delta(gravity).or_raise()?;
-        }
+        let mut model = model.with(p_delta, FemModel::with_p_delta).or_raise()?;
         if active_damping {
             model = model.with_active_damping();
         }

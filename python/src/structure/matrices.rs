@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
-use super::contact_node::{PyContactNode, nodes};
+use super::contact_node::Contact;
 use crate::array::Matrix;
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, refuse};
@@ -17,7 +17,8 @@ use crate::recipe::Shared;
 ///
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
 /// (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
-/// points of its base, a list of :class:`ContactNode` from left to right. ``damping`` (n × n, N s/m per
+/// points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
+/// lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
 /// (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
 /// list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
@@ -31,7 +32,7 @@ impl PyMatrixModel {
     fn new(
         mass: Matrix,
         stiffness: Matrix,
-        contact: Vec<Bound<'_, PyContactNode>>,
+        contact: Contact<'_>,
         damping: Option<Matrix>,
         active_damping: bool,
         rayleigh: Option<&PyRayleighDamping>,
@@ -39,8 +40,11 @@ impl PyMatrixModel {
     ) -> PyResult<PyClassInitializer<Self>> {
         let dofs = mass.0.order();
         let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
-        let contact = nodes(&contact, dofs)?;
-        let mut model = MatrixModel::new(mass.0, stiffness.0, contact).or_raise()?;
+        let mut model = match contact.of(dofs)? {
+            (nodes, faces) if faces.is_empty() => MatrixModel::new(mass.0, stiffness.0, nodes),
+            (_, faces) => MatrixModel::in_plan(mass.0, stiffness.0, faces),
+        }
+        .or_raise()?;
         model = match (damping, rayleigh) {
             (Some(_), Some(_)) => {
                 return Err(refuse("give a damping matrix or Rayleigh damping, not both"));

@@ -8,7 +8,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 
 use crate::array::{Numbers, Pairs, Table, whole};
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
 
 /// A direction by its name: "x", "y" or "rotation".
@@ -154,6 +154,27 @@ impl PyMesh {
     }
 }
 
+impl PyMesh {
+    /// Adds links between nodes in a direction.
+    fn add_links<E: Element + 'static>(
+        &mut self,
+        nodes: &Connectivity,
+        direction: &str,
+        values: &PerElement,
+        axial: fn([usize; 2], f64) -> basemat::Result<E>,
+        along: fn([usize; 2], Direction, f64) -> basemat::Result<E>,
+    ) -> PyResult<()> {
+        let ends = nodes.rows::<2>()?;
+        self.add_all(ends.iter().enumerate().map(|(k, own)| {
+            let value = values.at(k, ends.len())?;
+            match direction {
+                "axial" => axial(*own, value).or_raise(),
+                _ => along(*own, self::direction(direction)?, value).or_raise(),
+            }
+        }))
+    }
+}
+
 #[pymethods]
 impl PyMesh {
     #[new]
@@ -213,14 +234,10 @@ impl PyMesh {
         self.add_all(ends.iter().enumerate().map(|(k, own)| {
             let at = |values: &PerElement| values.at(k, ends.len());
             let numbers = (at(&young_modulus)?, at(&area)?, at(&second_moment)?, at(&density)?);
-            let mut beam =
-                Beam::new(*own, numbers.0, numbers.1, numbers.2, numbers.3).or_raise()?;
-            if let Some(stiffness) = &shear_stiffness {
-                beam = beam.with_shear_stiffness(at(stiffness)?).or_raise()?;
-            }
-            if let Some(force) = &compression {
-                beam = beam.with_compression(at(force)?).or_raise()?;
-            }
+            let beam = Beam::new(*own, numbers.0, numbers.1, numbers.2, numbers.3)
+                .with(shear_stiffness.as_ref().map(at).transpose()?, Beam::with_shear_stiffness)
+                .with(compression.as_ref().map(at).transpose()?, Beam::with_compression)
+                .or_raise()?;
             Ok(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
         }))
     }
@@ -250,15 +267,7 @@ impl PyMesh {
         direction: &str,
         stiffness: PerElement,
     ) -> PyResult<()> {
-        let ends = nodes.rows::<2>()?;
-        self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let value = stiffness.at(k, ends.len())?;
-            let spring = match direction {
-                "axial" => Spring::axial(*own, value),
-                _ => Spring::new(*own, self::direction(direction)?, value),
-            };
-            spring.or_raise()
-        }))
+        self.add_links(&nodes, direction, &stiffness, Spring::axial, Spring::new)
     }
 
     /// Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` ("x", "y",
@@ -269,15 +278,7 @@ impl PyMesh {
         direction: &str,
         coefficient: PerElement,
     ) -> PyResult<()> {
-        let ends = nodes.rows::<2>()?;
-        self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let value = coefficient.at(k, ends.len())?;
-            let dashpot = match direction {
-                "axial" => Dashpot::axial(*own, value),
-                _ => Dashpot::new(*own, self::direction(direction)?, value),
-            };
-            dashpot.or_raise()
-        }))
+        self.add_links(&nodes, direction, &coefficient, Dashpot::axial, Dashpot::new)
     }
 
     /// Adds a ``mass`` (kg/m) at a ``node``, with a ``rotary_inertia`` (kg m²/m; none unless given).
@@ -288,10 +289,9 @@ impl PyMesh {
         mass: f64,
         rotary_inertia: Option<f64>,
     ) -> PyResult<()> {
-        let mut element = LumpedMass::new(node, mass).or_raise()?;
-        if let Some(inertia) = rotary_inertia {
-            element = element.with_rotary_inertia(inertia).or_raise()?;
-        }
+        let element = LumpedMass::new(node, mass)
+            .with(rotary_inertia, LumpedMass::with_rotary_inertia)
+            .or_raise()?;
         self.0.add(element).or_raise().map(|_| ())
     }
 

@@ -10,19 +10,17 @@ mod fem;
 mod hysteresis;
 mod matrices;
 mod mesh;
-mod nonlinear;
 
 pub(crate) use base::{PyStructure, made, recipe};
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
-pub(crate) use building::{PyShearBuilding, PyStorey};
+pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
-pub(crate) use contact_node::{PyContactNode, nodes};
+pub(crate) use contact_node::{Contact, PyContactNode, PyFaceNode};
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use hysteresis::{
-    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber,
+    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyWithSprings,
 };
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::{PyLayer, PyMaterial, PyMesh};
-pub(crate) use nonlinear::PyWithSprings;

@@ -9,8 +9,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
+use super::object::{UserObject, ask, copied};
 use crate::array::{Numbers, real};
-use crate::error::{has_raised, keep, kept, raise, refuse, returned};
+use crate::error::{keep, kept, raise, refuse};
 use crate::recipe::Recipe;
 
 /// Its name in errors.
@@ -51,33 +52,24 @@ pub(crate) fn hysteresis(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Hyste
 /// `energy(deformation)`, `commit(deformation)`, `save()` and `restore(values)`.
 ///
 /// After an exception every number that the core asks for is NaN, which ends the step.
-#[allow(clippy::struct_excessive_bools, reason = "one for each method that may be missing")]
 struct UserHysteresis {
-    object: Py<PyAny>,
-    has_tangent: bool,
-    has_energy: bool,
-    has_commit: bool,
-    has_save: bool,
+    object: UserObject,
     /// Deformation (m) and force (N/m) of the last committed step, and the work done until then (J/m).
     committed: [f64; 3],
+    /// First stiffness, with which it is taken to unload if it does not tell its energy, N/m.
+    stiffness: f64,
     /// The last deformation asked for, and its response.
     last: Cell<Option<(f64, SpringResponse)>>,
 }
 
 impl UserHysteresis {
     fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let object = copied(object)?;
-        let mut own = Self {
-            has_tangent: object.hasattr("tangent")?,
-            has_energy: object.hasattr("energy")?,
-            has_commit: object.hasattr("commit")?,
-            has_save: object.hasattr("save")?,
-            object: object.clone().unbind(),
-            committed: [0.0; 3],
-            last: Cell::new(None),
-        };
+        let (object, last) = (copied(object)?, Cell::new(None));
+        let own = UserObject::new(&object, PART, &["tangent", "energy", "commit", "save"])?;
+        let mut own = Self { object: own, committed: [0.0; 3], stiffness: 0.0, last };
         let begin = own.respond(object.py(), 0.0)?;
         own.committed[1] = begin.force;
+        own.stiffness = begin.tangent;
         own.last.set(Some((0.0, begin)));
         MADE.with_borrow_mut(|made| made.push(object.unbind()));
         Ok(own)
@@ -91,7 +83,7 @@ impl UserHysteresis {
 
     fn respond(&self, py: Python<'_>, deformation: f64) -> PyResult<SpringResponse> {
         let force = self.number(py, "force", deformation)?;
-        let tangent = if self.has_tangent {
+        let tangent = if self.object.has("tangent") {
             self.number(py, "tangent", deformation)?
         } else {
             let step = RELATIVE_STEP * deformation.abs().max(LEAST_DEFORMATION);
@@ -108,17 +100,6 @@ impl UserHysteresis {
     }
 }
 
-/// The result of `ask`, or `otherwise` if it raises, or something has raised before.
-fn asked<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
-    if has_raised() {
-        return otherwise;
-    }
-    Python::attach(ask).unwrap_or_else(|error| {
-        keep(error);
-        otherwise
-    })
-}
-
 impl Hysteresis for UserHysteresis {
     fn response(&self, deformation: f64) -> SpringResponse {
         if let Some((at, response)) = self.last.get()
@@ -127,40 +108,40 @@ impl Hysteresis for UserHysteresis {
             return response;
         }
         let nothing = SpringResponse { force: f64::NAN, tangent: f64::NAN };
-        let response = asked(nothing, |py| self.respond(py, deformation));
+        let response = ask(nothing, |py| self.respond(py, deformation));
         self.last.set(Some((deformation, response)));
         response
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
-        if !self.has_energy {
-            return InternalEnergy { stored: self.work(deformation), dissipated: 0.0 };
+        if !self.object.has("energy") {
+            let work = self.work(deformation);
+            let force = self.response(deformation).force;
+            let elastic = 0.5 * force * force / self.stiffness;
+            let is_elastic = !self.object.has("commit") || self.stiffness <= 0.0;
+            let stored = if is_elastic { work } else { elastic.min(work) };
+            return InternalEnergy { stored, dissipated: work - stored };
         }
-        let (stored, dissipated) = asked((f64::NAN, f64::NAN), |py| {
-            let found = self.object.bind(py).call_method1("energy", (deformation,))?;
-            returned("energy of the hysteresis", &found)
-        });
+        let (stored, dissipated) =
+            ask((f64::NAN, f64::NAN), |py| self.object.call(py, "energy", (deformation,)));
         InternalEnergy { stored, dissipated }
     }
 
     fn commit(&mut self, deformation: f64) {
         let work = self.work(deformation);
         self.committed = [deformation, self.response(deformation).force, work];
-        if self.has_commit {
+        if self.object.has("commit") {
             // The step is accepted by now: the exception ends the run after it.
-            asked((), |py| self.object.bind(py).call_method1("commit", (deformation,)).map(|_| ()));
+            ask((), |py| self.object.bind(py).call_method1("commit", (deformation,)).map(|_| ()));
             self.last.set(None);
         }
     }
 
     fn save(&self) -> Vec<f64> {
         let mut values = self.committed.to_vec();
-        if self.has_save {
-            values.extend(asked(Vec::new(), |py| {
-                let found = self.object.bind(py).call_method0("save")?;
-                Ok(returned::<Numbers>("save of the hysteresis", &found)?.0)
-            }));
-        } else if self.has_commit {
+        if self.object.has("save") {
+            values.extend(ask(Vec::new(), |py| Ok(self.object.call::<Numbers>(py, "save", ())?.0)));
+        } else if self.object.has("commit") {
             keep(raise(Error::Checkpoint(CheckpointError::Unsupported { part: PART })));
         }
         values
@@ -172,12 +153,11 @@ impl Hysteresis for UserHysteresis {
                 CheckpointError::Corrupt { quantity: "state of a hysteretic spring" }.into()
             );
         };
-        if self.has_save {
-            let done = Python::attach(|py| {
+        if self.object.has("save") {
+            self.object.attempt(|py| {
                 let own = PyArray1::from_slice(py, own);
                 self.object.bind(py).call_method1("restore", (own,)).map(|_| ())
-            });
-            done.map_err(|error| kept(PART, error))?;
+            })?;
         }
         self.committed = *committed;
         self.last.set(None);
@@ -185,20 +165,9 @@ impl Hysteresis for UserHysteresis {
     }
 
     fn clone_box(&self) -> Box<dyn Hysteresis> {
-        let object = Python::attach(|py| {
-            copied(self.object.bind(py)).map_or_else(
-                |error| {
-                    keep(error);
-                    self.object.clone_ref(py)
-                },
-                Bound::unbind,
-            )
-        });
+        // An object that cannot be copied is shared, and ends the step.
+        let object =
+            ask(self.object.clone(), |py| Ok(self.object.with(copied(self.object.bind(py))?)));
         Box::new(Self { object, last: Cell::new(None), ..*self })
     }
-}
-
-/// A deep copy, with internal variables of its own.
-fn copied<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-    object.py().import("copy")?.call_method1("deepcopy", (object,))
 }

@@ -1,17 +1,18 @@
 //! A law written in Python.
 
-use std::sync::Arc;
-
 use basemat::Result;
 use basemat::interface::{
-    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Bonded, Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode,
+    PreviousContact, Tolerance,
 };
+use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-use super::{PyContactState, PyPreviousContact};
+use super::object::{UserObject, ask};
+use super::{PyContactState, PyLimits, PyPreviousContact};
 use crate::array::{Count, Numbers};
-use crate::error::{has_raised, keep, kept, returned};
+use crate::error::{has_raised, refuse, returned};
 use crate::names::{mode, mode_name};
 
 /// One linear condition on an element at the end of a step:
@@ -91,26 +92,22 @@ impl PyTolerance {
 }
 
 /// A Python object with `modes`, `conditions(mode, start)` and
-/// `next_mode(mode, start, trial, tolerance)`, and as it may be `compliance(mode, start)`,
-/// `memory`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
+/// `next_mode(mode, start, trial, tolerance)`, or for grounds in plan `limits(start)`, and as it may be
+/// `compliance(mode, start)`, `memory`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
 /// `check(gravity, time_step)`.
 ///
 /// After an exception every number that the core asks for is NaN, which ends the step.
 #[derive(Clone)]
-#[allow(clippy::struct_excessive_bools, reason = "one for each method that may be missing")]
 pub(crate) struct UserLaw {
-    object: Arc<Py<PyAny>>,
+    object: UserObject,
     modes: Vec<Mode>,
     memory: usize,
     friction_coefficient: Option<f64>,
-    has_compliance: bool,
-    has_initial_state: bool,
-    has_commit: bool,
-    has_check: bool,
 }
 
-/// Its name in errors.
-const PART: &str = "interface law";
+/// Methods that may be missing.
+const OPTIONAL: [&str; 6] =
+    ["conditions", "limits", "compliance", "initial_state_variables", "commit", "check"];
 /// A condition that ends the step.
 const NOTHING: Condition = Condition {
     gap: f64::NAN,
@@ -121,10 +118,16 @@ const NOTHING: Condition = Condition {
 };
 
 impl UserLaw {
-    pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let names: Vec<String> = returned("modes of the interface law", &object.getattr("modes")?)?;
+    pub(crate) fn new(law: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let object = UserObject::new(law, "interface law", &OPTIONAL)?;
+        let names = match law.getattr_opt("modes")? {
+            Some(modes) => returned("modes of the interface law", &modes)?,
+            None if object.has("conditions") => return Err(refuse("the law has no `modes`")),
+            // Of a law for grounds in plan alone.
+            None => ["stick", "slip", "open"].map(String::from).to_vec(),
+        };
         let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
-            Ok(object.getattr_opt(name)?.filter(|value| !value.is_none()))
+            Ok(law.getattr_opt(name)?.filter(|value| !value.is_none()))
         };
         Ok(Self {
             modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
@@ -134,43 +137,40 @@ impl UserLaw {
             friction_coefficient: optional("friction_coefficient")?
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,
-            has_compliance: object.hasattr("compliance")?,
-            has_initial_state: object.hasattr("initial_state_variables")?,
-            has_commit: object.hasattr("commit")?,
-            has_check: object.hasattr("check")?,
-            object: Arc::new(object.clone().unbind()),
+            object,
         })
     }
 
-    /// The result of `ask`, or `otherwise` if it raises, or something has raised before.
-    fn ask<T>(
-        &self,
-        otherwise: T,
-        ask: impl FnOnce(Python<'_>, &Bound<'_, PyAny>) -> PyResult<T>,
-    ) -> T {
-        if has_raised() {
-            return otherwise;
+    /// The law of the package with the limits of this one, for the statics of one that has nothing else.
+    fn by_limits(&self, start: &PreviousContact<'_>) -> Box<dyn InterfaceLaw> {
+        let limits =
+            self.limits(start).unwrap_or(Limits { friction: f64::NAN, ..Limits::default() });
+        if limits.bonded {
+            return Box::new(Bonded);
         }
-        Python::attach(|py| ask(py, self.object.bind(py))).unwrap_or_else(|error| {
-            keep(error);
-            otherwise
-        })
+        let law = Coulomb::new(limits.friction);
+        match law.and_then(|law| law.with_tensile_strength(limits.tension)) {
+            Ok(law) => Box::new(law),
+            // Limits that the core refuses by itself.
+            Err(_) => Bonded.frictionless(),
+        }
     }
 
     /// Replaces the memory by what a method returns, if it is as long.
-    fn remember(
+    fn remember<A: for<'py> PyCallArgs<'py>>(
         &self,
+        method: &str,
+        arguments: impl FnOnce() -> PyResult<A>,
         memory: &mut [f64],
-        ask: impl for<'py> FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
     ) {
         let count = memory.len();
-        let found = self.ask(None, |_, object| {
-            let Numbers(values) = returned("a memory of the interface law", &ask(object)?)?;
+        let found = ask(None, |py| {
+            let Numbers(values) = self.object.call(py, method, arguments()?)?;
             if values.len() == count {
                 return Ok(Some(values));
             }
             let text = format!("the law remembers {count} numbers, but returned {}", values.len());
-            Err(crate::error::refuse(text))
+            Err(refuse(text))
         });
         match found {
             Some(values) => memory.copy_from_slice(&values),
@@ -185,11 +185,13 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
-        self.ask([NOTHING; 2], |_, object| {
-            let found = object
-                .call_method1("conditions", (mode_name(mode)?, PyPreviousContact::of(start)))?;
+        if !self.object.has("conditions") {
+            return self.by_limits(start).conditions(mode, start);
+        }
+        ask([NOTHING; 2], |py| {
+            let arguments = (mode_name(mode)?, PyPreviousContact::of(start));
             let [first, second]: [Bound<'_, PyCondition>; 2] =
-                returned("conditions of the interface law", &found)?;
+                self.object.call(py, "conditions", arguments)?;
             Ok([first.get().0, second.get().0])
         })
     }
@@ -201,31 +203,27 @@ impl InterfaceLaw for UserLaw {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        self.ask(mode, |_, object| {
+        if !self.object.has("conditions") {
+            return self.by_limits(start).next_mode(mode, start, trial, tolerance);
+        }
+        ask(mode, |py| {
             let Tolerance { length, traction, .. } = tolerance;
-            let arguments = (
-                mode_name(mode)?,
-                PyPreviousContact::of(start),
-                PyContactState::of(trial),
-                PyTolerance { length, traction },
-            );
-            let next: String = returned(
-                "next_mode of the interface law",
-                &object.call_method1("next_mode", arguments)?,
-            )?;
+            let tolerance = PyTolerance { length, traction };
+            let (name, start) = (mode_name(mode)?, PyPreviousContact::of(start));
+            let arguments = (name, start, PyContactState(*trial), tolerance);
+            let next: String = self.object.call(py, "next_mode", arguments)?;
             crate::names::mode(&next)
         })
     }
 
     /// Asked before a step is accepted, so that an exception of `next_mode` ends it.
     fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
-        if !self.has_compliance {
+        if !self.object.has("compliance") {
             return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
         }
-        self.ask([f64::NAN; 2], |_, object| {
-            let found = object
-                .call_method1("compliance", (mode_name(mode)?, PyPreviousContact::of(start)))?;
-            returned("compliance of the interface law", &found)
+        ask([f64::NAN; 2], |py| {
+            let arguments = (mode_name(mode)?, PyPreviousContact::of(start));
+            self.object.call(py, "compliance", arguments)
         })
     }
 
@@ -234,10 +232,9 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn initial_state_variables(&self, start: &PreviousContact<'_>, memory: &mut [f64]) {
-        if self.has_initial_state {
-            self.remember(memory, |object| {
-                object.call_method1("initial_state_variables", (PyPreviousContact::of(start),))
-            });
+        if self.object.has("initial_state_variables") {
+            let arguments = || Ok((PyPreviousContact::of(start),));
+            self.remember("initial_state_variables", arguments, memory);
         }
     }
 
@@ -248,12 +245,23 @@ impl InterfaceLaw for UserLaw {
         mode: Mode,
         memory: &mut [f64],
     ) {
-        if self.has_commit {
-            self.remember(memory, |object| {
-                let end = PyContactState::of(end);
-                object.call_method1("commit", (PyPreviousContact::of(start), end, mode_name(mode)?))
-            });
+        if self.object.has("commit") {
+            let (start, end) = (PyPreviousContact::of(start), PyContactState(*end));
+            self.remember("commit", || Ok((start, end, mode_name(mode)?)), memory);
         }
+    }
+
+    fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
+        self.object.attempt(|py| {
+            if !self.object.has("limits") {
+                let name = self.object.bind(py).get_type().name()?;
+                let needed = "to act on a ground in plan";
+                return Err(refuse(format!("{name} has no method `limits`, {needed}")));
+            }
+            let start = PyPreviousContact::of(start);
+            let found: Bound<'_, PyLimits> = self.object.call(py, "limits", (start,))?;
+            Ok(found.get().0)
+        })
     }
 
     fn friction_coefficient(&self) -> Option<f64> {
@@ -261,13 +269,10 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn check(&self, scene: &ContactScene) -> Result<()> {
-        if !self.has_check {
+        if !self.object.has("check") {
             return Ok(());
         }
-        let done = Python::attach(|py| {
-            let numbers = (scene.gravity, scene.time_step);
-            self.object.bind(py).call_method1("check", numbers).map(|_| ())
-        });
-        done.map_err(|error| kept(PART, error))
+        let numbers = (scene.gravity, scene.time_step);
+        self.object.attempt(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
     }
 }

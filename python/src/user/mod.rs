@@ -2,10 +2,11 @@
 
 mod hysteresis;
 mod law;
+mod object;
 mod previous_contact;
 mod structure;
 
 pub(crate) use hysteresis::{hysteresis, made_springs};
 pub(crate) use law::{PyCondition, PyTolerance, UserLaw};
-pub(crate) use previous_contact::{PyContactState, PyPreviousContact};
+pub(crate) use previous_contact::{PyContactState, PyLimits, PyPreviousContact};
 pub(crate) use structure::UserStructure;

@@ -1,39 +1,32 @@
-//! An element's contact, and its contact at the end of the step before, as laws written in Python see them.
+//! An element's contact, its contact at the end of the step before, and limits of its tractions in plan, as laws written in
+//! Python see them.
 
-use basemat::interface::{ContactState, Mode, PreviousContact};
+use basemat::interface::{ContactState, Limits, PreviousContact};
 use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::array::Numbers;
 use crate::names::mode_name;
 
 /// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
 /// (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
-#[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
-pub(crate) struct PyContactState {
+#[pyclass(name = "ContactState", module = "basemat", frozen)]
+pub(crate) struct PyContactState(pub(crate) ContactState);
+
+getters! {
+    PyContactState, own;
     /// Gap, m; positive when open.
-    gap: f64,
+    gap: f64 = own.0.gap;
     /// Slip since the static state, m; positive to the right.
-    slip: f64,
+    slip: f64 = own.0.slip;
     /// Pressure, Pa; positive in compression.
-    pressure: f64,
+    pressure: f64 = own.0.pressure;
     /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64,
+    shear: f64 = own.0.shear;
     /// Slip along y in plan, m; positive away.
-    slip_across: f64,
+    slip_across: f64 = own.0.slip_across;
     /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
-    shear_across: f64,
-}
-
-impl PyContactState {
-    pub(super) fn of(state: &ContactState) -> Self {
-        let ContactState { gap, slip, pressure, shear, slip_across, shear_across } = *state;
-        Self { gap, slip, pressure, shear, slip_across, shear_across }
-    }
-
-    pub(crate) fn core(&self) -> ContactState {
-        let Self { gap, slip, pressure, shear, slip_across, shear_across } = *self;
-        ContactState { gap, slip, pressure, shear, slip_across, shear_across }
-    }
+    shear_across: f64 = own.0.shear_across;
 }
 
 #[pymethods]
@@ -48,7 +41,7 @@ impl PyContactState {
         slip_across: f64,
         shear_across: f64,
     ) -> Self {
-        Self { gap, slip, pressure, shear, slip_across, shear_across }
+        Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across })
     }
 }
 
@@ -59,30 +52,23 @@ impl PyContactState {
 /// variables ``memory`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen)]
 pub(crate) struct PyPreviousContact {
-    state: ContactState,
-    mode: Mode,
-    has_opened: bool,
-    slip_rate: f64,
-    static_pressure: f64,
-    time_step: f64,
+    /// All but what the law remembers.
+    own: PreviousContact<'static>,
     memory: Vec<f64>,
 }
 
 impl PyPreviousContact {
     pub(crate) fn of(start: &PreviousContact<'_>) -> Self {
-        let PreviousContact {
-            state, mode, has_opened, slip_rate, static_pressure, time_step, ..
-        } = *start;
-        let memory = start.memory.to_vec();
-        Self { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+        let mut own = PreviousContact::new(start.state, start.mode, start.time_step);
+        own.has_opened = start.has_opened;
+        own.slip_rate = start.slip_rate;
+        own.static_pressure = start.static_pressure;
+        Self { own, memory: start.memory.to_vec() }
     }
 
     /// The same for a law of the core.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
-        let mut start = PreviousContact::new(self.state, self.mode, self.time_step);
-        start.has_opened = self.has_opened;
-        start.slip_rate = self.slip_rate;
-        start.static_pressure = self.static_pressure;
+        let mut start = self.own;
         start.memory = &self.memory;
         start
     }
@@ -91,23 +77,27 @@ impl PyPreviousContact {
 getters! {
     PyPreviousContact, own;
     /// Gap, m; positive when open.
-    gap: f64 = own.state.gap;
+    gap: f64 = own.own.state.gap;
     /// Slip since the static state, m; positive to the right.
-    slip: f64 = own.state.slip;
+    slip: f64 = own.own.state.slip;
     /// Pressure, Pa; positive in compression.
-    pressure: f64 = own.state.pressure;
+    pressure: f64 = own.own.state.pressure;
     /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64 = own.state.shear;
+    shear: f64 = own.own.state.shear;
+    /// Slip along y in plan, m; positive away.
+    slip_across: f64 = own.own.state.slip_across;
+    /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
+    shear_across: f64 = own.own.state.shear_across;
     /// Mode of the step before, as in :data:`basemat.MODES`.
-    mode: PyResult<&'static str> = mode_name(own.mode);
+    mode: PyResult<&'static str> = mode_name(own.own.mode);
     /// Whether the element has been open.
-    has_opened: bool = own.has_opened;
-    /// Slip rate of the step before, m/s.
-    slip_rate: f64 = own.slip_rate;
+    has_opened: bool = own.own.has_opened;
+    /// Slip rate of the step before, m/s; its magnitude in plan.
+    slip_rate: f64 = own.own.slip_rate;
     /// Pressure of the static state, Pa.
-    static_pressure: f64 = own.static_pressure;
+    static_pressure: f64 = own.own.static_pressure;
     /// Time step, s.
-    time_step: f64 = own.time_step;
+    time_step: f64 = own.own.time_step;
     /// State variables of the law: list of numbers.
     memory: Vec<f64> = own.memory.clone();
 }
@@ -123,8 +113,70 @@ impl PyPreviousContact {
         slip_rate: f64,
         memory: Option<Numbers>,
     ) -> PyResult<Self> {
-        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
-        let start = PreviousContact::new(state.core(), crate::names::mode(mode)?, time_step);
-        Ok(Self { slip_rate, memory, ..Self::of(&start) })
+        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
+        own.slip_rate = slip_rate;
+        Ok(Self { own, memory: memory.map_or_else(Vec::new, |numbers| numbers.0) })
+    }
+}
+
+/// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
+/// :meth:`UserPlanLaw.limits` returns.
+///
+/// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
+/// traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
+/// ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
+/// ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
+/// element that has opened with a tension, an attraction or a shear strength loses them in that step.
+#[pyclass(name = "Limits", module = "basemat", frozen, eq)]
+#[derive(PartialEq)]
+pub(crate) struct PyLimits(pub(crate) Limits);
+
+getters! {
+    PyLimits, own;
+    /// Friction coefficient; infinite where nothing slides.
+    friction: f64 = own.0.friction;
+    /// Pressure that friction acts on beside that of the contact, Pa.
+    attraction: f64 = own.0.attraction;
+    /// Shear traction that is borne beside friction, Pa.
+    shear_strength: f64 = own.0.shear_strength;
+    /// Tensile strength, Pa.
+    tension: f64 = own.0.tension;
+    /// Greatest pressure, Pa.
+    pressure_cap: f64 = own.0.pressure_cap;
+    /// Gap of a closed element, m.
+    gap_offset: f64 = own.0.gap_offset;
+    /// Whether base and soil neither separate nor slide.
+    bonded: bool = own.0.bonded;
+}
+
+#[pymethods]
+impl PyLimits {
+    #[new]
+    #[pyo3(
+        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
+        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
+    )]
+    fn new(
+        friction: f64,
+        attraction: f64,
+        shear_strength: f64,
+        tension: f64,
+        pressure_cap: f64,
+        gap_offset: f64,
+        bonded: bool,
+    ) -> Self {
+        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
+        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
+        own.bonded = bonded;
+        Self(own)
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((f64,), Bound<'py, PyDict>)> {
+        let Limits { attraction, shear_strength, tension, pressure_cap, gap_offset, .. } = self.0;
+        let names = ["attraction", "shear_strength", "tension", "pressure_cap", "gap_offset"];
+        let values = [attraction, shear_strength, tension, pressure_cap, gap_offset];
+        let named = names.into_iter().zip(values).into_py_dict(py)?;
+        named.set_item("bonded", self.0.bonded)?;
+        Ok(((self.0.friction,), named))
     }
 }

@@ -1,66 +1,63 @@
 //! A structure written in Python.
 
-use basemat::structure::{ContactNode, InternalEnergy, NonlinearForce, Structure, Triplets};
+use basemat::structure::{
+    ContactNode, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
+};
 use basemat::{CheckpointError, Error, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
+use super::object::{UserObject, ask, copied};
 use crate::array::{Count, Matrix, Numbers};
 use crate::dof_names::DofNames;
-use crate::error::{keep, kept, refuse, returned};
-use crate::structure::PyContactNode;
+use crate::error::{keep, refuse, returned};
+use crate::structure::Contact;
 
 /// Its name in errors.
 const PART: &str = "structure";
+/// Methods that may be missing.
+const OPTIONAL: [&str; 7] =
+    ["damping", "load", "foundation_ends", "contact_faces", "energy", "commit", "save"];
 
-/// A Python object with `dofs`, `contact_nodes()`, `mass()` and `stiffness()`; a structure that
+/// A Python object with `dofs`, `contact_nodes()` or `contact_faces()`, `mass()` and `stiffness()`; a structure that
 /// is nonlinear also has `force(u)` and `tangent(u)`.
 pub(crate) struct UserStructure {
-    object: Py<PyAny>,
+    object: UserObject,
     dofs: usize,
-    contact: Vec<ContactNode>,
+    contact: (Vec<ContactNode>, Vec<Vec<FaceNode>>),
     ends: Vec<usize>,
     names: Option<DofNames>,
     active_damping: bool,
-    has_damping: bool,
-    has_load: bool,
     force: Option<UserForce>,
 }
 
 impl UserStructure {
     /// The structure of one simulation. A nonlinear one is a deep copy of the object, so that
     /// simulations do not share its internal variables.
-    pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let nonlinear = object.hasattr("force")?;
-        let object = if nonlinear {
-            object.py().import("copy")?.call_method1("deepcopy", (object,))?
-        } else {
-            object.clone()
-        };
-        let dofs = object.getattr("dofs")?;
+    pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = given.py();
+        let nonlinear = given.hasattr("force")?;
+        let given = if nonlinear { copied(given)? } else { given.clone() };
+        let object = UserObject::new(&given, PART, &OPTIONAL)?;
+        let dofs = given.getattr("dofs")?;
         let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
         let Count(dofs) = returned("dofs of the structure", &dofs)?;
-        let nodes: Vec<Bound<'_, PyContactNode>> =
-            returned("contact_nodes of the structure", &object.call_method0("contact_nodes")?)?;
-        let ends = if object.hasattr("foundation_ends")? {
-            returned("foundation_ends of the structure", &object.call_method0("foundation_ends")?)?
-        } else {
-            Vec::new()
+        let base = |method| object.call::<Contact<'_>>(py, method, ());
+        let faces = object.has("contact_faces").then(|| base("contact_faces")).transpose()?;
+        let contact = match faces {
+            Some(faces @ Contact::Faces(_)) => faces,
+            _ => base("contact_nodes")?,
         };
-        let active_damping = match object.getattr_opt("active_damping")? {
-            Some(flag) => flag.is_truthy()?,
-            None => false,
-        };
+        let ends = object.has("foundation_ends").then(|| object.call(py, "foundation_ends", ()));
+        let flag = given.getattr_opt("active_damping")?;
         Ok(Self {
             dofs,
-            names: DofNames::of(&object, dofs)?,
-            contact: crate::structure::nodes(&nodes, dofs)?,
-            ends,
-            active_damping,
-            has_damping: object.hasattr("damping")?,
-            has_load: object.hasattr("load")?,
-            force: nonlinear.then(|| UserForce::new(&object, dofs)).transpose()?,
-            object: object.unbind(),
+            names: DofNames::of(&given, dofs)?,
+            contact: contact.of(dofs)?,
+            ends: ends.transpose()?.unwrap_or_default(),
+            active_damping: flag.map_or(Ok(false), |flag| flag.is_truthy())?,
+            force: nonlinear.then(|| UserForce { object: object.clone(), dofs }),
+            object,
         })
     }
 
@@ -71,10 +68,10 @@ impl UserStructure {
 
     /// Adds the matrix that a method returns.
     fn add(&self, method: &str, matrix: &mut Triplets) -> Result<()> {
-        let found = Python::attach(|py| -> PyResult<Triplets> {
+        let found = self.object.attempt(|py| {
             matrix_of(method, &self.object.bind(py).call_method0(method)?, self.dofs)
         });
-        add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
+        add_matrix(&found?, matrix);
         Ok(())
     }
 }
@@ -124,7 +121,11 @@ impl Structure for UserStructure {
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.contact.clone()
+        self.contact.0.clone()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.contact.1.clone()
     }
 
     fn foundation_ends(&self) -> Vec<usize> {
@@ -140,7 +141,7 @@ impl Structure for UserStructure {
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        if self.has_damping { self.add("damping", matrix) } else { Ok(()) }
+        if self.object.has("damping") { self.add("damping", matrix) } else { Ok(()) }
     }
 
     fn has_active_damping(&self) -> bool {
@@ -152,14 +153,14 @@ impl Structure for UserStructure {
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        if !self.has_load {
+        if !self.object.has("load") {
             return Ok(());
         }
-        let found = Python::attach(|py| -> PyResult<Vec<f64>> {
+        let found = self.object.attempt(|py| {
             let found = self.object.bind(py).call_method1("load", (time,))?;
             vector_of("load", &found, load.len())
         });
-        add_numbers(&found.map_err(|error| kept(PART, error))?, load);
+        add_numbers(&found?, load);
         Ok(())
     }
 
@@ -174,24 +175,11 @@ impl Structure for UserStructure {
 
 /// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
 struct UserForce {
-    object: Py<PyAny>,
+    object: UserObject,
     dofs: usize,
-    has_energy: bool,
-    has_commit: bool,
-    has_save: bool,
 }
 
 impl UserForce {
-    fn new(object: &Bound<'_, PyAny>, dofs: usize) -> PyResult<Self> {
-        Ok(Self {
-            dofs,
-            has_energy: object.hasattr("energy")?,
-            has_commit: object.hasattr("commit")?,
-            has_save: object.hasattr("save")?,
-            object: object.clone().unbind(),
-        })
-    }
-
     /// Calls a method with the displacement: array of shape (n,).
     fn call<'py>(
         &self,
@@ -206,37 +194,33 @@ impl UserForce {
 
 impl NonlinearForce for UserForce {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        let found = Python::attach(|py| -> PyResult<Vec<f64>> {
-            vector_of("force", &self.call(py, "force", displacement)?, force.len())
-        });
-        add_numbers(&found.map_err(|error| kept(PART, error))?, force);
+        let found = self
+            .object
+            .attempt(|py| vector_of("force", &self.call(py, "force", displacement)?, force.len()));
+        add_numbers(&found?, force);
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        let found = Python::attach(|py| -> PyResult<Triplets> {
+        let found = self.object.attempt(|py| {
             matrix_of("tangent", &self.call(py, "tangent", displacement)?, self.dofs)
         });
-        add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
+        add_matrix(&found?, matrix);
         Ok(())
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        if !self.has_energy {
+        if !self.object.has("energy") {
             return None;
         }
-        let found = Python::attach(|py| -> PyResult<(f64, f64)> {
-            returned("energy of the structure", &self.call(py, "energy", displacement)?)
-        });
-        let (stored, dissipated) = found.unwrap_or_else(|error| {
-            keep(error);
-            (f64::NAN, f64::NAN)
+        let (stored, dissipated) = ask((f64::NAN, f64::NAN), |py| {
+            self.object.call(py, "energy", (PyArray1::from_slice(py, displacement),))
         });
         Some(InternalEnergy { stored, dissipated })
     }
 
     fn commit(&mut self, displacement: &[f64]) {
-        if self.has_commit {
+        if self.object.has("commit") {
             let done = Python::attach(|py| self.call(py, "commit", displacement).map(|_| ()));
             // The step is accepted by now: the exception ends the run after it.
             done.unwrap_or_else(keep);
@@ -244,27 +228,19 @@ impl NonlinearForce for UserForce {
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        if self.has_save {
-            let found = Python::attach(|py| -> PyResult<Vec<f64>> {
-                let found = self.object.bind(py).call_method0("save")?;
-                Ok(returned::<Numbers>("save of the structure", &found)?.0)
-            });
-            return found.map_err(|error| kept(PART, error));
+        if self.object.has("save") {
+            return self.object.attempt(|py| Ok(self.object.call::<Numbers>(py, "save", ())?.0));
         }
-        if self.has_commit {
-            return Err(Error::Checkpoint(CheckpointError::Unsupported { part: "structure" }));
+        if self.object.has("commit") {
+            return Err(Error::Checkpoint(CheckpointError::Unsupported { part: PART }));
         }
         Ok(Vec::new())
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        if !self.has_save && values.is_empty() {
+        if !self.object.has("save") && values.is_empty() {
             return Ok(());
         }
-        let done = Python::attach(|py| {
-            let values = PyArray1::from_slice(py, values);
-            self.object.bind(py).call_method1("restore", (values,)).map(|_| ())
-        });
-        done.map_err(|error| kept(PART, error))
+        self.object.attempt(|py| self.call(py, "restore", values).map(|_| ()))
     }
 }

@@ -1,0 +1,79 @@
+//! An object of the user's that the core calls.
+
+use std::sync::Arc;
+
+use pyo3::call::PyCallArgs;
+use pyo3::prelude::*;
+
+use crate::error::{asked, has_raised, kept, returned};
+
+/// An object with the methods of a part, some of which may be missing.
+#[derive(Clone)]
+pub(super) struct UserObject {
+    object: Arc<Py<PyAny>>,
+    /// What it is, in errors.
+    part: &'static str,
+    /// The optional methods that it has.
+    methods: Vec<&'static str>,
+}
+
+impl UserObject {
+    pub(super) fn new(
+        object: &Bound<'_, PyAny>,
+        part: &'static str,
+        optional: &[&'static str],
+    ) -> PyResult<Self> {
+        let mut methods = Vec::new();
+        for &method in optional {
+            if object.hasattr(method)? {
+                methods.push(method);
+            }
+        }
+        Ok(Self { object: Arc::new(object.clone().unbind()), part, methods })
+    }
+
+    /// The same with another object of the same class.
+    pub(super) fn with(&self, object: Bound<'_, PyAny>) -> Self {
+        Self { object: Arc::new(object.unbind()), ..self.clone() }
+    }
+
+    pub(super) fn bind<'py>(&self, py: Python<'py>) -> &Bound<'py, PyAny> {
+        self.object.bind(py)
+    }
+
+    pub(super) fn has(&self, method: &str) -> bool {
+        self.methods.contains(&method)
+    }
+
+    /// What a method returns, as a `T`.
+    pub(super) fn call<'py, T>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        arguments: impl PyCallArgs<'py>,
+    ) -> PyResult<T>
+    where
+        T: for<'a> FromPyObject<'a, 'py>,
+    {
+        let found = self.bind(py).call_method1(method, arguments)?;
+        found.extract().or_else(|_| returned(&format!("{method} of the {}", self.part), &found))
+    }
+
+    /// The result of `ask`, or an error of the core.
+    pub(super) fn attempt<T>(
+        &self,
+        ask: impl FnOnce(Python<'_>) -> PyResult<T>,
+    ) -> basemat::Result<T> {
+        Python::attach(ask).map_err(|error| kept(self.part, error))
+    }
+}
+
+/// What user code says, or `otherwise` (which ends the step) if it raises, or something has raised before.
+pub(super) fn ask<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
+    if has_raised() { otherwise } else { asked(otherwise, ask) }
+}
+
+/// A deep copy, with internal variables of its own.
+pub(super) fn copied<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    object.py().import("copy")?.call_method1("deepcopy", (object,))
+}
