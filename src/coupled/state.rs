@@ -110,6 +110,10 @@ pub(crate) struct Context {
     pub(crate) elements: Patch,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
+    /// Corners of the convex outline of each foundation, counter-clockwise; none in the plane.
+    pub(crate) outlines: Vec<Vec<[f64; 2]>>,
+    /// Middle of each foundation from the point of the base moment, m.
+    pub(crate) arms: Vec<[f64; 2]>,
 }
 
 impl PartialEq for Context {

@@ -11,6 +11,7 @@ mod motions;
 mod random;
 mod refused;
 mod results;
+mod several;
 mod sliding;
 mod springs;
 mod storeys;

@@ -37,7 +37,8 @@ fn bases_of_another_dimension() {
     let error = build(cube(), bed(), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "structure", .. }), "{error}");
     assert!(error.to_string().contains("contact nodes"), "{error}");
-    let error = StructureGroup::new().with(cube(), 0.0).err().unwrap();
+    let group = StructureGroup::new().with(cube(), 0.0).unwrap();
+    let error = group.with(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), 9.0).err().unwrap();
     assert!(matches!(error, Error::Scene { quantity: "structure of a group", .. }), "{error}");
 }
 

@@ -69,7 +69,7 @@ fn cells_longer_than_a_twelfth_of_waves() {
 fn rows_and_columns_are_counted() {
     let tall = [8.0, 4.0, 12.0];
     let (few, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 2, 2e-3);
-    let wanted = Warning::FewElements { foundation: 0, elements: 2, needed: 4 };
+    let wanted = Warning::FewElements { foundation: 0, elements: 2, needed: 4, axis: Some('y') };
     assert_eq!(only(&few), wanted);
     let (enough, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 4, 2e-3);
     assert_eq!(enough.warnings, []);

@@ -268,8 +268,11 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let uncovered = scene.base.uncovered(ground.elements());
+        let uncovered = scene.base.uncovered(&scene.elements);
         let period = assembled.period_on_fixed_base(&mut held);
+        let axis = |axis: usize| scene.elements.is_plan().then_some(['x', 'y'][axis]);
+        let uncovered: Vec<_> =
+            uncovered.into_iter().map(|(k, along, reach)| (k, axis(along), reach)).collect();
         let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
         let sample = ground.sampled_cells();
         warnings

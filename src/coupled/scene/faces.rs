@@ -96,6 +96,43 @@ impl<'a> Faces<'a> {
     }
 }
 
+/// The faces of each mat, by their corners: those that touch are of one.
+pub(super) fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
+    let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+    let checked = faces.iter().map(corners).enumerate();
+    let checked: Result<Vec<_>> =
+        checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
+    let owners = Face::mats(&checked?);
+    let count = owners.iter().max().map_or(0, |last| last + 1);
+    let mut mats = vec![Vec::new(); count];
+    faces.iter().zip(owners).for_each(|(face, mat)| mats[mat].push(face.clone()));
+    Ok(mats)
+}
+
+/// The corners of the convex hull of some nodes, counter-clockwise.
+pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> {
+    let mut sorted: Vec<Point> = nodes.map(|node| [node.x, node.y]).collect();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut hull: Vec<Point> = Vec::new();
+    // From left to right below, and back above.
+    let mut half = |points: &mut dyn Iterator<Item = &Point>| {
+        let first = hull.len();
+        for point in points {
+            while let [.., a, b] = hull[first..] {
+                if side([a, b], *point) > 0.0 {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(*point);
+        }
+        hull.pop();
+    };
+    half(&mut sorted.iter());
+    half(&mut sorted.iter().rev());
+    hull
+}
+
 fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
