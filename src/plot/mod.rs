@@ -30,6 +30,7 @@
 mod animation;
 mod axes;
 mod base;
+mod deformed;
 mod drawing;
 mod lines;
 mod plan;
@@ -39,8 +40,9 @@ mod shown;
 mod site_response;
 mod svg;
 
-pub use animation::{animation, deformed_shapes};
+pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
+pub use deformed::deformed_shapes;
 pub use lines::{Curve, curves, energy, history, probe_history, refinement, spectra};
 pub use plan::contact_plan;
 pub use site_response::site_response;

@@ -8,6 +8,7 @@ mod equations;
 mod march;
 mod mast;
 mod motions;
+mod pictures;
 mod random;
 mod refused;
 mod results;

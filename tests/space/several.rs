@@ -210,6 +210,9 @@ fn a_turned_scene_has_turned_results() {
         }
     }
     assert_eq!(run.foundations.len(), turned_run.foundations.len());
+    let kinds = |run: &Run| -> Vec<_> { run.warnings.iter().map(std::mem::discriminant).collect() };
+    assert_eq!(kinds(&run), kinds(&turned_run));
+    println!("{run}");
     assert_eq!(run.slip_events(), turned_run.slip_events());
 }
 

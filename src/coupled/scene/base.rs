@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::faces::{Faces, hull, mats, mean_rotations};
+use super::faces::{Faces, hull, mats};
 use super::line::{check_order, check_overlap, chord_rotation, mean_weights};
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
 use crate::error::{Error, Result};
@@ -73,7 +73,8 @@ impl Base {
         let mut first = 0;
         for mat in &mats {
             let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let rotations = mean_rotations(&nodes[own.clone()]).map(Weights::Sparse).into();
+            let rotations = FaceNode::mean_rotations(&nodes[own.clone()]);
+            let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
             first = own.end;
             let corners = hull(nodes[own.clone()].iter());
             foundations.push(Outline { nodes: own, elements: 0..0, rotations, corners });

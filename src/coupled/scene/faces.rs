@@ -1,6 +1,5 @@
 //! Faces of a base in plan, and the mean of its displacement over a contact element.
 
-use super::transformation::{Terms, accumulate};
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result};
 use crate::geometry::Patch;
@@ -185,27 +184,6 @@ fn shares(corners: &[Point], p: Point) -> Option<Vec<f64>> {
         }
     }
     None
-}
-
-/// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and turn
-/// about the vertical.
-pub(super) fn mean_rotations(nodes: &[FaceNode]) -> [Terms; 3] {
-    let count = nodes.len() as f64;
-    let mean = |of: &dyn Fn(&FaceNode) -> f64| nodes.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(&|node| node.x), mean(&|node| node.y));
-    let product = |one: fn([f64; 2]) -> f64| mean(&|node| one([node.x - x, node.y - y]));
-    let (xx, xy, yy) =
-        (product(|d| d[0] * d[0]), product(|d| d[0] * d[1]), product(|d| d[1] * d[1]));
-    let (scale, polar) = (count * (xx * yy - xy * xy), count * (xx + yy));
-    let mut rotations = [(); 3].map(|()| Terms::new());
-    for node in nodes {
-        let [dx, dy] = [node.x - x, node.y - y];
-        accumulate(&mut rotations[0], &node.vertical, (yy * dx - xy * dy) / scale);
-        accumulate(&mut rotations[1], &node.vertical, (xx * dy - xy * dx) / scale);
-        accumulate(&mut rotations[2], &node.across, dx / polar);
-        accumulate(&mut rotations[2], &node.horizontal, -dy / polar);
-    }
-    rotations
 }
 
 #[cfg(test)]
