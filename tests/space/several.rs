@@ -5,7 +5,7 @@ use basemat::bem::{ElasticGround, SpringGround};
 use basemat::coupled::State;
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{FreeField, Record, Triaxial, el_centro_1940};
-use basemat::results::{Quantity, Recorder, Run, TimeSeries};
+use basemat::results::{Criterion, Quantity, Recorder, Run, Serviceability, TimeSeries};
 use basemat::structure::{RigidBlock, RigidBody, StructureGroup};
 use basemat::{Error, PlanError, Simulation, Soil};
 
@@ -54,6 +54,12 @@ fn rocked(quarters: usize) -> (Simulation, TimeSeries, Run, Vec<State>) {
         .ground(ground.with_dashpots(8e5, 4e5).unwrap())
         .interface(Coulomb::new(0.35).unwrap())
         .motion(Strong(quarters))
+        .serviceability(Serviceability {
+            slip: Some(1e-2),
+            gap: Some(1e-3),
+            rotation: Some(2e-2),
+            uplifted_fraction: Some(0.5),
+        })
         .build()
         .unwrap();
     let mut histories = Recorder::new().contact(1).start(&simulation).unwrap();
@@ -160,7 +166,51 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
         assert_eq!(state.value(Quantity::Twist), furthest(|own| own.twist));
         assert_eq!(state.value(Quantity::RotationAcross), furthest(|own| own.rotation_across));
     }
+    // Service: of either body, in any direction.
+    let furthest = |of: &dyn Fn(&State, usize) -> f64| {
+        let each = states.iter().flat_map(|state| [0, 1].map(|k| of(state, k)));
+        each.fold(0.0, f64::max)
+    };
+    let tilt = |state: &State, k: usize| {
+        let u = &state.displacement()[6 * k..];
+        u[3].hypot(u[4])
+    };
+    let slip = |state: &State, k: usize| {
+        let own = &state.contact[places[k].clone()];
+        let [x, y] = [
+            own.iter().map(|own| own.slip).sum::<f64>(),
+            own.iter().map(|own| own.slip_across).sum(),
+        ];
+        x.hypot(y) / own.len() as f64
+    };
+    let open = |state: &State, k: usize| {
+        let [.., open, area] = by_hand(&histories, state, places[k].clone(), [0.0; 2]);
+        open / area
+    };
+    let gap = |state: &State, k: usize| {
+        state.contact[places[k].clone()].iter().fold(0.0, |most: f64, own| most.max(own.gap))
+    };
+    assert_eq!(run.serviceability.len(), 4);
+    for check in &run.serviceability {
+        let exact = match check.criterion {
+            Criterion::Slip => furthest(&slip),
+            Criterion::Gap => furthest(&gap),
+            Criterion::UpliftedFraction => furthest(&open),
+            _ => furthest(&tilt),
+        };
+        assert!((check.largest.value.abs() / exact - 1.0).abs() < 1e-9, "{check}: {exact}");
+        assert_eq!(check.is_met(), exact <= check.limit);
+    }
     let page = run.to_string();
+    // Four cells a side of the narrower body, and six: 3/4 and 5/6.
+    for text in [
+        "over the edge to the left or the right (x)",
+        "over the front or the back edge (y)",
+        "bear at 0.75 (x) and 0.83 (y) of the half width: a base stands on them at 1.33 and 1.20",
+        "16 cells a side, or graded unions",
+    ] {
+        assert!(page.contains(text), "{text}\n{page}");
+    }
     for text in ["x -4.00 to 4.00, y -3.00 to 3.00", "x 7.00 to 11.00, y -3.00 to 3.00"] {
         assert!(page.contains(text), "{page}");
     }
@@ -212,7 +262,6 @@ fn a_turned_scene_has_turned_results() {
     assert_eq!(run.foundations.len(), turned_run.foundations.len());
     let kinds = |run: &Run| -> Vec<_> { run.warnings.iter().map(std::mem::discriminant).collect() };
     assert_eq!(kinds(&run), kinds(&turned_run));
-    println!("{run}");
     assert_eq!(run.slip_events(), turned_run.slip_events());
 }
 

@@ -13,7 +13,7 @@ use crate::text::table::Table;
 /// Elements of the pressure envelope beyond which only some are printed.
 const MOST_ROWS: usize = 12;
 /// Lever of the outermost elements in plan, of half the width, that needs no advice.
-const ENOUGH: f64 = 0.94;
+const ENOUGH: f64 = 0.93;
 
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -127,18 +127,17 @@ impl Run {
             return Ok(());
         }
         let [along, across] = [0, 1].map(|axis| self.lever(axis));
-        let least = along.min(across);
-        write!(
+        writeln!(
             f,
-            "  pressure acts at {along:.2} (x) and {across:.2} (y) of the half widths at most, the middles of the \
-             outermost cells: the base stands on them at {:.2} and {:.2}",
+            "  the outermost cells bear at {along:.2} (x) and {across:.2} (y) of the half width: a base stands on them at \
+             {:.2} and {:.2}",
             1.0 / along,
             1.0 / across
         )?;
-        if least < ENOUGH {
-            write!(f, "; 16 cells a side, or graded unions, reach 0.95")?;
+        if along.min(across) < ENOUGH {
+            writeln!(f, "  (16 cells a side, or graded unions, bear at 0.94 or more)")?;
         }
-        writeln!(f)
+        Ok(())
     }
 
     /// Distance from the middle of a foundation in plan to the middles of its outermost elements along an axis, over half
