@@ -14,8 +14,8 @@
 //! | response spectra | [`spectra`] |
 //! | wave speeds and strains of a site over depth, and spectra | [`site_response`](site_response()) |
 //! | error against run time | [`refinement`](refinement()) |
-//! | the structure at some instants | [`deformed_shapes`] |
-//! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
+//! | the structure at some instants, in plan in two elevations | [`deformed_shapes`] |
+//! | the structure in motion, with its base and, in plan, its contact from above | [`animation`] (an SVG that browsers play) |
 //!
 //! ```no_run
 //! # fn recorded() -> basemat::results::TimeSeries { unimplemented!() }

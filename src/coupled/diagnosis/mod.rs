@@ -15,7 +15,7 @@ use crate::coupled::scene::operators::Operators;
 use crate::coupled::scene::{Scene, operators};
 use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
-use crate::geometry::{PLANE, far_ends};
+use crate::geometry::far_ends;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
 };
@@ -60,7 +60,8 @@ fn resultants(
     load: &[f64],
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    let is_plan = base.layout().components() != PLANE;
+    let axes = base.layout().components() - 1;
+    let is_plan = axes > 1;
     let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
@@ -68,10 +69,7 @@ fn resultants(
         let horizontal = if away == 0.0 { along } else { along.hypot(away) };
         let normal = -upward;
         let nodes = part.nodes(base);
-        let bounds = [
-            far_ends(nodes.iter().map(|node| [node.x; 2])),
-            far_ends(nodes.iter().map(|node| [node.y; 2])),
-        ];
+        let bounds = [0, 1].map(|axis| far_ends(nodes.iter().map(|n| [[n.x, n.y][axis]; 2])));
         let (ends, across) = (bounds[0], is_plan.then_some(bounds[1]));
         let laws = || part.elements().iter().map(|&e| law_of(laws, e));
         let little = 1e-6 * normal.abs().max(1.0);
@@ -133,17 +131,14 @@ fn resultants(
             };
             return broken(pulls, error);
         }
-        let elements = part.elements().len();
-        for axis in if is_plan { 0..2 } else { 0..1 } {
-            let reach = far_ends(part.elements().iter().map(|&e| [base.middle(e)[axis]; 2]));
-            let resultant = middles[axis] + eccentricities[axis];
-            let slack = 1e-9 * half_widths[axis];
-            if opens && (resultant < reach[0] - slack || resultant > reach[1] + slack) {
-                let axis = name(axis);
-                let error =
-                    StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
-                return broken(pulls, error);
-            }
+        let all_middles = part.elements().iter().map(|&e| base.middle(e));
+        let passed = [0, 1].map(|axis| middles[axis] + eccentricities[axis]);
+        let slack = half_widths.map(|half| 1e-9 * half);
+        let beyond = (0..axes).find_map(|axis| beyond(all_middles.clone(), axis, passed, slack));
+        if let Some((axis, reach)) = beyond.filter(|_| opens) {
+            let (elements, resultant, axis) = (part.elements().len(), passed[axis], name(axis));
+            let error = StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
+            return broken(pulls, error);
         }
         if let Some(slides) = slides() {
             return Some(slides);
@@ -181,6 +176,19 @@ fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (
         (way / reach, usize::from(n[1].abs() > n[0].abs()))
     });
     parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
+}
+
+/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more than
+/// the slack.
+fn beyond(
+    middles: impl Iterator<Item = [f64; 2]>,
+    axis: usize,
+    passed: [f64; 2],
+    slack: [f64; 2],
+) -> Option<(usize, [f64; 2])> {
+    let reach = far_ends(middles.map(|middle| [middle[axis]; 2]));
+    let is_beyond = passed[axis] < reach[0] - slack[axis] || passed[axis] > reach[1] + slack[axis];
+    is_beyond.then_some((axis, reach))
 }
 
 /// The friction coefficient of a law, or the ratio of traction at which it lets an element under this

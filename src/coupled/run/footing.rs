@@ -74,13 +74,6 @@ impl<'a> Base<'a> {
         self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
     }
 
-    /// Area of its open elements.
-    pub(super) fn open_area(&self) -> f64 {
-        let open = self.areas().iter().zip(self.modes()).filter(|(_, mode)| !mode.is_closed());
-        // An empty sum would be a negative zero.
-        open.fold(0.0, |sum, (area, _)| sum + area)
-    }
-
     /// Left and right, front and back end: of its elements in the plane, of its outline in plan.
     pub(super) fn ends(&self) -> [[f64; 2]; 2] {
         let context = &self.state.context;
@@ -116,6 +109,13 @@ impl<'a> Base<'a> {
             None => (0..self.state.foundations.len()).map(of).fold(f64::NAN, f64::min),
         }
     }
+}
+
+/// Area of the open elements of a base.
+pub(super) fn open_area(base: &Base<'_>) -> f64 {
+    let open = base.areas().iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
+    // An empty sum would be a negative zero.
+    open.fold(0.0, |sum, (area, _)| sum + area)
 }
 
 /// Elements of a foundation, with what they carry.

@@ -70,7 +70,7 @@ pub struct Run {
     pub whole: Summary,
     /// The probes, in the order they were given to the builder.
     pub probes: Vec<ProbeExtremes>,
-    /// Each foundation by itself, from left to right.
+    /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Summary>,
     /// A check for each limit that the builder was given
     /// ([`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability)).

@@ -91,9 +91,10 @@ impl Run {
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
         let row = |own: &Summary| {
             let ends = |[low, high]: [f64; 2]| format!("{low:.2} to {high:.2}");
-            let place = match self.in_plan {
-                false => ends(own.ends),
-                true => format!("x {}, y {}", ends(own.ends), ends(own.depth)),
+            let place = if self.in_plan {
+                format!("x {}, y {}", ends(own.ends), ends(own.depth))
+            } else {
+                ends(own.ends)
             };
             let value = |quantity: &Quantity| match own.peak(*quantity).value {
                 safety if quantity.limit().is_some() => factor(safety),
@@ -118,7 +119,7 @@ impl Run {
                     writeln!(f, ", over the edge to the left or the right (x)")?;
                 }
                 Quantity::OverturningSafetyAcross => {
-                    writeln!(f, ", over the front or the back edge (y)")?
+                    writeln!(f, ", over the front or the back edge (y)")?;
                 }
                 _ => writeln!(f)?,
             }

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::footing::{Base, against_overturning, against_sliding};
+use super::footing::{Base, against_overturning, against_sliding, open_area};
 use super::peak::resultant;
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Peak, State};
@@ -82,7 +82,7 @@ macro_rules! quantities {
         /// Summary of the whole base or of one foundation: extremes with their times, uplift, sliding.
         ///
         /// Quantities are named and signed as in [`State`]. Moments of a foundation are about the middle of its
-        /// own elements, so that of several structures each has its own.
+        /// own elements, in plan of its outline, so that of several structures each has its own.
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -204,7 +204,7 @@ quantities! {
         |base| base.sum(|own, [x, y]| own.torque + x * own.shear_across - y * own.base_shear);
     /// In plan: area of open elements inside the outline of the base, m².
     UpliftedArea uplifted_area, "uplifted area", "m²", Scale::Unit, [Plan, Page],
-        |base| base.open_area();
+        open_area;
     /// In plan: slip along y averaged over the base, m.
     MeanSlipAcross mean_slip_across, "mean slip across", "m", Scale::Unit, [Plan, Foundations, Comparison],
         |base| base.mean(|own| own.slip_across);

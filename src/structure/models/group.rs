@@ -52,6 +52,19 @@ struct Member {
 /// assert!(run.energy_error < 1e-9 && high.base_rotation != low.base_rotation);
 /// # Ok::<(), basemat::Error>(())
 /// ```
+///
+/// In plan bodies stand anywhere, with an empty cell of the ground between them at least:
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::structure::{RigidBody, Structure, StructureGroup};
+///
+/// let tank = RigidBody::cylinder(4.0, 6.0, 1000.0)?;
+/// let pump = RigidBody::cuboid([3.0, 2.0, 2.0], 2400.0)?.centered_at([2.0, 7.0])?;
+/// let group = StructureGroup::new().with(tank, 0.0)?.with(pump, 0.0)?;
+/// assert_eq!((group.dofs(), group.contact_faces().len()), (12, 2));
+/// let ground = SpringGround::under(&group, 12, 4e7, 3e7)?;
+/// # Ok::<(), basemat::Error>(())
+/// ```
 #[derive(Default)]
 pub struct StructureGroup {
     members: Vec<Member>,
