@@ -110,7 +110,7 @@ impl Run {
 
     fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let known = |own: &Quantity| own.limit().is_some() && !self.whole.peak(*own).value.is_nan();
-        for quantity in Quantity::ALL.into_iter().filter(known) {
+        for quantity in Quantity::of(self.in_plan).filter(known) {
             let peak = self.whole.peak(quantity);
             let (name, least) = (quantity.name(), factor(peak.value));
             write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
