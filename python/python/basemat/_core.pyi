@@ -883,7 +883,7 @@ class Summary:
         """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
     @property
     def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a :class:`Peak`."""
+        """Least factor of safety against overturning, a :class:`Peak`; on a ground in plan over any edge."""
 
 @final
 class ServiceCheck:
