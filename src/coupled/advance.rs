@@ -41,6 +41,8 @@ impl State {
                 probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
                 elements: scene.elements.clone(),
                 friction: scene.safety_friction.clone(),
+                outlines: scene.base.outlines().map(<[_]>::to_vec).collect(),
+                arms: scene.foundation_arms.clone(),
             }),
             motion: Motion::new(model),
             contact,

@@ -213,14 +213,14 @@ impl PartialEq for EnergyBalance {
     }
 }
 
-/// Energies in kJ/m.
+/// Energies in kJ; in the plane per metre of thickness.
 impl fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_left_out() {
             return write!(f, "energy balance left out");
         }
         let shown = |energy: f64| number(1e-3 * energy);
-        writeln!(f, "energy, kJ/m: input {}", shown(self.input))?;
+        writeln!(f, "energy, kJ (in the plane kJ/m): input {}", shown(self.input))?;
         for pair in self.parts().chunks(2) {
             let cell = |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", shown(*energy));
             writeln!(f, "  {}", pair.iter().map(cell).collect::<Vec<_>>().join("    "))?;

@@ -334,9 +334,11 @@ impl Resolution {
             let needed = crossing / CROSSING_STEPS[1];
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
-        if let Some(axis) = self.axes.iter().find(|axis| axis.elements < axis.needed()) {
-            let (foundation, elements, needed) = (self.foundation, axis.elements, axis.needed());
-            warnings.push(Warning::FewElements { foundation, elements, needed });
+        let few = |(own, _): &(&Axis, char)| own.elements < own.needed();
+        if let Some((own, name)) = self.axes.iter().zip(['x', 'y']).find(few) {
+            let (foundation, elements, needed) = (self.foundation, own.elements, own.needed());
+            let axis = self.in_plan.then_some(name);
+            warnings.push(Warning::FewElements { foundation, elements, needed, axis });
         }
         let counts = self.in_plan || self.samples.running;
         if let Some(wavelength) = self.short_waves().filter(|_| counts) {

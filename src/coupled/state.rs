@@ -52,7 +52,7 @@ pub struct Foundation {
     pub elements: std::ops::Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
-    /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m.
+    /// Moment on the soil about the middle of its elements, in plan of its outline, counter-clockwise, N·m/m.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
@@ -110,6 +110,10 @@ pub(crate) struct Context {
     pub(crate) elements: Patch,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
+    /// Corners of the convex outline of each foundation, counter-clockwise; none in the plane.
+    pub(crate) outlines: Vec<Vec<[f64; 2]>>,
+    /// Middle of each foundation from the point of the base moment, m.
+    pub(crate) arms: Vec<[f64; 2]>,
 }
 
 impl PartialEq for Context {
@@ -176,7 +180,7 @@ pub struct State {
     pub mean_slip: f64,
     /// Rotation of the base's chord, counter-clockwise, rad; of several foundations the largest.
     pub base_rotation: f64,
-    /// Each foundation by itself, from left to right.
+    /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],

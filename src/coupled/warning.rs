@@ -12,14 +12,14 @@ use crate::soil::Soil;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Warning {
-    /// Slip beyond the mean length of the elements: they no longer face each other.
+    /// Slip beyond the mean length of the elements, in plan of their shorter sides: they no longer face each other.
     LargeSlip {
         /// Largest slip, m.
         slip: f64,
         /// Mean length of the elements, m.
         element_length: f64,
     },
-    /// Rotation of the base beyond 0.1 rad: cosines are no longer one.
+    /// Rotation of the base beyond 0.1 rad, in plan about any axis: cosines are no longer one.
     LargeRotation {
         /// Largest rotation, rad.
         rotation: f64,
@@ -31,6 +31,9 @@ pub enum Warning {
         tension: f64,
         /// Middle of that element, m.
         x: f64,
+        /// In plan: its middle along y, m.
+        #[cfg_attr(feature = "serde", serde(default))]
+        y: Option<f64>,
         /// When, s.
         time: f64,
     },
@@ -89,6 +92,9 @@ pub enum Warning {
         elements: usize,
         /// Fewest that it needs.
         needed: usize,
+        /// In plan: `x` for elements of a row, `y` for those of a column.
+        #[cfg_attr(feature = "serde", serde(default))]
+        axis: Option<char>,
     },
     /// The base reaches beyond the ground's elements, by more than one of them: nothing carries it there.
     UncoveredBase {
@@ -96,6 +102,9 @@ pub enum Warning {
         foundation: usize,
         /// Distance from the outermost element to the end of the foundation, m.
         reach: f64,
+        /// In plan: `x` or `y`, along which that is.
+        #[cfg_attr(feature = "serde", serde(default))]
+        axis: Option<char>,
     },
     /// More cells in plan than are checked for passivity together: theorem and all steps are as they were, but errors of the
     /// quadrature and damping laws that are not passive are looked for among some of them only.
@@ -157,17 +166,23 @@ impl Warning {
     const LARGEST_ACCELERATION: f64 = 60.0;
 
     /// Those that a scene calls for before its first step: `soils` of the ground, foundations that reach beyond the
-    /// ground's elements, and how far (m), `period` on a fixed base (s).
-    pub(crate) fn of_scene(soils: &[Soil], uncovered: &[(usize, f64)], period: f64) -> Vec<Self> {
+    /// ground's elements, in plan along which axis, and how far (m), `period` on a fixed base (s).
+    pub(crate) fn of_scene(
+        soils: &[Soil],
+        uncovered: &[(usize, Option<char>, f64)],
+        period: f64,
+    ) -> Vec<Self> {
         let mut warnings: Vec<_> = Self::of_soils(soils).collect();
         // A model not to scale has been told so.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }
         let uncovered = uncovered.iter();
-        warnings.extend(
-            uncovered.map(|&(foundation, reach)| Self::UncoveredBase { foundation, reach }),
-        );
+        warnings.extend(uncovered.map(|&(foundation, axis, reach)| Self::UncoveredBase {
+            foundation,
+            reach,
+            axis,
+        }));
         warnings
     }
 
@@ -230,10 +245,13 @@ impl fmt::Display for Warning {
                     "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
                 )
             }
-            Self::Tension { tension, x, time } => write!(
-                f,
-                "base pulled up by {tension:.2e} Pa, x = {x:.2} m at {time:.2} s: its law cannot open"
-            ),
+            Self::Tension { tension, x, y, time } => {
+                let across = y.map_or(String::new(), |y| format!(", y = {y:.2} m"));
+                write!(
+                    f,
+                    "base pulled up by {tension:.2e} Pa, x = {x:.2} m{across} at {time:.2} s: its law cannot open"
+                )
+            }
             Self::EnergyBalance { residual } => write!(f, "energy balance open by {residual:.1e}"),
             Self::AlgorithmicEnergy { made } => write!(
                 f,
@@ -257,13 +275,15 @@ impl fmt::Display for Warning {
                 "steps of {time_step:.2e} s damp rocking: shear waves cross the base in {crossing:.2e} s; \
                  take {needed:.1e} s"
             ),
-            Self::FewElements { foundation, elements, needed } => write!(
+            Self::FewElements { foundation, elements, needed, axis } => write!(
                 f,
-                "elements under foundation {foundation}: {elements}, its rocking needs {needed}"
+                "elements{} under foundation {foundation}: {elements}, its rocking needs {needed}",
+                along(*axis)
             ),
-            Self::UncoveredBase { foundation, reach } => write!(
+            Self::UncoveredBase { foundation, reach, axis } => write!(
                 f,
-                "foundation {foundation} reaches {reach:.2} m beyond the ground's elements: nothing carries it there"
+                "foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: nothing carries it there",
+                along(*axis)
             ),
             Self::SampledPassivity { checked, cells } => {
                 write!(f, "passivity of the ground checked on {checked} of {cells} cells")
@@ -287,6 +307,11 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+/// The axis that is meant, in plan.
+fn along(axis: Option<char>) -> String {
+    axis.map_or(String::new(), |axis| format!(" along {axis}"))
 }
 
 fn within([least, most]: [f64; 2], value: f64) -> bool {

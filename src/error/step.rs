@@ -171,23 +171,28 @@ impl From<CheckpointError> for Error {
 #[non_exhaustive]
 pub enum StabilityError {
     /// The loads lift the structure off.
-    #[error("weight and loads at t = 0 lift it by {upward:.4e} N/m{}", on(ends))]
+    #[error("weight and loads at t = 0 lift it by {upward:.4e} {}{}", force(*across), on(*ends, *across))]
     Uplift {
         /// Left and right end of the base of the part that is lifted, m.
         ends: [f64; 2],
+        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        across: Option<[f64; 2]>,
         /// Resultant upwards, N/m; zero if nothing presses.
         upward: f64,
     },
     /// The horizontal load is beyond friction.
     #[error(
-        "the load at t = 0 pushes it off: {horizontal:.4e} N/m along the base, {ratio:.3} times the \
-         friction {resistance:.4e} N/m under a normal force of {normal:.4e} N/m{}",
-        on(ends)
+        "the load at t = 0 pushes it off: {horizontal:.4e} {0} along the base, {ratio:.3} times the \
+         friction {resistance:.4e} {0} under a normal force of {normal:.4e} {0}{1}",
+        force(*across),
+        on(*ends, *across)
     )]
     Sliding {
         /// Left and right end of the base of the part that slides, m.
         ends: [f64; 2],
-        /// Horizontal resultant, positive to the right, N/m.
+        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        across: Option<[f64; 2]>,
+        /// Horizontal resultant, positive to the right, N/m; in plan that of both directions.
         horizontal: f64,
         /// Normal force, N/m.
         normal: f64,
@@ -198,36 +203,48 @@ pub enum StabilityError {
     },
     /// The resultant of weight and loads passes beside the base.
     #[error(
-        "weight and loads at t = 0 overturn it: moment {moment:.4e} N·m/m about the middle of the base \
-         under a normal force of {normal:.4e} N/m, whose resultant passes {eccentricity:.4} m from it, \
-         {ratio:.3} times half the width{}",
-        on(ends)
+        "weight and loads at t = 0 overturn it{1}: moment {moment:.4e} N·m{0} about the middle of the base \
+         under a normal force of {normal:.4e} N{0}, whose resultant passes {eccentricity:.4} m from it{2}, \
+         {ratio:.3} times half the width{3}",
+        if across.is_some() { "" } else { "/m" },
+        edge(*axis, *eccentricity),
+        along(*axis),
+        on(*ends, *across)
     )]
     Overturning {
         /// Left and right end of the base of the part that overturns, m.
         ends: [f64; 2],
-        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m.
+        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        across: Option<[f64; 2]>,
+        /// In plan: `x` where it overturns to the left or the right, `y` where to the front or the back.
+        axis: Option<char>,
+        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan that which raises
+        /// what lies ahead along the axis.
         moment: f64,
         /// Normal force, N/m.
         normal: f64,
-        /// Distance of the resultant from the middle of the base, positive to the right, m.
+        /// Distance of the resultant from the middle of the base, positive to the right, in plan along the axis, m.
         eccentricity: f64,
-        /// That over half the width.
+        /// That over half the width; in plan, of a base that is no rectangle, over the distance to its edge.
         ratio: f64,
     },
     /// The bearing pressure of the interface does not carry the weight.
     #[error(
-        "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} N/m, {ratio:.3} \
-         times the {capacity:.4e} N/m that the bearing pressure gives on the {width:.4} m whose middle \
-         is under the resultant{}",
-        on(ends)
+        "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} {0}, {ratio:.3} \
+         times the {capacity:.4e} {0} that the bearing pressure gives on the {width:.4} {1} whose middle \
+         is under the resultant{2}",
+        force(*across),
+        if across.is_some() { "m²" } else { "m" },
+        on(*ends, *across)
     )]
     BearingFailure {
         /// Left and right end of the base of the part that sinks in, m.
         ends: [f64; 2],
+        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        across: Option<[f64; 2]>,
         /// Normal force, N/m.
         normal: f64,
-        /// Width less twice the eccentricity (Meyerhof 1953), m.
+        /// Width less twice the eccentricity (Meyerhof 1953), m; in plan the area that both leave, m².
         width: f64,
         /// Bearing pressure times that, N/m.
         capacity: f64,
@@ -237,18 +254,23 @@ pub enum StabilityError {
     /// The resultant of weight and loads passes through the base, but beyond the middle of its outermost
     /// element: the traction on an element is constant, so that its resultant is there.
     #[error(
-        "the resultant of weight and loads at t = 0 passes at x = {resultant:.4} m{}, but {}",
-        on(ends),
-        grip(*elements, *reach)
+        "the resultant of weight and loads at t = 0 passes at {} = {resultant:.4} m{}, but {}",
+        axis.unwrap_or('x'),
+        on(*ends, *across),
+        grip(*elements, *reach, axis.unwrap_or('x'))
     )]
     Beyond {
         /// Left and right end of the base of the part, m.
         ends: [f64; 2],
+        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        across: Option<[f64; 2]>,
+        /// In plan: `x` or `y`, along which that is.
+        axis: Option<char>,
         /// Number of its elements.
         elements: usize,
         /// Where the resultant passes, m.
         resultant: f64,
-        /// Middles of the first and the last element, m.
+        /// Middles of the first and the last element along that axis, m.
         reach: [f64; 2],
     },
     /// A bond of the interface breaks, and without it the rest follows.
@@ -281,19 +303,41 @@ pub enum StabilityError {
 }
 
 /// The end of the message of [`StabilityError::Beyond`].
-fn grip(elements: usize, reach: [f64; 2]) -> String {
+fn grip(elements: usize, reach: [f64; 2], axis: char) -> String {
     if elements == 1 {
         "a base of one element resists no moment".to_owned()
     } else {
         let [left, right] = reach;
         format!(
-            "{elements} elements, on each of which the traction is constant, carry it from x = {left:.4} to \
+            "{elements} elements, on each of which the traction is constant, carry it from {axis} = {left:.4} to \
              {right:.4} m only, the middles of the outermost ones (shorter ones there reach further)"
         )
     }
 }
 
 /// The base that is meant.
-fn on([left, right]: &[f64; 2]) -> String {
-    format!(" (base from x = {left} to {right} m)")
+fn on([left, right]: [f64; 2], across: Option<[f64; 2]>) -> String {
+    let depth = across.map_or(String::new(), |[front, back]| format!(", y = {front} to {back} m"));
+    format!(" (base from x = {left} to {right} m{depth})")
+}
+
+/// The unit of forces.
+fn force(across: Option<[f64; 2]>) -> &'static str {
+    if across.is_some() { "N" } else { "N/m" }
+}
+
+/// The axis that is meant, in plan.
+fn along(axis: Option<char>) -> String {
+    axis.map_or(String::new(), |axis| format!(" along {axis}"))
+}
+
+/// The edge over which it falls, in plan.
+fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
+    match (axis, eccentricity > 0.0) {
+        (None, _) => "",
+        (Some('x'), true) => " over its right edge",
+        (Some('x'), false) => " over its left edge",
+        (Some(_), true) => " over its back edge",
+        (Some(_), false) => " over its front edge",
+    }
 }

@@ -5,7 +5,8 @@
 //! *Warp By Vector* to see it move. The
 //! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and
 //! `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for
-//! every element, with `shear_across` and `slip_across` (along y) and mode 7, slip in any direction.
+//! every element, with `shear_across` and `slip_across` (along y) and mode 7, slip in any direction. Points are (x, y, 0) in
+//! the plane, y up, and (x, y, z) in plan, z up.
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -27,7 +28,7 @@ use std::path::Path;
 use crate::error::{Error, Result, write_file};
 use crate::geometry::ContactElement;
 use crate::interface::Mode;
-use crate::results::{ContactFrame, DeformedShape, MotionFrame, TimeSeries};
+use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 
 /// Writes `name.pvd`, and for every frame of motion that `histories` keep a grid of the structure
 /// (`name_0000.vtu`, …) and for every frame of contact one of the base (`name_base_0000.vtu`, …),
@@ -51,7 +52,7 @@ pub fn write_series(
 }
 
 /// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`, …),
-/// as [`write_series`] does: for structures without a [`DeformedShape`], those in plan for example.
+/// as [`write_series`] does: for structures without a [`DeformedShape`].
 ///
 /// # Errors
 /// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if a
@@ -82,7 +83,7 @@ fn write(
     let moved = histories.motion_frames().filter_map(|frame| Some((shape?, frame)));
     for (k, (shape, frame)) in moved.enumerate() {
         let file = format!("{name}_{k:04}.vtu");
-        write_file(&folder.join(&file), &structure(shape, &frame)?)?;
+        write_file(&folder.join(&file), &structure(shape, &frame, histories.in_plan())?)?;
         entries.push((frame.time, 0, file));
     }
     let corners = if histories.in_plan() { 4 } else { 2 };
@@ -99,13 +100,19 @@ fn write(
     Ok(entries.len())
 }
 
-fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>) -> Result<String> {
+fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>, in_plan: bool) -> Result<String> {
+    let turned =
+        |[right, up, away]: [f64; 3]| if in_plan { [right, away, up] } else { [right, up, 0.0] };
+    let vectors = |dofs| -> Result<Vec<[f64; 3]>> {
+        Ok(shape.displacements(dofs)?.into_iter().map(turned).collect())
+    };
+    let place = |point: &ShapePoint| turned([point.position[0], point.position[1], point.away]);
     let grid = Grid {
-        points: shape.points().iter().map(|point| point.position).collect(),
+        points: shape.points().iter().map(place).collect(),
         cells: shape.cells(),
         point_vectors: vec![
-            ("displacement", shape.displacements(frame.displacement)?),
-            ("velocity", shape.displacements(frame.velocity)?),
+            ("displacement", vectors(frame.displacement)?),
+            ("velocity", vectors(frame.velocity)?),
         ],
         cell_scalars: Vec::new(),
     };
@@ -113,11 +120,11 @@ fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>) -> Result<String> {
 }
 
 fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
-    let ends = histories.elements().iter().flat_map(|e| [[e.left, 0.0], [e.right, 0.0]]);
+    let ends = histories.elements().iter().flat_map(|e| [[e.left, 0.0, 0.0], [e.right, 0.0, 0.0]]);
     let sides = histories.elements().iter().zip(histories.depths());
     let rectangles = sides.flat_map(|(along, [front, back])| {
         let ContactElement { left, right } = *along;
-        [[left, *front], [right, *front], [right, *back], [left, *back]]
+        [[left, *front], [right, *front], [right, *back], [left, *back]].map(|[x, y]| [x, y, 0.0])
     });
     let points = if histories.in_plan() { rectangles.collect() } else { ends.collect() };
     let states = frame.states.iter();
@@ -164,9 +171,9 @@ fn collection(entries: &[(f64, usize, String)]) -> String {
 
 /// Points, cells and data of a `.vtu` file.
 pub(super) struct Grid<'a> {
-    pub(super) points: Vec<[f64; 2]>,
+    pub(super) points: Vec<[f64; 3]>,
     pub(super) cells: &'a [Vec<usize>],
-    pub(super) point_vectors: Vec<(&'static str, Vec<[f64; 2]>)>,
+    pub(super) point_vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
@@ -220,9 +227,8 @@ impl Grid<'_> {
     }
 }
 
-/// VTK knows three dimensions only.
-fn in_space([x, y]: &[f64; 2]) -> String {
-    format!("{x} {y} 0")
+fn in_space([x, y, z]: &[f64; 3]) -> String {
+    format!("{x} {y} {z}")
 }
 
 fn array<T: Display>(

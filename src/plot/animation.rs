@@ -1,14 +1,14 @@
-//! The deformed shape, and a moving picture of structure and base: an SVG with SMIL animation, played by browsers.
+//! A moving picture of structure and base: an SVG with SMIL animation, played by browsers.
 
 use std::fmt::Write;
 
-use super::axes::{Axis, chart, draw_curve, drawable};
-use super::drawing::{Key, Sample, Stroke, fitted, short, width};
-use super::shown::shown;
-use super::svg::{Sheet, Svg};
-use crate::error::{Error, Result, finite, positive};
-use crate::results::{DeformedShape, MotionFrame, TimeSeries};
-use plotters::prelude::*;
+use super::deformed::{SOIL, SURFACE, View, bounds, check_dimension, places};
+use super::drawing::{fitted, short, width};
+use super::shown::{Shown, shown};
+use super::svg::Svg;
+use crate::error::{Error, Result, positive};
+use crate::geometry::far_ends;
+use crate::results::{DeformedShape, TimeSeries};
 use plotters::style::RGBColor;
 
 const WIDTH: f64 = 940.0;
@@ -26,12 +26,16 @@ const MOST_TIMES: usize = 150;
 /// the surface of the soil, the contact mode of every element below it, a clock, and a bar for the
 /// scale of lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
+/// In plan it is seen from the front, the right and above, all lengths along the axes at one scale; its elements lie below
+/// it, and once more in a small plan at the side, with x to the right.
+///
 /// Frames of contact are shown if they were kept as often as those of motion.
 ///
 /// # Errors
 /// [`Error::Scene`] if fewer than two frames of motion were kept
 /// ([`crate::results::Recorder::motion`]); [`Error::Input`] unless magnification and slowness are
-/// positive, or for more than 600 frames; [`Error::Index`] if `shape` belongs to another structure.
+/// positive, or for more than 600 frames; [`Error::Index`] if `shape` belongs to another structure, [`Error::Scene`] if
+/// to one of another dimension.
 pub fn animation(
     title: &str,
     shape: &DeformedShape,
@@ -50,15 +54,25 @@ pub fn animation(
         let (quantity, needed) = ("frames of an animation", "600 or fewer: keep fewer of them");
         return Err(Error::Input { quantity, value: frames.len() as f64, needed });
     }
+    check_dimension(shape, histories)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-    let moved: Vec<Vec<[f64; 2]>> =
-        frames.iter().map(|frame| places(shape, frame, magnification)).collect::<Result<_>>()?;
-    let screen = Screen::of(&moved);
+    let in_plan = histories.in_plan();
+    let view = if in_plan { View::Slanted } else { View::AlongY };
+    let seen = |frame| Ok(view.all(&places(shape, frame, magnification)?));
+    let moved: Vec<Vec<[f64; 2]>> = frames.iter().map(seen).collect::<Result<_>>()?;
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
 
     let mut out = head(title);
-    out += &screen.ground();
-    out += &base(histories, &screen, frames.len(), &duration);
+    let screen;
+    if in_plan {
+        let floor = Floor::of(histories);
+        screen = Screen::of(&moved, &view.all(&floor.corners(floor.margin)));
+        out += &floor.draw(histories, &screen, frames.len(), &duration);
+    } else {
+        screen = Screen::of(&moved, &[[moved[0][0][0], 0.0]]);
+        out += &screen.ground();
+        out += &base(histories, &screen, frames.len(), &duration);
+    }
     let paths: Vec<String> = moved.iter().map(|places| screen.path(shape, places)).collect();
     let _ = writeln!(
         out,
@@ -82,9 +96,10 @@ struct Screen {
 }
 
 impl Screen {
-    fn of(moved: &[Vec<[f64; 2]>]) -> Self {
+    /// For these places, and others that are to be seen.
+    fn of(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
         let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
-        all.push([all[0][0], 0.0]);
+        all.extend(others);
         let [low, high] = bounds(&all);
         let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6));
         let [left, top, right, bottom] = BOX;
@@ -185,15 +200,10 @@ fn hex(RGBColor(red, green, blue): RGBColor) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// A rectangle for every contact element, coloured by its mode, and the key to the colours.
-fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
-    let contact: Vec<_> = histories.contact_frames().collect();
+/// The key to the colours of contact modes.
+fn key(modes: Vec<Shown>) -> String {
     let mut out = String::new();
-    if contact.len() != frames {
-        return out;
-    }
-    let (shown, key) = shown(&contact);
-    for (k, what) in key.into_iter().enumerate() {
+    for (k, what) in modes.into_iter().enumerate() {
         let y = 80.0 + 26.0 * k as f64;
         let _ = writeln!(
             out,
@@ -205,6 +215,17 @@ fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) 
             what.name()
         );
     }
+    out
+}
+
+/// A rectangle for every contact element, coloured by its mode, and the key to the colours.
+fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
+    let contact: Vec<_> = histories.contact_frames().collect();
+    if contact.len() != frames {
+        return String::new();
+    }
+    let (shown, modes) = shown(&contact, false);
+    let mut out = key(modes);
     for (e, element) in histories.elements().iter().enumerate() {
         let [left, _] = screen.place([element.left, 0.0]);
         let [right, _] = screen.place([element.right, 0.0]);
@@ -222,6 +243,119 @@ fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) 
         );
     }
     out
+}
+
+/// The surface around a base in plan.
+struct Floor {
+    /// Ends along x and y, m.
+    ends: [[f64; 2]; 2],
+    /// Soil that is drawn around it, m.
+    margin: f64,
+}
+
+/// The plan at the side: left, top, right, bottom.
+const SIDE: [f64; 4] = [ASIDE, 440.0, 915.0, 585.0];
+
+impl Floor {
+    fn of(histories: &TimeSeries) -> Self {
+        let along = far_ends(histories.elements().iter().map(|own| [own.left, own.right]));
+        let across = far_ends(histories.depths().iter().copied());
+        let side = (along[1] - along[0]).max(across[1] - across[0]);
+        Self { ends: [along, across], margin: 0.15 * side }
+    }
+
+    /// Corners (x, height, y), so far outside.
+    fn corners(&self, margin: f64) -> [[f64; 3]; 4] {
+        let [[left, right], [front, back]] =
+            self.ends.map(|[low, high]| [low - margin, high + margin]);
+        [[left, front], [right, front], [right, back], [left, back]].map(|[x, y]| [x, 0.0, y])
+    }
+
+    /// Soil, axes, and the elements, coloured by their modes, below the structure and at the side.
+    fn draw(
+        &self,
+        histories: &TimeSeries,
+        screen: &Screen,
+        frames: usize,
+        duration: &str,
+    ) -> String {
+        let seen = |place: [f64; 3]| screen.place(View::Slanted.of(place));
+        let soil = polygon(&self.corners(self.margin).map(seen));
+        let mut out =
+            format!("<path d=\"{soil}\" fill=\"{}\" stroke=\"{}\"/>\n", hex(SOIL), hex(SURFACE));
+        let [[left, right], [front, back]] = self.ends;
+        let away = 0.6 * self.margin;
+        for (name, from, to) in [
+            ("x", [left, 0.0, front - away], [right, 0.0, front - away]),
+            ("y", [right + away, 0.0, front], [right + away, 0.0, back]),
+        ] {
+            let ([x, y], [to_x, to_y]) = (seen(from), seen(to));
+            let _ = writeln!(
+                out,
+                "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\
+                 <circle cx=\"{to_x:.1}\" cy=\"{to_y:.1}\" r=\"3\" fill=\"{}\"/>\
+                 <text x=\"{:.1}\" y=\"{:.1}\">{name}</text>",
+                hex(SURFACE),
+                hex(SURFACE),
+                to_x + 7.0,
+                to_y + 5.0
+            );
+        }
+        let contact: Vec<_> = histories.contact_frames().collect();
+        if contact.len() != frames {
+            return out;
+        }
+        let (shown, modes) = shown(&contact, true);
+        out += &key(modes);
+        let _ = writeln!(
+            out,
+            "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",
+            SIDE[0],
+            SIDE[1] - 8.0
+        );
+        let [wide, high] = self.ends.map(|[low, high]| high - low);
+        let scale = ((SIDE[2] - SIDE[0]) / wide).min((SIDE[3] - SIDE[1]) / high);
+        let plan =
+            |[x, _, y]: [f64; 3]| [SIDE[0] + scale * (x - left), SIDE[1] + scale * (back - y)];
+        let sides = histories.elements().iter().zip(histories.depths());
+        for (e, (along, depth)) in sides.enumerate() {
+            let corners =
+                Self { ends: [[along.left, along.right], *depth], margin: 0.0 }.corners(0.0);
+            let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
+            let change = changes("fill", &colors, duration);
+            for cell in [polygon(&corners.map(seen)), polygon(&corners.map(plan))] {
+                let _ = writeln!(
+                    out,
+                    "<path d=\"{cell}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
+                    colors[0]
+                );
+            }
+        }
+        out
+    }
+}
+
+fn polygon(corners: &[[f64; 2]]) -> String {
+    let points: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.1} {y:.1}")).collect();
+    format!("M{}Z", points.join("L"))
+}
+
+/// An attribute with a value for each of as many equal parts of the time, where it changes.
+fn changes(attribute: &str, values: &[String], duration: &str) -> String {
+    let new = |k: &usize| *k == 0 || values[*k] != values[*k - 1];
+    let at: Vec<usize> = (0..values.len()).filter(new).collect();
+    if at.len() < 2 {
+        return String::new();
+    }
+    let times: Vec<String> =
+        at.iter().map(|k| format!("{:.5}", *k as f64 / values.len() as f64)).collect();
+    let values: Vec<&str> = at.iter().map(|k| &values[*k][..]).collect();
+    format!(
+        "<animate attributeName=\"{attribute}\" calcMode=\"discrete\" dur=\"{duration}\" \
+         repeatCount=\"indefinite\" keyTimes=\"{}\" values=\"{}\"/>",
+        times.join(";"),
+        values.join(";")
+    )
 }
 
 /// The running time: a bar, and one text after the other, for SMIL cannot count.
@@ -263,121 +397,4 @@ fn clock(times: &[f64], duration: &str) -> String {
         );
     }
     out
-}
-
-// The structure at some instants.
-
-/// Places of the points, m: displacements relative to the free field, magnified.
-pub(super) fn places(
-    shape: &DeformedShape,
-    frame: &MotionFrame<'_>,
-    magnification: f64,
-) -> Result<Vec<[f64; 2]>> {
-    let moved = shape.displacements(frame.displacement)?;
-    let place = |(point, u): (&crate::results::ShapePoint, [f64; 2])| {
-        [0, 1].map(|k| point.position[k] + magnification * u[k])
-    };
-    let places: Vec<[f64; 2]> = shape.points().iter().zip(moved).map(place).collect();
-    match places.iter().flatten().find(|value| !drawable(**value)) {
-        None => Ok(places),
-        Some(&value) => {
-            let (quantity, needed) = ("magnified coordinate", "below 1e60 m");
-            Err(Error::Input { quantity, value, needed })
-        }
-    }
-}
-
-/// The soil below its surface, which is y = 0, and the surface itself.
-pub(super) const SOIL: RGBColor = RGBColor(238, 229, 214);
-pub(super) const SURFACE: RGBColor = RGBColor(125, 98, 62);
-
-/// Least and largest coordinates [x, y].
-pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for place in places {
-        for k in 0..2 {
-            bounds[0][k] = bounds[0][k].min(place[k]);
-            bounds[1][k] = bounds[1][k].max(place[k]);
-        }
-    }
-    bounds
-}
-
-/// Outlines of a deformed shape's cells at these places, end to end, broken by NaN.
-fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
-    let mut points = Vec::new();
-    for cell in shape.cells() {
-        let corners = DeformedShape::corners(cell);
-        points.extend(corners.iter().map(|&k| (places[k][0], places[k][1])));
-        if corners.len() > 2 {
-            points.push((places[corners[0]][0], places[corners[0]][1]));
-        }
-        points.push((f64::NAN, f64::NAN));
-    }
-    points
-}
-
-/// The structure at rest and at the kept instants nearest to `times` (s), displacements relative to
-/// the ground and times `magnification`, at one scale in both directions.
-///
-/// # Errors
-/// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]), [`Error::Size`]
-/// without times, [`Error::Input`] unless times are finite and the magnification positive,
-/// [`Error::Index`] if `shape` belongs to another structure.
-pub fn deformed_shapes(
-    title: &str,
-    shape: &DeformedShape,
-    histories: &TimeSeries,
-    times: &[f64],
-    magnification: f64,
-) -> Result<Svg> {
-    positive("magnification", magnification)?;
-    if times.is_empty() {
-        return Err(Error::Size { quantity: "times of deformed shapes", found: 0, needed: 1 });
-    }
-    let rest: Vec<[f64; 2]> = shape.points().iter().map(|point| point.position).collect();
-    let mut drawn = vec![("at rest".to_owned(), rest)];
-    for &time in times {
-        finite("time of a deformed shape", time)?;
-        let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
-        let nearest = histories.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
-        let frame = nearest.ok_or(Error::Scene {
-            quantity: "deformed shape",
-            needed: "tell the recorder to keep the motion",
-        })?;
-        let name = format!("t = {:.2} s", frame.time);
-        drawn.push((name, places(shape, &frame, magnification)?));
-    }
-    let mut all: Vec<[f64; 2]> = drawn.iter().flat_map(|(_, places)| places.clone()).collect();
-    all.push([all[0][0], 0.0]);
-    let stroke = |k: usize| match k.checked_sub(1) {
-        None => Stroke::plain(RGBColor(170, 170, 170)),
-        Some(k) => Stroke::nth(k),
-    };
-    let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
-    let scale = format!("displacements × {}", short(magnification));
-    let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
-    let sheet = Sheet::new(title, Key::of(lines.chain(rest)));
-    let [x, y] = ranges(bounds(&all), sheet.room());
-    sheet.picture(|area| {
-        let axes = (Axis::linear(x.clone(), "x, m"), Axis::linear(y.clone(), "y, m"));
-        let mut chart = chart(area, &axes.0, &axes.1, false)?;
-        let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
-        chart.draw_series([soil])?;
-        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
-        for (k, (_, places)) in drawn.iter().enumerate() {
-            draw_curve(&mut chart, &outlines(shape, places), stroke(k), 1)?;
-        }
-        Ok(())
-    })
-}
-
-/// Ranges of both axes at one scale, in a room of [width, height] pixels.
-fn ranges([low, high]: [[f64; 2]; 2], [width, height]: [f64; 2]) -> [std::ops::Range<f64>; 2] {
-    let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6) * 1.1);
-    let scale = (span[0] / width).max(span[1] / height);
-    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-    let half = [0.5 * scale * width, 0.5 * scale * height];
-    let range = |k: usize| middle[k] - half[k]..middle[k] + half[k];
-    [range(0), range(1)]
 }

@@ -36,7 +36,7 @@ pub fn mode_map(title: &str, histories: &TimeSeries) -> Result<Svg> {
     }
     let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
     let every = (frames.len() - 1).div_ceil(COLUMNS).max(1);
-    let (shown, key) = shown(&frames);
+    let (shown, key) = shown(&frames, false);
     let key = key.into_iter().map(|what| (what.name(), Sample::Area(what.color())));
     let base = Base::of(elements.iter().copied());
     Sheet::new(title, Key::of(key)).picture(|area| {

@@ -14,8 +14,8 @@
 //! | response spectra | [`spectra`] |
 //! | wave speeds and strains of a site over depth, and spectra | [`site_response`](site_response()) |
 //! | error against run time | [`refinement`](refinement()) |
-//! | the structure at some instants | [`deformed_shapes`] |
-//! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
+//! | the structure at some instants, in plan in two elevations | [`deformed_shapes`] |
+//! | the structure in motion, with its base and, in plan, its contact from above | [`animation`] (an SVG that browsers play) |
 //!
 //! ```no_run
 //! # fn recorded() -> basemat::results::TimeSeries { unimplemented!() }
@@ -30,6 +30,7 @@
 mod animation;
 mod axes;
 mod base;
+mod deformed;
 mod drawing;
 mod lines;
 mod plan;
@@ -39,8 +40,9 @@ mod shown;
 mod site_response;
 mod svg;
 
-pub use animation::{animation, deformed_shapes};
+pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
+pub use deformed::deformed_shapes;
 pub use lines::{Curve, curves, energy, history, probe_history, refinement, spectra};
 pub use plan::contact_plan;
 pub use site_response::site_response;

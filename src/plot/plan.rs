@@ -50,7 +50,7 @@ pub fn contact_plan(title: &str, histories: &TimeSeries, time: f64) -> Result<Sv
     let shown: Vec<_> = both.map(|(state, mode)| Shown::of(*mode, state, largest)).collect();
     let slides = |state: &ContactState, shown: Shown| {
         let size = state.shear.hypot(state.shear_across);
-        (matches!(shown, Shown::SlipLeft | Shown::SlipRight) && size > 0.0)
+        (shown == Shown::Slip && size > 0.0)
             .then(|| [state.shear / size, state.shear_across / size])
     };
     let sides = histories.elements().iter().zip(histories.depths());

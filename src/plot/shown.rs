@@ -14,11 +14,13 @@ pub(super) enum Shown {
     Weightless,
     SlipLeft,
     SlipRight,
+    /// In plan, any way.
+    Slip,
 }
 
 impl Shown {
-    pub(super) const ALL: [Self; 5] =
-        [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open, Self::Weightless];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Slip, Self::Open, Self::Weightless];
 
     /// Mode and tractions of an element, of a base whose largest pressure is `scale`.
     pub(super) fn of(mode: Mode, state: &ContactState, scale: f64) -> Self {
@@ -26,8 +28,8 @@ impl Shown {
             Mode::Open => Self::Open,
             _ if state.pressure.abs() <= 1e-9 * scale => Self::Weightless,
             Mode::SlipLeft => Self::SlipLeft,
-            Mode::Slip if state.shear < 0.0 => Self::SlipLeft,
-            Mode::SlipRight | Mode::Slip => Self::SlipRight,
+            Mode::SlipRight => Self::SlipRight,
+            Mode::Slip => Self::Slip,
             _ => Self::Stick,
         }
     }
@@ -37,6 +39,7 @@ impl Shown {
             Self::Stick => "stick",
             Self::SlipLeft => "slip to the left",
             Self::SlipRight => "slip to the right",
+            Self::Slip => "slip",
             Self::Open => "open",
             Self::Weightless => "touching without pressure",
         }
@@ -46,16 +49,16 @@ impl Shown {
         match self {
             Self::Stick => RGBColor(214, 222, 228),
             Self::SlipLeft => RGBColor(255, 166, 43),
-            Self::SlipRight => RGBColor(214, 39, 40),
+            Self::SlipRight | Self::Slip => RGBColor(214, 39, 40),
             Self::Open => RGBColor(22, 72, 120),
             Self::Weightless => RGBColor(118, 172, 214),
         }
     }
 }
 
-/// State of every element in every frame, and the states that the key shows: the modes always,
-/// touching without pressure where it occurs.
-pub(super) fn shown(frames: &[ContactFrame<'_>]) -> (Vec<Vec<Shown>>, Vec<Shown>) {
+/// State of every element in every frame, and the states that the key shows: the modes of the plane or those in plan
+/// always, touching without pressure where it occurs.
+pub(super) fn shown(frames: &[ContactFrame<'_>], in_plan: bool) -> (Vec<Vec<Shown>>, Vec<Shown>) {
     let pressures = frames.iter().flat_map(|frame| frame.states).map(|state| state.pressure.abs());
     let scale = pressures.fold(0.0, f64::max);
     let of_frame = |frame: &ContactFrame<'_>| -> Vec<Shown> {
@@ -64,7 +67,12 @@ pub(super) fn shown(frames: &[ContactFrame<'_>]) -> (Vec<Vec<Shown>>, Vec<Shown>
     };
     let all: Vec<Vec<Shown>> = frames.iter().map(of_frame).collect();
     let occurs = |what: Shown| all.iter().flatten().any(|shown| *shown == what);
-    let key = Shown::ALL.into_iter().filter(|what| *what != Shown::Weightless || occurs(*what));
-    let key = key.collect();
+    let has = |what: &Shown| match what {
+        Shown::Weightless => occurs(*what),
+        Shown::Slip => in_plan,
+        Shown::SlipLeft | Shown::SlipRight => !in_plan,
+        Shown::Stick | Shown::Open => true,
+    };
+    let key = Shown::ALL.into_iter().filter(has).collect();
     (all, key)
 }

@@ -54,9 +54,12 @@ impl Line {
 /// What is derived from several quantities, or is none.
 type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
-const DERIVED: [Derived; 8] = [
+const DERIVED: [Derived; 9] = [
     ("shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
     ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.whole.residual_slip)),
+    ("mean slip across, residual", "mm", "residual_slip_across_m", 1e3, |s| {
+        s.in_plan.then_some(s.whole.residual_slip_across)
+    }),
     ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
     ("uplifted for", "s", "uplift_duration_s", 1.0, |s| Some(s.whole.uplift.duration)),
     ("largest gap", "mm", "largest_gap_m", 1e3, |s| Some(s.largest_gap().value)),
@@ -98,7 +101,8 @@ fn lines(of: &[bool]) -> Vec<Line> {
             });
         }
     }
-    lines.extend(DERIVED.map(|(name, unit, column, factor, value)| Line {
+    let has = |own: &Derived| of.contains(&true) || !own.2.contains("across");
+    lines.extend(DERIVED.into_iter().filter(has).map(|(name, unit, column, factor, value)| Line {
         name: name.to_owned(),
         unit,
         column: column.to_owned(),

@@ -164,8 +164,13 @@ const NUMBERS: [(&str, Number); 6] = [
 ];
 
 /// Motion frames.
-pub(super) const MOTION: [&str; 4] =
-    ["motion_time_s", "motion_displacement", "motion_velocity", "motion_free_field_m"];
+pub(super) const MOTION: [&str; 5] = [
+    "motion_time_s",
+    "motion_displacement",
+    "motion_velocity",
+    "motion_free_field_m",
+    "motion_free_field_across_m",
+];
 
 impl TimeSeries {
     /// Ends of the elements.

@@ -2,17 +2,23 @@
 
 use crate::error::{Error, Result, finite, positive};
 use crate::fem::Direction;
-use crate::structure::{DofCombination, FemModel, RigidBlock, ShearBuilding, Structure};
+use crate::structure::{
+    DofCombination, FaceNode, FemModel, ShearBuilding, StoreyBuilding, Structure,
+};
 
 /// A point of a [`DeformedShape`]: its place, and its displacement as weighted sums of degrees of freedom.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShapePoint {
-    /// Coordinates [x, y] at rest, m.
+    /// Coordinates at rest, m: x, and the height above the surface.
     pub position: [f64; 2],
     /// Horizontal displacement (to the right).
     pub horizontal: DofCombination,
     /// Vertical displacement (up).
     pub vertical: DofCombination,
+    /// In plan: coordinate y at rest, away from the reader, m.
+    pub away: f64,
+    /// In plan: displacement along y.
+    pub across: DofCombination,
 }
 
 /// Points and cells of a structure, for pictures and for ParaView.
@@ -52,10 +58,11 @@ impl DeformedShape {
             });
         }
         for point in &points {
-            for value in point.position {
+            for value in point.position.into_iter().chain([point.away]) {
                 finite("coordinate of a deformed shape", value)?;
             }
-            for &(_, weight) in point.horizontal.iter().chain(point.vertical.iter()) {
+            let rows = [&point.horizontal, &point.vertical, &point.across];
+            for &(_, weight) in rows.into_iter().flatten() {
                 finite("weight of a deformed shape", weight)?;
             }
         }
@@ -83,6 +90,7 @@ impl DeformedShape {
             position: *position,
             horizontal: row(node, Direction::X),
             vertical: row(node, Direction::Y),
+            ..ShapePoint::default()
         };
         let elements = model.mesh().elements();
         Self {
@@ -91,27 +99,82 @@ impl DeformedShape {
         }
     }
 
-    /// A rigid block as a rectangle of this height (m).
+    /// A rigid block of the plane as a rectangle of this height (m), or rigid bodies in plan as prisms on the faces of
+    /// their bases. Of other structures it is what the base carries with it.
+    ///
+    /// ```
+    /// use basemat::results::DeformedShape;
+    /// use basemat::structure::RigidBody;
+    /// let body = RigidBody::cuboid([8.0, 6.0, 10.0], 2400.0)?;
+    /// let shape = DeformedShape::of_block(&body, 10.0)?;
+    /// let top = shape.points()[6].clone();
+    /// assert_eq!((top.position, top.away), ([4.0, 10.0], 3.0));
+    /// // A turn by 0.01 about x moves it to the front and up: right, up, along y.
+    /// let moved = shape.displacements(&[0.0, 0.0, 0.0, 0.01, 0.0, 0.0])?[6];
+    /// assert!((moved[2] + 0.1).abs() < 1e-14 && (moved[1] - 0.03).abs() < 1e-14);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the height is positive.
-    pub fn of_block(block: &RigidBlock, height: f64) -> Result<Self> {
+    /// [`Error::Input`] unless the height is positive; those of [`DofCombination::of_base`].
+    pub fn of_block(block: &dyn Structure, height: f64) -> Result<Self> {
         positive("height of the rectangle", height)?;
+        // Checks the base.
+        DofCombination::of_base(block, [0.0, 0.0, height])?;
+        let (mut points, mut cells) = (Vec::new(), Vec::new());
+        for face in block.contact_faces() {
+            let (first, count) = (points.len(), face.len());
+            let top = |node: &FaceNode| {
+                let rows = FaceNode::carried(&face, [node.x, node.y], height);
+                ShapePoint::in_space([node.x, node.y, height], rows)
+            };
+            points.extend(face.iter().map(FaceNode::shape));
+            points.extend(face.iter().map(top));
+            add_outline(&mut cells, first, count);
+            add_outline(&mut cells, first + count, count);
+            add_columns(&mut cells, first, count);
+        }
         let base = block.contact_nodes();
-        let corner = |x: f64, y: f64| ShapePoint {
-            position: [x, y],
-            horizontal: block.horizontal_at(y),
-            vertical: block.vertical_at(x),
-        };
-        let ends = [base[0].x, base[base.len() - 1].x];
-        let [left, right] = ends;
-        let points = vec![
-            corner(left, 0.0),
-            corner(right, 0.0),
-            corner(right, height),
-            corner(left, height),
-        ];
-        Ok(Self { points, cells: vec![vec![0, 1, 2, 3]] })
+        if let ([first, .., last], true) = (&base[..], points.is_empty()) {
+            let middle = 0.5 * (first.x + last.x);
+            let corner = |x: f64, height: f64| -> Result<ShapePoint> {
+                let [horizontal, _, vertical] =
+                    DofCombination::of_base(block, [x - middle, 0.0, height])?;
+                let position = [x, height];
+                Ok(ShapePoint { position, horizontal, vertical, ..ShapePoint::default() })
+            };
+            for (x, height) in [(first.x, 0.0), (last.x, 0.0), (last.x, height), (first.x, height)]
+            {
+                points.push(corner(x, height)?);
+            }
+            cells.push(vec![0, 1, 2, 3]);
+        }
+        Self::new(points, cells)
+    }
+
+    /// Mat, floors and columns of a building in plan: floors have the outline of the mat, and tilt with it.
+    ///
+    /// # Errors
+    /// None that a valid building gives.
+    pub fn of_storeys(building: &StoreyBuilding) -> Result<Self> {
+        let ([x, y], mut height) = (building.center(), 0.0);
+        let base = building.contact_faces().concat();
+        let (mut points, mut cells) = (Vec::new(), Vec::new());
+        points.extend(base.iter().map(FaceNode::shape));
+        add_outline(&mut cells, 0, base.len());
+        for (storey, own) in building.heights().enumerate() {
+            height += own;
+            let first = points.len();
+            for corner in &base {
+                let place = [corner.x - x, corner.y - y];
+                let [along, across, _] = building.floor(storey, place)?;
+                let rows = [along, across, corner.vertical.clone()];
+                points.push(ShapePoint::in_space([corner.x, corner.y, height], rows));
+            }
+            add_outline(&mut cells, first, base.len());
+            add_columns(&mut cells, first - base.len(), base.len());
+        }
+        Self::new(points, cells)
     }
 
     /// Floors and columns of a shear building.
@@ -129,7 +192,8 @@ impl DeformedShape {
                     Some(storey) => building.floor(storey)?.into(),
                 };
                 let vertical = end.vertical.clone();
-                points.push(ShapePoint { position: [end.x, height], horizontal, vertical });
+                let position = [end.x, height];
+                points.push(ShapePoint { position, horizontal, vertical, ..ShapePoint::default() });
             }
             let first = 2 * level;
             cells.push(vec![first, first + 1]);
@@ -152,11 +216,18 @@ impl DeformedShape {
         &self.cells
     }
 
-    /// [horizontal, up] of every point (m, or m/s) for these degrees of freedom (or their rates).
+    /// Whether it moves along y too.
+    #[cfg(feature = "plot")]
+    pub(crate) fn in_plan(&self) -> bool {
+        self.points.iter().any(|point| !point.across.is_empty())
+    }
+
+    /// [horizontal, up, along y] of every point (m, or m/s) for these degrees of freedom (or their rates); nothing moves
+    /// along y in the plane.
     ///
     /// # Errors
     /// [`Error::Index`] if a point is moved by a degree of freedom that is not there.
-    pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 2]>> {
+    pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 3]>> {
         let sum = |row: &DofCombination| {
             row.iter().try_fold(0.0, |sum, &(index, weight)| {
                 let value = dofs.get(index).ok_or(Error::Index {
@@ -169,7 +240,7 @@ impl DeformedShape {
         };
         self.points
             .iter()
-            .map(|point| Ok([sum(&point.horizontal)?, sum(&point.vertical)?]))
+            .map(|point| Ok([sum(&point.horizontal)?, sum(&point.vertical)?, sum(&point.across)?]))
             .collect()
     }
 
@@ -182,4 +253,35 @@ impl DeformedShape {
             _ => cell,
         }
     }
+}
+
+impl ShapePoint {
+    /// At (x, y, height), moved along x, along y and up.
+    fn in_space([x, away, height]: [f64; 3], rows: [DofCombination; 3]) -> Self {
+        let [horizontal, across, vertical] = rows;
+        Self { position: [x, height], horizontal, vertical, away, across }
+    }
+}
+
+impl FaceNode {
+    /// The node itself.
+    fn shape(&self) -> ShapePoint {
+        let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);
+        ShapePoint::in_space([self.x, self.y, 0.0], rows)
+    }
+}
+
+/// A polygon of points from `first` on; in lines where a cell of as many points would be curved.
+fn add_outline(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
+    if matches!(count, 6 | 8 | 9) {
+        cells.extend((0..count).map(|k| vec![first + k, first + (k + 1) % count]));
+    } else {
+        cells.push((first..first + count).collect());
+    }
+}
+
+/// Lines from points of one polygon to those of the next, eight at most.
+fn add_columns(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
+    let columns = (0..count).step_by(count.div_ceil(8).max(1));
+    cells.extend(columns.map(|k| vec![first + k, first + count + k]));
 }

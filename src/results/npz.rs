@@ -101,6 +101,7 @@ impl TimeSeries {
     /// | `motion_time_s` | frames | with [`Recorder::motion`](super::Recorder::motion) |
     /// | `motion_displacement`, `motion_velocity` | frames × degrees of freedom | as in [`MotionFrame`](super::MotionFrame) |
     /// | `motion_free_field_m` | frames × 2 | to the right, up |
+    /// | in plan `motion_free_field_across_m` | frames | along y |
     ///
     /// # Errors
     /// Those of `out`, and invalid input for a probe whose name is longer than 60 000 bytes.
@@ -148,13 +149,22 @@ impl TimeSeries {
             return Ok(());
         }
         let frames = || self.motion_frames();
-        let (count, [time, displacement, velocity, free_field]) = (frames().count(), MOTION);
+        let (count, [time, displacement, velocity, free_field, across]) =
+            (frames().count(), MOTION);
         let dofs = frames().next().map_or(0, |frame| frame.displacement.len());
         archive.add_numbers(time, &[count], frames().map(|frame| frame.time))?;
         let values = frames().flat_map(|frame| frame.displacement.iter().copied());
         archive.add_numbers(displacement, &[count, dofs], values)?;
         let values = frames().flat_map(|frame| frame.velocity.iter().copied());
         archive.add_numbers(velocity, &[count, dofs], values)?;
-        archive.add_numbers(free_field, &[count, 2], frames().flat_map(|frame| frame.free_field))
+        archive.add_numbers(
+            free_field,
+            &[count, 2],
+            frames().flat_map(|frame| frame.free_field),
+        )?;
+        if !self.in_plan() {
+            return Ok(());
+        }
+        archive.add_numbers(across, &[count], frames().map(|frame| frame.free_field_across))
     }
 }

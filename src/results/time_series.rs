@@ -263,6 +263,8 @@ pub struct MotionFrame<'a> {
     pub velocity: &'a [f64],
     /// Mean displacement [horizontal, up] of the free field under the base, m.
     pub free_field: [f64; 2],
+    /// In plan: its mean displacement along y, m; zero in the plane.
+    pub free_field_across: f64,
 }
 
 /// Frames of the base, end to end.
@@ -325,6 +327,9 @@ pub(super) struct MotionFrames {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     free_field: Vec<[f64; 2]>,
+    /// One for each frame.
+    #[cfg_attr(feature = "serde", serde(default))]
+    free_field_across: Vec<f64>,
 }
 
 impl MotionFrames {
@@ -337,6 +342,7 @@ impl MotionFrames {
         self.displacement.extend_from_slice(state.displacement());
         self.velocity.extend_from_slice(state.velocity());
         self.free_field.push(state.free_field);
+        self.free_field_across.push(state.free_field_across);
     }
 
     /// For so many more steps of `count` degrees of freedom each.
@@ -347,6 +353,7 @@ impl MotionFrames {
         let _ = self.displacement.try_reserve(frames.saturating_mul(count));
         let _ = self.velocity.try_reserve(frames.saturating_mul(count));
         self.free_field.reserve(frames);
+        self.free_field_across.reserve(frames);
     }
 
     /// Whether these are frames of `count` degrees of freedom each.
@@ -355,6 +362,7 @@ impl MotionFrames {
         let needed = self.times.len().checked_mul(count);
         self.every > 0
             && self.free_field.len() == self.times.len()
+            && [0, self.times.len()].contains(&self.free_field_across.len())
             && [self.displacement.len(), self.velocity.len()].map(Some) == [needed; 2]
     }
 
@@ -364,11 +372,13 @@ impl MotionFrames {
             let range = k * count..(k + 1) * count;
             let displacement = &self.displacement[range.clone()];
             let (velocity, free_field) = (&self.velocity[range], self.free_field[k]);
-            MotionFrame { time, displacement, velocity, free_field }
+            // Files of before have none.
+            let free_field_across = self.free_field_across.get(k).copied().unwrap_or(0.0);
+            MotionFrame { time, displacement, velocity, free_field, free_field_across }
         })
     }
 
     pub(super) fn bytes(&self) -> usize {
-        8 * (3 * self.times.len() + self.displacement.len() + self.velocity.len())
+        8 * (4 * self.times.len() + self.displacement.len() + self.velocity.len())
     }
 }

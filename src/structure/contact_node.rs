@@ -86,6 +86,50 @@ impl FaceNode {
         corners.iter().map(corner).collect()
     }
 
+    /// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and turn
+    /// about the vertical.
+    pub(crate) fn mean_rotations(nodes: &[Self]) -> [DofCombination; 3] {
+        let count = nodes.len() as f64;
+        let mean = |of: &dyn Fn(&Self) -> f64| nodes.iter().map(of).sum::<f64>() / count;
+        let (x, y) = (mean(&|node| node.x), mean(&|node| node.y));
+        let product = |one: fn([f64; 2]) -> f64| mean(&|node| one([node.x - x, node.y - y]));
+        let (xx, xy, yy) =
+            (product(|d| d[0] * d[0]), product(|d| d[0] * d[1]), product(|d| d[1] * d[1]));
+        let (scale, polar) = (count * (xx * yy - xy * xy), count * (xx + yy));
+        let mut rotations: [DofCombination; 3] = Default::default();
+        for node in nodes {
+            let [dx, dy] = [node.x - x, node.y - y];
+            rotations[0] += ((yy * dx - xy * dy) / scale) * node.vertical.clone();
+            rotations[1] += ((xx * dy - xy * dx) / scale) * node.vertical.clone();
+            rotations[2] += (dx / polar) * node.across.clone();
+            rotations[2] += (-dy / polar) * node.horizontal.clone();
+        }
+        rotations
+    }
+
+    /// Displacements along x, along y and up of the point `[x, y]` (m) at this height above the base, as the flat that
+    /// fits the nodes best carries it.
+    pub(crate) fn carried(nodes: &[Self], [x, y]: [f64; 2], height: f64) -> [DofCombination; 3] {
+        let share = 1.0 / nodes.len() as f64;
+        let mut mean: [DofCombination; 3] = Default::default();
+        let mut middle = [0.0; 2];
+        for node in nodes {
+            middle[0] += share * node.x;
+            middle[1] += share * node.y;
+            for (sum, row) in mean.iter_mut().zip([&node.horizontal, &node.across, &node.vertical])
+            {
+                *sum += share * row.clone();
+            }
+        }
+        let [to_the_right, away, turn] = Self::mean_rotations(nodes);
+        let ([dx, dy], [along, across, up]) = ([x - middle[0], y - middle[1]], mean);
+        [
+            along - height * to_the_right.clone() - dy * turn.clone(),
+            across - height * away.clone() + dx * turn,
+            up + dx * to_the_right + dy * away,
+        ]
+    }
+
     /// Displacements to the right, upwards and away; a node of the plane has none of the last.
     pub(crate) fn rows(&self) -> [&DofCombination; 3] {
         [&self.horizontal, &self.vertical, &self.across]

@@ -2,8 +2,7 @@
 
 use std::ops::{Add, AddAssign, Deref, Mul, Neg, Sub, SubAssign};
 
-use super::Structure;
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, finite};
 
 /// A weighted sum of a structure's degrees of freedom: a displacement of a point, a drift, a rotation.
 ///
@@ -35,51 +34,6 @@ impl DofCombination {
         self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
     }
 
-    /// This displacement to the right less that of the base's middle: what an observer on the base
-    /// sees, its rotation left in. The base's slip on the ground is taken out, too.
-    ///
-    /// The base is that of `structure`, from its first contact node to its last; the row must be one
-    /// of its degrees of freedom. In a group that is a member, before
-    /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
-    ///
-    /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for
-    /// contact nodes at one place.
-    pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
-        let [translation, _] = base_motion(structure)?;
-        Ok(self.clone() - translation)
-    }
-
-    /// The displacement to the right of a point `height` (m) above the base less the rigid motion of
-    /// the base there, translation and rotation: how far the structure has bent.
-    ///
-    /// ```
-    /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
-    ///
-    /// // Nothing bends in a rigid block.
-    /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
-    /// let sway = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
-    /// assert!(sway.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
-    ///
-    /// // A roof at 6 m that has moved by 0.1 m, on a base that has moved by 0.02 m and turned by
-    /// // 0.01 to the left.
-    /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 40.0e6); 2])?;
-    /// let roof = DofCombination::from(building.roof());
-    /// let moved = [0.02, 0.0, 0.01, 0.0, 0.1];
-    /// assert!((roof.relative_to_base(&building)?.value(&moved) - 0.08).abs() < 1e-15);
-    /// assert!((roof.total_drift(&building, 6.0)?.value(&moved) - 0.14).abs() < 1e-15);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for a
-    /// height that is not finite or contact nodes at one place.
-    pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
-        finite("height above the base", height)?;
-        let [translation, rotation] = base_motion(structure)?;
-        Ok(self.clone() - translation + height * rotation)
-    }
-
     /// The same sum of degrees of freedom with other numbers.
     pub(super) fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
@@ -96,19 +50,6 @@ impl DofCombination {
         }
         Ok(())
     }
-}
-
-/// Displacement to the right of the base's middle, and rotation of its chord.
-fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 2]> {
-    let nodes = structure.contact_nodes();
-    let [left, .., right] = &nodes[..] else {
-        let (found, needed) = (nodes.len(), 2);
-        return Err(Error::Size { quantity: "contact nodes", found, needed });
-    };
-    let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
-    let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();
-    let rotation = per_width * (right.vertical.clone() - left.vertical.clone());
-    Ok([translation, rotation])
 }
 
 impl From<usize> for DofCombination {

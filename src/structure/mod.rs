@@ -1,5 +1,6 @@
 //! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
+mod base_motion;
 mod contact_node;
 mod damping;
 mod detached;
@@ -76,7 +77,7 @@ pub trait Structure: Any + Send {
     fn contact_nodes(&self) -> Vec<ContactNode>;
 
     /// Contact nodes that are the last of a foundation, the structure's last one excepted: between
-    /// such a node and the next there is no base. Default: none, one foundation.
+    /// such a node and the next there is no base. Default: none, one foundation. In plan the faces tell.
     fn foundation_ends(&self) -> Vec<usize> {
         Vec::new()
     }
@@ -84,7 +85,8 @@ pub trait Structure: Any + Send {
     /// Faces of a base in plan, for a ground of three directions: triangles or other convex polygons, each by its
     /// corners in either order, flat and at one height, not overlapping. Over a triangle the base is flat, over a
     /// quadrilateral bilinear; one of more corners is made of triangles from its first one. A rigid base needs one
-    /// face, its outline. Default: none, a line of [`contact_nodes`](Structure::contact_nodes) in the plane; a
+    /// face, its outline. Faces that share a corner, or have one on the other's edge, are of one foundation, others of
+    /// foundations of their own. Default: none, a line of [`contact_nodes`](Structure::contact_nodes) in the plane; a
     /// structure with faces has none of those.
     fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
         Vec::new()

@@ -56,7 +56,7 @@ fn errors_print_what_is_inside_them_once() {
     says_once(&record, torn);
     let checkpoint = CheckpointError::Unsupported { part: "roof" };
     says_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
-    let standing = StabilityError::Uplift { ends: [0.0, 1.0], upward: 1.0 };
+    let standing = StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0 };
     says_once(&Error::Stability(Box::new(standing.clone())), &standing.to_string());
     let mesh = MeshFileError::LineTooLong { bytes: 9 };
     says_once(&Error::MeshFile { file: file(), line: 1, reason: mesh.clone() }, &mesh.to_string());

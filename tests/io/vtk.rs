@@ -11,7 +11,7 @@ use basemat::fem::{Beam, Direction, Mesh};
 use basemat::interface::Mode;
 use basemat::io::paraview;
 use basemat::results::{DeformedShape, Recorder, ShapePoint, TimeSeries};
-use basemat::structure::{DofCombination, FemModel, RigidBlock, ShearBuilding, Storey};
+use basemat::structure::{FemModel, RigidBlock, ShearBuilding, Storey};
 
 use basemat_problems::scenes::{SI, block, friction, scene, tower};
 
@@ -136,7 +136,7 @@ fn deformed_shapes_move_as_their_structures() {
     let mut dofs = vec![0.0; 9];
     dofs[model.dof(1, Direction::Y).unwrap()] = 0.25;
     let moved = shape.displacements(&dofs).unwrap();
-    assert_eq!(moved, [[0.0; 2], [0.0, 0.25], [0.0; 2], [0.0; 2]]);
+    assert_eq!(moved, [[0.0; 3], [0.0, 0.25, 0.0], [0.0; 3], [0.0; 3]]);
 
     // Followers of a rigid link go with it.
     let mut mesh = Mesh::new();
@@ -150,7 +150,7 @@ fn deformed_shapes_move_as_their_structures() {
     let model = model.with_rigid_link(foot, &[left, right]).unwrap();
     let shift = model.rigid_motion(Direction::X, [0.0; 2]);
     let moved = DeformedShape::of_model(&model).displacements(&shift).unwrap();
-    assert_eq!(moved, [[1.0, 0.0]; 4]);
+    assert_eq!(moved, [[1.0, 0.0, 0.0]; 4]);
 
     // P from a block: a rigid turn leaves all distances, to second order.
     let shape = DeformedShape::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
@@ -171,11 +171,7 @@ fn bad_requests_are_errors() {
         assert!(matches!(series(name, &shape, &histories), Error::Scene { .. }));
     }
     // More degrees of freedom than the run has.
-    let point = ShapePoint {
-        position: [0.0; 2],
-        horizontal: 98.into(),
-        vertical: DofCombination::default(),
-    };
+    let point = ShapePoint { position: [0.0; 2], horizontal: 98.into(), ..ShapePoint::default() };
     let other = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
     assert!(matches!(series("a", &other, &histories), Error::Index { index: 98, bound: 98, .. }));
     let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();

@@ -302,6 +302,7 @@ fn apart(distances: &[f64]) -> (TimeSeries, DeformedShape, Run) {
             position: [point.position[0] + distance, point.position[1]],
             horizontal: shift(&point.horizontal),
             vertical: shift(&point.vertical),
+            ..ShapePoint::default()
         });
         points.extend(moved);
         cells.extend(single.cells().iter().map(|cell| cell.iter().map(|k| k + first).collect()));

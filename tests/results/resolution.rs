@@ -232,7 +232,7 @@ fn bonded_bases_that_are_pulled_up() {
     };
     let warns = |run: &Run| {
         run.warnings.iter().find_map(|warning| match warning {
-            Warning::Tension { tension, x, time } => Some([*tension, *x, *time]),
+            Warning::Tension { tension, x, time, .. } => Some([*tension, *x, *time]),
             _ => None,
         })
     };
@@ -264,7 +264,10 @@ fn a_base_beyond_the_elements() {
         run.warnings.into_iter().find(|warning| matches!(warning, Warning::UncoveredBase { .. }))
     };
     let half = 4.0;
-    let Some(Warning::UncoveredBase { foundation: 0, reach }) = found(0.5 * half) else { panic!() };
+    let Some(Warning::UncoveredBase { foundation: 0, reach, axis: None }) = found(0.5 * half)
+    else {
+        panic!()
+    };
     assert!((reach - 0.5 * half).abs() < 1e-12, "{reach}");
     assert_eq!(found(0.9 * half), None);
     assert_eq!(found(half), None);
@@ -307,7 +310,10 @@ fn too_few_elements() {
     let fine = shake(12).whole.base_shear.magnitude();
     for elements in [1, 2, 3] {
         let found = shake(elements).warnings;
-        assert_eq!(found, [Warning::FewElements { foundation: 0, elements, needed: 4 }]);
+        assert_eq!(
+            found,
+            [Warning::FewElements { foundation: 0, elements, needed: 4, axis: None }]
+        );
     }
     assert!(shake(1).whole.base_shear.magnitude() < 0.5 * fine);
     let enough = shake(4);

@@ -39,6 +39,12 @@ impl Cells {
         Self { elements, depths, directions: 3, sampled: None, bed, time_step: 0.0, displacement }
     }
 
+    /// The same after elements were taken away.
+    pub(crate) fn resized(mut self) -> Self {
+        self.displacement = vec![0.0; 3 * self.elements.len()];
+        self
+    }
+
     /// Under a rectangle about `center`, its outer cells a tenth of their side beyond its edge.
     pub(crate) fn under(sides: [f64; 2], center: [f64; 2], counts: [usize; 2], bed: Bed) -> Self {
         let lines = |k: usize| -> Vec<f64> {

@@ -1,9 +1,12 @@
 //! Scenes in plan that are none, each with an error that says what is wrong.
 
+use basemat::bem::plan::Plan;
 use basemat::bem::{Ground, SpringGround};
-use basemat::interface::{Bonded, InterfaceLaw};
+use basemat::coupled::Load;
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{ContactNode, RigidBlock, RigidBody, Structure, StructureGroup, Triplets};
-use basemat::{Error, PlanError, Result, Simulation};
+use basemat::{Error, PlanError, Result, Simulation, StabilityError};
 
 use super::cells::{BED, Cells};
 
@@ -37,7 +40,8 @@ fn bases_of_another_dimension() {
     let error = build(cube(), bed(), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "structure", .. }), "{error}");
     assert!(error.to_string().contains("contact nodes"), "{error}");
-    let error = StructureGroup::new().with(cube(), 0.0).err().unwrap();
+    let group = StructureGroup::new().with(cube(), 0.0).unwrap();
+    let error = group.with(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), 9.0).err().unwrap();
     assert!(matches!(error, Error::Scene { quantity: "structure of a group", .. }), "{error}");
 }
 
@@ -89,6 +93,49 @@ fn cells_that_no_face_covers() {
             .build()
             .is_ok()
     );
+}
+
+/// A load at the top, along x or along y, to the front or to the back: what is said of one axis is said of the other.
+#[test]
+fn errors_of_stability_name_the_axis_and_the_edge() {
+    let weight = STANDARD_GRAVITY * cube().total_mass();
+    let fall = |axis: usize, eccentricity: f64| {
+        let [along, across, _] = cube().displacement_at([0.0, 0.0, 4.0]);
+        let row = [along, across][axis].clone();
+        let plan = Plan::rectangle(-2.0..2.0, -2.0..2.0, 4).unwrap();
+        let error = Simulation::builder(0.01)
+            .structure(cube())
+            .ground(SpringGround::in_plan(plan, [1e7; 3]).unwrap())
+            .interface(Coulomb::new(9.0).unwrap())
+            .load(Load::constant(row, weight * eccentricity / 4.0))
+            .build()
+            .expect_err("no equilibrium");
+        let text = error.to_string();
+        let Error::Stability(cause) = error else { panic!("{error}") };
+        (*cause, text)
+    };
+    for (axis, name, edges) in [(0, 'x', ["left", "right"]), (1, 'y', ["front", "back"])] {
+        for (sign, edge) in [-1.0, 1.0].into_iter().zip(edges) {
+            let (cause, text) = fall(axis, 2.2 * sign);
+            let StabilityError::Overturning { axis: found, eccentricity, ratio, across, .. } =
+                cause
+            else {
+                panic!("{text}")
+            };
+            assert_eq!((found, across), (Some(name), Some([-2.0, 2.0])));
+            assert!((eccentricity - 2.2 * sign).abs() < 1e-6 && (ratio - 1.1).abs() < 1e-6);
+            assert!(text.contains(&format!("over its {edge} edge")), "{text}");
+            assert!(text.contains(&format!("along {name}")) && !text.contains("/m"), "{text}");
+            // Beyond the middle of the last row, 1.5 m.
+            let (cause, text) = fall(axis, 1.8 * sign);
+            let StabilityError::Beyond { axis: found, resultant, reach, .. } = cause else {
+                panic!("{text}")
+            };
+            assert_eq!((found, reach), (Some(name), [-1.5, 1.5]));
+            assert!((resultant - 1.8 * sign).abs() < 1e-6);
+            assert!(text.contains(&format!("passes at {name} = ")), "{text}");
+        }
+    }
 }
 
 #[test]

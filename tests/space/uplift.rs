@@ -5,8 +5,10 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use basemat::bem::layered::Stages;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, SharedKernels};
+use basemat::coupled::Load;
 use basemat::interface::{Coulomb, Mode};
 use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial};
+use basemat::results::Quantity;
 use basemat::soil::SoilProfile;
 use basemat::structure::RigidBody;
 use basemat::{Simulation, Soil};
@@ -246,4 +248,34 @@ fn what_leans_is_placed_upright() {
         let turned = &leaning.static_displacement()[3..5];
         assert!(turned.iter().all(|angle| angle.abs() < 1e-9), "{turned:?}");
     }
+}
+
+/// A tall block that is pushed over, along x or along y, stands on its last row of 8, at 6.79/7 cells from the middle.
+#[test]
+fn blocks_stand_on_their_outermost_cells() {
+    let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
+    let tip = |axis: usize, cells: usize| {
+        let body = RigidBody::cuboid([6.0, 6.0, 12.0], 2000.0).unwrap();
+        let row = body.displacement_at([0.0, 0.0, 12.0])[axis].clone();
+        let ground = ElasticGround::under(soil, &body, cells).unwrap();
+        let push = 0.28 * 9.80665 * body.total_mass();
+        let mut simulation = Simulation::builder(0.01)
+            .structure(body)
+            .ground(ground)
+            .interface(Coulomb::new(0.9).unwrap())
+            .load(Load::new(row, move |time| push * (2.0 * time).min(1.0)))
+            .build()
+            .unwrap();
+        simulation.run(100, |_| {}).unwrap()
+    };
+    for axis in 0..2 {
+        let run = tip(axis, 8);
+        let [own, other] = [Quantity::OverturningSafety, Quantity::OverturningSafetyAcross]
+            .map(|quantity| run.whole.peak(quantity).value);
+        let [own, other] = if axis == 0 { [own, other] } else { [other, own] };
+        assert!((own - (8.0 - 0.21) / 7.0).abs() < 1e-6 && other > 1e3, "{axis}: {own} {other}");
+        assert!(run.to_string().contains("bear at 0.90 (x) and 0.90 (y)"), "{run}");
+        assert_eq!((run.whole.ends, run.whole.depth), ([-3.0, 3.0], [-3.0, 3.0]));
+    }
+    assert!(!tip(0, 16).to_string().contains("16 cells"));
 }

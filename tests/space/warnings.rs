@@ -1,12 +1,14 @@
 //! Warnings of cells and steps that miss what a body in plan and its ground do.
 
+use std::f64::consts::TAU;
+
 use basemat::bem::plan::Plan;
-use basemat::bem::{ElasticGround, Ground};
-use basemat::coupled::Warning;
+use basemat::bem::{ElasticGround, Ground, SpringGround};
+use basemat::coupled::{Load, Warning};
 use basemat::interface::Bonded;
 use basemat::motion::{Record, Triaxial, el_centro_1940};
 use basemat::results::Run;
-use basemat::structure::RigidBody;
+use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};
 use basemat::{Simulation, Soil};
 
 use super::cells::{BED, Cells};
@@ -69,7 +71,7 @@ fn cells_longer_than_a_twelfth_of_waves() {
 fn rows_and_columns_are_counted() {
     let tall = [8.0, 4.0, 12.0];
     let (few, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 2, 2e-3);
-    let wanted = Warning::FewElements { foundation: 0, elements: 2, needed: 4 };
+    let wanted = Warning::FewElements { foundation: 0, elements: 2, needed: 4, axis: Some('y') };
     assert_eq!(only(&few), wanted);
     let (enough, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 4, 2e-3);
     assert_eq!(enough.warnings, []);
@@ -103,6 +105,45 @@ fn motions_along_y_are_judged() {
     let (run, _, _) = run([20.0, 20.0, 4.0], 2000.0, motion(fast, true), 4, 2e-2);
     let found = |warning: &Warning| matches!(warning, Warning::UnresolvedMotion { .. });
     assert!(run.warnings.iter().any(found), "{:?}", run.warnings);
+}
+
+/// Along y as along x: a base that reaches beyond its cells, a storey that is all but a mechanism, a base that turns far.
+#[test]
+fn what_is_said_of_x_is_said_of_y() {
+    for (axis, name) in [(0, 'x'), (1, 'y')] {
+        let swapped = |pair: [f64; 2]| if axis == 0 { pair } else { [pair[1], pair[0]] };
+        let [x, y] = swapped([2.0, 4.0]);
+        let plan = Plan::rectangle(-x..x, -y..y, 4).unwrap();
+        let [kx, ky] = swapped([1e4, 1e8]);
+        let mat = RigidBody::cuboid([8.0, 8.0, 1.0], 2400.0).unwrap();
+        let storey = PlanStorey::new(4.0, 1e5, [8.0; 2], [kx, ky, 1e9]);
+        let building = StoreyBuilding::new(mat, &[storey]).unwrap();
+        let mut simulation = Simulation::builder(1e-3)
+            .structure(building)
+            .ground(SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap())
+            .interface(Bonded)
+            // About y, or about x.
+            .load(Load::new(4 - axis, |time| if time > 0.0 { 2e8 } else { 0.0 }))
+            .build()
+            .unwrap();
+        let warnings = simulation.run(100, |_| {}).unwrap().warnings;
+        let has = |of: &dyn Fn(&Warning) -> bool| assert!(warnings.iter().any(of), "{warnings:?}");
+        let long = TAU * (1e5 / 1e4_f64).sqrt();
+        has(
+            &|own| matches!(own, Warning::LongPeriod { period } if (period / long - 1.0).abs() < 0.02),
+        );
+        has(&|own| matches!(own, Warning::LargeRotation { rotation } if *rotation > 0.11));
+        has(&|own| match own {
+            Warning::UncoveredBase { axis, reach, .. } => {
+                *axis == Some(name) && (reach - 2.0).abs() < 1e-12
+            }
+            _ => false,
+        });
+        let uncovered = warnings.iter().find(|own| matches!(own, Warning::UncoveredBase { .. }));
+        assert!(uncovered.unwrap().to_string().contains(&format!("2.00 m along {name} beyond")));
+        let tension = warnings.iter().find(|own| matches!(own, Warning::Tension { .. }));
+        assert!(tension.unwrap().to_string().contains(" m, y = "), "{warnings:?}");
+    }
 }
 
 /// More than 512 cells are too many for the gate; a ground of one's own may say so too.

@@ -960,7 +960,7 @@ class Summary:
         """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
     @property
     def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a :class:`Peak`."""
+        """Least factor of safety against overturning, a :class:`Peak`; on a ground in plan over any edge."""
     @property
     def residual_slip_across(self) -> float:
         """In plan: slip along y averaged over it at the end, m."""

@@ -1,6 +1,6 @@
 //! The base, foundations and limits of service after a run.
 
-use basemat::results::{Extremes, ServiceCheck, Summary};
+use basemat::results::{Extremes, Peak, ServiceCheck, Summary};
 use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
@@ -56,8 +56,13 @@ getters! {
     slip_path: f64 = own.0.sliding.path;
     /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
     least_sliding_safety: Option<PyPeak> = known(own.0.sliding_safety);
-    /// Least factor of safety against overturning, a :class:`Peak`.
-    least_overturning_safety: PyPeak = PyPeak(own.0.overturning_safety.lowest);
+    /// Least factor of safety against overturning, a :class:`Peak`; on a ground in plan over any edge.
+    least_overturning_safety: PyPeak = PyPeak(least(own.0.overturning_safety.lowest, own.0.overturning_safety_across.lowest));
+}
+
+/// The lesser of two.
+fn least(one: Peak, other: Peak) -> Peak {
+    if other.value < one.value { other } else { one }
 }
 
 #[pymethods]

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::faces::Face;
+use super::mats::{apart, mat_by_mat, owners};
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, finite, memory, positive};
 use crate::geometry::{ContactElement, Lattice};
@@ -37,7 +38,7 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     pub(super) lattice: Lattice,
-    /// Column and row of each cell, row by row.
+    /// Column and row of each cell, mat by mat and row by row.
     pub(super) cells: Vec<[usize; 2]>,
     /// Least x and y of the lattice, m.
     corner: [f64; 2],
@@ -135,7 +136,7 @@ impl Plan {
         let area = pitch[0] * pitch[1] * cells.len() as f64;
         Ok(Self {
             corner: [corner[0] + pitch[0] * left as f64, corner[1] + pitch[1] * front as f64],
-            cells: cells.into_iter().map(|[i, j]| [i - left, j - front]).collect(),
+            cells: mat_by_mat(&cells).into_iter().map(|[i, j]| [i - left, j - front]).collect(),
             lattice: Lattice { pitch, counts },
             overhang: 0.0,
             area,
@@ -273,7 +274,7 @@ impl Plan {
         let mut depths: Vec<[f64; 2]> = vec![];
         for (number, cell) in self.cells.iter().enumerate() {
             let ([left, right], depth) = (ends(0, cell), ends(1, cell));
-            // Cells come row by row, and the first of an element before its others.
+            // Cells of a mat come row by row, and the first of an element before its others.
             let owner = self.owners.as_ref().map_or(number, |owners| owners[number]);
             if let Some((element, [_, back])) = elements.get_mut(owner).zip(depths.get_mut(owner)) {
                 (element.right, *back) = (element.right.max(right), back.max(depth[1]));
@@ -345,53 +346,4 @@ fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
 fn check_memory(counts: [usize; 2]) -> Result<()> {
     let count = counts[0] as f64 * counts[1] as f64;
     Ok(memory::check("cells of a mat", count, CELL * count)?)
-}
-
-/// Mat of each cell: one that comes within the overhang of the cell's centre.
-fn owners(
-    faces: &[Face],
-    mats: &[usize],
-    [corner, pitch]: [[f64; 2]; 2],
-    [columns, rows]: [usize; 2],
-    overhang: f64,
-) -> Result<Vec<Option<usize>>> {
-    let mut owners = vec![None; columns * rows];
-    for (place, owner) in owners.iter_mut().enumerate() {
-        let cell = [place % columns, place / columns];
-        let near = |face: &Face| {
-            (0..9).any(|point| {
-                let steps = [f64::from(point % 3) - 1.0, f64::from(point / 3) - 1.0];
-                face.contains([0, 1].map(|axis| {
-                    let place = cell[axis] as f64 + 0.5 + overhang * steps[axis];
-                    corner[axis] + pitch[axis] * place
-                }))
-            })
-        };
-        for (face, mat) in faces.iter().zip(mats) {
-            if *owner != Some(*mat)
-                && near(face)
-                && let Some(other) = owner.replace(*mat)
-            {
-                return Err(PlanError::TooClose { mats: [other, *mat], pitch }.into());
-            }
-        }
-    }
-    Ok(owners)
-}
-
-/// Error for cells of two mats side by side or corner to corner.
-fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {
-    for (place, owner) in owners.iter().enumerate() {
-        let Some(owner) = owner else { continue };
-        let (left, right) = (place % columns > 0, place % columns + 1 < columns);
-        let steps = [(right, 1), (left, columns - 1), (true, columns), (right, columns + 1)];
-        for (_, step) in steps.into_iter().filter(|(there, _)| *there) {
-            if let Some(Some(other)) = owners.get(place + step)
-                && other != owner
-            {
-                return Err(PlanError::TooClose { mats: [*owner, *other], pitch }.into());
-            }
-        }
-    }
-    Ok(())
 }

@@ -86,7 +86,7 @@ impl Face {
     }
 
     /// Number of the mat that each face belongs to: faces that touch are of one mat.
-    pub(super) fn mats(faces: &[Self]) -> Vec<usize> {
+    pub(crate) fn mats(faces: &[Self]) -> Vec<usize> {
         let mut mats = vec![usize::MAX; faces.len()];
         let mut count = 0;
         for first in 0..faces.len() {

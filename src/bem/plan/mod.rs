@@ -9,7 +9,7 @@
 //! | file | what is in it |
 //! |---|---|
 //! | unions | contact elements of several cells |
-//! | cells, faces | plan: cells on a lattice under faces, discs, masks |
+//! | cells, mats, faces | plan: cells on a lattice under faces, discs, masks |
 //! | sh | surface compliance across the wavenumber |
 //! | angular_means, static_cells, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
@@ -24,6 +24,7 @@ mod form_table;
 mod impedance;
 mod integrals;
 mod kernel;
+mod mats;
 mod sectors;
 mod sh;
 mod static_cells;

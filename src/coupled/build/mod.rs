@@ -171,7 +171,8 @@ impl SimulationBuilder {
         self
     }
 
-    /// Point (m) about which the base moment is taken; the middle of the base unless given.
+    /// Point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base unless given,
+    /// and along y always.
     #[must_use]
     pub fn moment_center(mut self, x: f64) -> Self {
         self.given.moment_center = Some(x);
@@ -268,8 +269,11 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let uncovered = scene.base.uncovered(ground.elements());
+        let uncovered = scene.base.uncovered(&scene.elements);
         let period = assembled.period_on_fixed_base(&mut held);
+        let axis = |axis: usize| scene.elements.is_plan().then_some(['x', 'y'][axis]);
+        let uncovered: Vec<_> =
+            uncovered.into_iter().map(|(k, along, reach)| (k, axis(along), reach)).collect();
         let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
         let sample = ground.sampled_cells();
         warnings

@@ -10,11 +10,12 @@ pub(crate) mod supports;
 use std::fmt;
 
 use crate::coupled::build::equilibrium::Standing;
+use crate::coupled::scene::faces::hull;
 use crate::coupled::scene::operators::Operators;
 use crate::coupled::scene::{Scene, operators};
 use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
-use crate::geometry::{PLANE, far_ends};
+use crate::geometry::far_ends;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
 };
@@ -59,7 +60,8 @@ fn resultants(
     load: &[f64],
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    let is_plan = base.layout().components() != PLANE;
+    let axes = base.layout().components() - 1;
+    let is_plan = axes > 1;
     let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
@@ -67,11 +69,8 @@ fn resultants(
         let horizontal = if away == 0.0 { along } else { along.hypot(away) };
         let normal = -upward;
         let nodes = part.nodes(base);
-        let bounds = [
-            far_ends(nodes.iter().map(|node| [node.x; 2])),
-            far_ends(nodes.iter().map(|node| [node.y; 2])),
-        ];
-        let ends = bounds[0];
+        let bounds = [0, 1].map(|axis| far_ends(nodes.iter().map(|n| [[n.x, n.y][axis]; 2])));
+        let (ends, across) = (bounds[0], is_plan.then_some(bounds[1]));
         let laws = || part.elements().iter().map(|&e| law_of(laws, e));
         let little = 1e-6 * normal.abs().max(1.0);
         let glued = |trial| laws().any(|law| sticks_at(law, trial));
@@ -84,7 +83,7 @@ fn resultants(
         };
         let opens = laws().any(|law| law.modes().contains(&Mode::Open));
         if normal <= 0.0 {
-            let lifted = StabilityError::Uplift { ends, upward };
+            let lifted = StabilityError::Uplift { ends, across, upward };
             return if opens { broken(pulls, lifted) } else { None };
         }
         let lengths = || part.elements().iter().map(|&e| base.areas()[e]);
@@ -93,7 +92,8 @@ fn resultants(
         let resistance = friction * normal;
         let slides = || {
             let ratio = horizontal.abs() / resistance;
-            let error = StabilityError::Sliding { ends, horizontal, normal, resistance, ratio };
+            let error =
+                StabilityError::Sliding { ends, across, horizontal, normal, resistance, ratio };
             if ratio > 1.0 { broken(coheres, error) } else { None }
         };
         if !coheres && let Some(slides) = slides() {
@@ -107,26 +107,38 @@ fn resultants(
             factor.solve(&mut rotation);
             *moment = dot(&rotation, load);
         }
-        // The soil's pressure stands at the distance e: M + N e = 0. In plan the axis is the one with less to spare.
-        let part_of = |axis: usize| (moments[axis] / normal).abs() / half_widths[axis];
-        let axis = usize::from(is_plan && part_of(1) > part_of(0));
-        let (middle, half_width, moment) = (middles[axis], half_widths[axis], moments[axis]);
-        let (eccentricity, ratio) = (-moment / normal, part_of(axis));
+        // The soil's pressure stands at the distance e: M + N e = 0.
+        let eccentricities = moments.map(|moment| -moment / normal);
+        let part_of = |axis: usize| eccentricities[axis].abs() / half_widths[axis];
+        // In plan of the distance to the edge that is nearest to it, and the axis which that faces more.
+        let (ratio, axis) = if is_plan {
+            nearest_edge(&hull(nodes.iter().copied()), middles, eccentricities)
+        } else {
+            (part_of(0), 0)
+        };
+        let [moment, eccentricity] = [moments[axis], eccentricities[axis]];
+        let name = |axis: usize| is_plan.then_some(['x', 'y'][axis]);
         if ratio >= 1.0 && opens {
-            let error = StabilityError::Overturning { ends, moment, normal, eccentricity, ratio };
+            let axis = name(axis);
+            let error = StabilityError::Overturning {
+                ends,
+                across,
+                axis,
+                moment,
+                normal,
+                eccentricity,
+                ratio,
+            };
             return broken(pulls, error);
         }
-        let elements = part.elements().len();
-        let middles = part.elements().iter().map(|&e| base.middle(e));
-        let reach = [
-            middles.clone().fold(f64::INFINITY, f64::min),
-            middles.fold(f64::NEG_INFINITY, f64::max),
-        ];
-        let resultant = middle + eccentricity;
-        let slack = 1e-9 * half_width;
-        let is_beyond = resultant < reach[0] - slack || resultant > reach[1] + slack;
-        if opens && axis == 0 && is_beyond {
-            return broken(pulls, StabilityError::Beyond { ends, elements, resultant, reach });
+        let all_middles = part.elements().iter().map(|&e| base.middle(e));
+        let passed = [0, 1].map(|axis| middles[axis] + eccentricities[axis]);
+        let slack = half_widths.map(|half| 1e-9 * half);
+        let beyond = (0..axes).find_map(|axis| beyond(all_middles.clone(), axis, passed, slack));
+        if let Some((axis, reach)) = beyond.filter(|_| opens) {
+            let (elements, resultant, axis) = (part.elements().len(), passed[axis], name(axis));
+            let error = StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
+            return broken(pulls, error);
         }
         if let Some(slides) = slides() {
             return Some(slides);
@@ -134,23 +146,49 @@ fn resultants(
         // At most the bearing pressure everywhere between the resultant's two equal distances.
         let largest = laws().map(bearing_pressure).fold(0.0, f64::max);
         let all: f64 = laws().zip(lengths()).map(|(law, l)| bearing_pressure(law) * l).sum();
-        let width = 2.0 * half_width * (1.0 - ratio);
-        let effective = if is_plan {
-            // Of both axes (Meyerhof 1963).
+        let width = if is_plan {
+            // The area that both axes leave (Meyerhof 1963).
             lengths().sum::<f64>() * (1.0 - part_of(0)) * (1.0 - part_of(1))
         } else {
-            width
+            2.0 * half_widths[0] * (1.0 - ratio)
         };
-        let capacity = all.min(largest * effective);
+        let capacity = all.min(largest * width);
         let ratio = normal / capacity;
         (ratio > 1.0).then_some(StabilityError::BearingFailure {
             ends,
+            across,
             normal,
             width,
             capacity,
             ratio,
         })
     })
+}
+
+/// Of all edges of a convex outline that the resultant at this distance from `middle` moves to, the largest part of the
+/// way to one of them, and the axis which that faces more.
+fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
+    let edges = outline.iter().zip(outline.iter().cycle().skip(1));
+    let parts = edges.map(|(a, b)| {
+        let n = [b[1] - a[1], a[0] - b[0]];
+        let reach = n[0] * (a[0] - middle[0]) + n[1] * (a[1] - middle[1]);
+        let way = n[0] * distance[0] + n[1] * distance[1];
+        (way / reach, usize::from(n[1].abs() > n[0].abs()))
+    });
+    parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
+}
+
+/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more than
+/// the slack.
+fn beyond(
+    middles: impl Iterator<Item = [f64; 2]>,
+    axis: usize,
+    passed: [f64; 2],
+    slack: [f64; 2],
+) -> Option<(usize, [f64; 2])> {
+    let reach = far_ends(middles.map(|middle| [middle[axis]; 2]));
+    let is_beyond = passed[axis] < reach[0] - slack[axis] || passed[axis] > reach[1] + slack[axis];
+    is_beyond.then_some((axis, reach))
 }
 
 /// The friction coefficient of a law, or the ratio of traction at which it lets an element under this

@@ -129,15 +129,18 @@ pub struct ElementEnvelope {
 /// limit.
 pub(super) fn tension(
     envelope: &[ElementEnvelope],
+    in_plan: bool,
     opens: impl Fn(usize) -> bool,
 ) -> Option<Warning> {
     let pressures = envelope.iter().map(|element| element.static_pressure);
     let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
     let held = envelope.iter().enumerate().filter(|(e, _)| !opens(*e));
-    let lowest = held.map(|(_, envelope)| (envelope.element, envelope.pressure.lowest));
-    let (element, lowest) = lowest.min_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
-    let (tension, x) = (-lowest.value, 0.5 * (element.left + element.right));
-    (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, time: lowest.time })
+    let least = |own: &ElementEnvelope| own.pressure.lowest.value;
+    let (_, own) = held.min_by(|(_, a), (_, b)| least(a).total_cmp(&least(b)))?;
+    let (tension, time) = (-least(own), own.pressure.lowest.time);
+    let (x, [front, back]) = (own.element.center(), own.depth);
+    let y = in_plan.then_some(0.5 * (front + back));
+    (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, time })
 }
 
 /// Of every element, at the start.

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 pub(crate) mod base;
+mod footing;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
@@ -69,7 +70,7 @@ pub struct Run {
     pub whole: Summary,
     /// The probes, in the order they were given to the builder.
     pub probes: Vec<ProbeExtremes>,
-    /// Each foundation by itself, from left to right.
+    /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Summary>,
     /// A check for each limit that the builder was given
     /// ([`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability)).
@@ -214,15 +215,21 @@ impl Run {
         }
         self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
-        let lengths: f64 = self.elements.iter().map(ContactElement::length).sum();
+        let length = |own: &ElementEnvelope| {
+            let (along, [front, back]) = (own.element.length(), own.depth);
+            if self.in_plan { along.min(back - front) } else { along }
+        };
+        let lengths: f64 = self.envelope.iter().map(length).sum();
+        let Summary { base_rotation, rotation_across, twist, .. } = &self.whole;
+        let rotations = [base_rotation, rotation_across, twist].map(Extremes::magnitude);
         self.warnings = Warning::all(
             self.whole.largest_slip.highest.value,
-            lengths / self.elements.len() as f64,
-            self.whole.base_rotation.largest().value,
+            lengths / self.envelope.len() as f64,
+            rotations.into_iter().fold(0.0, f64::max),
             &self.energy_balance,
             self.least_algorithmic,
         );
-        self.warnings.extend(base::tension(&self.envelope, opens));
+        self.warnings.extend(base::tension(&self.envelope, self.in_plan, opens));
         self.warnings.extend_from_slice(of_scene);
         let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
         let acceleration = self.resolution.largest_acceleration();

@@ -4,13 +4,16 @@ use std::fmt;
 
 use super::peak::resultant;
 use super::quantity::Place;
-use super::{Extremes, Fallbacks, Quantity, Run, Summary};
+use super::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::coupled::Peak;
+use crate::geometry::far_ends;
 use crate::text::column::{number, of_body, printed};
 use crate::text::table::Table;
 
 /// Elements of the pressure envelope beyond which only some are printed.
 const MOST_ROWS: usize = 12;
+/// Lever of the outermost elements in plan, of half the width, that needs no advice.
+const ENOUGH: f64 = 0.93;
 
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -87,12 +90,17 @@ impl Run {
         headings.extend(shown.iter().map(heading));
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
         let row = |own: &Summary| {
-            let [left, right] = own.ends;
+            let ends = |[low, high]: [f64; 2]| format!("{low:.2} to {high:.2}");
+            let place = if self.in_plan {
+                format!("x {}, y {}", ends(own.ends), ends(own.depth))
+            } else {
+                ends(own.ends)
+            };
             let value = |quantity: &Quantity| match own.peak(*quantity).value {
                 safety if quantity.limit().is_some() => factor(safety),
                 value => number(printed(quantity).0 * value),
             };
-            let mut cells = vec![format!("{left:.2} to {right:.2}")];
+            let mut cells = vec![place];
             cells.extend(shown.iter().map(value));
             cells.extend([own.sliding.events.len().to_string(), number(1e3 * own.sliding.path)]);
             cells
@@ -102,12 +110,52 @@ impl Run {
 
     fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let known = |own: &Quantity| own.limit().is_some() && !self.whole.peak(*own).value.is_nan();
-        for quantity in Quantity::ALL.into_iter().filter(known) {
+        for quantity in Quantity::of(self.in_plan).filter(known) {
             let peak = self.whole.peak(quantity);
             let (name, least) = (quantity.name(), factor(peak.value));
-            writeln!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
+            write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
+            match quantity {
+                Quantity::OverturningSafety if self.in_plan => {
+                    writeln!(f, ", over the edge to the left or the right (x)")?;
+                }
+                Quantity::OverturningSafetyAcross => {
+                    writeln!(f, ", over the front or the back edge (y)")?;
+                }
+                _ => writeln!(f)?,
+            }
+        }
+        if !self.in_plan {
+            return Ok(());
+        }
+        let [along, across] = [0, 1].map(|axis| self.lever(axis));
+        writeln!(
+            f,
+            "  the outermost cells bear at {along:.2} (x) and {across:.2} (y) of the half width: a base stands on them at \
+             {:.2} and {:.2}",
+            1.0 / along,
+            1.0 / across
+        )?;
+        if along.min(across) < ENOUGH {
+            writeln!(f, "  (16 cells a side, or graded unions, bear at 0.94 or more)")?;
         }
         Ok(())
+    }
+
+    /// Distance from the middle of a foundation in plan to the middles of its outermost elements along an axis, over half
+    /// its width; the least of all foundations and both sides.
+    fn lever(&self, axis: usize) -> f64 {
+        let of = |own: &Summary| {
+            let [low, high] = [own.ends, own.depth][axis];
+            let elements = self.envelope.get(own.elements.clone()).unwrap_or_default();
+            let middle = |own: &ElementEnvelope| {
+                let [low, high] = [[own.element.left, own.element.right], own.depth][axis];
+                [0.5 * (low + high); 2]
+            };
+            let [first, last] = far_ends(elements.iter().map(middle));
+            let center = 0.5 * (low + high);
+            (center - first).min(last - center) / (0.5 * (high - low))
+        };
+        self.foundations.iter().map(of).fold(f64::INFINITY, f64::min)
     }
 
     fn uplift_and_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -177,7 +225,7 @@ impl Run {
         }
         let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
-        let row = |envelope: &super::ElementEnvelope| {
+        let row = |envelope: &ElementEnvelope| {
             let mut cells = vec![format!("{:.3}", envelope.element.center())];
             if self.in_plan {
                 let [front, back] = envelope.depth;

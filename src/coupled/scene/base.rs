@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::faces::{Faces, mean_rotations};
+use super::faces::{Faces, hull, mats};
+use super::line::{check_order, check_overlap, chord_rotation, mean_weights};
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
-use crate::bem::ContactElement;
 use crate::error::{Error, Result};
-use crate::geometry::{ContactLayout, PLANE, Patch};
+use crate::geometry::{ContactLayout, Patch, far_ends};
 use crate::linalg::dot;
 use crate::structure::{
     DofCombination, FaceNode, Structure, base_nodes, check_base_nodes, foundation_nodes,
@@ -25,16 +25,18 @@ pub(crate) struct Base {
     foundations: Vec<Outline>,
     layout: ContactLayout,
     areas: Vec<f64>,
-    middles: Vec<f64>,
+    middles: Vec<[f64; 2]>,
     nodes: Vec<FaceNode>,
 }
 
-/// One foundation: its nodes, its elements, and the rotation of its chord; in plan those about the other axes too.
+/// One foundation: its nodes, its elements, and the rotation of its chord; in plan those about the other axes too, and
+/// the corners of its convex outline.
 #[derive(Debug, Clone)]
 struct Outline {
     nodes: Range<usize>,
     elements: Range<usize>,
     rotations: Vec<Weights>,
+    corners: Vec<[f64; 2]>,
 }
 
 impl Base {
@@ -42,7 +44,7 @@ impl Base {
     pub(crate) fn of(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
         let nodes = base_nodes(structure);
         check_base_nodes(&nodes, structure.dofs())?;
-        let faces: Vec<usize> = structure.contact_faces().iter().map(Vec::len).collect();
+        let faces = structure.contact_faces();
         let refuse = |needed| Err(Error::Scene { quantity: "structure", needed });
         if !(faces.is_empty() || structure.contact_nodes().is_empty()) {
             return refuse(
@@ -51,7 +53,7 @@ impl Base {
         }
         match (faces.is_empty(), patch.is_plan()) {
             (true, false) => Self::on_line(nodes, &structure.foundation_ends(), patch),
-            (false, true) => Self::on_faces(nodes, &faces, patch),
+            (false, true) => Self::on_faces(&faces, patch),
             (true, true) => refuse(
                 "must touch a ground in plan with faces: contact nodes alone are those of the plane",
             ),
@@ -61,22 +63,43 @@ impl Base {
         }
     }
 
-    /// The base whose faces have so many corners each.
-    fn on_faces(nodes: Vec<FaceNode>, faces: &[usize], patch: &Patch) -> Result<Self> {
-        let surface = Faces::new(&nodes, faces)?;
+    /// The base of these faces: each mat of faces that touch is a foundation.
+    fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
+        let mats = mats(faces)?;
+        let nodes = mats.concat().concat();
+        let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
+        let surface = Faces::new(&nodes, &corners)?;
+        let mut foundations = Vec::with_capacity(mats.len());
+        let mut first = 0;
+        for mat in &mats {
+            let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
+            let rotations = FaceNode::mean_rotations(&nodes[own.clone()]);
+            let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
+            first = own.end;
+            let corners = hull(nodes[own.clone()].iter());
+            foundations.push(Outline { nodes: own, elements: 0..0, rotations, corners });
+        }
         let layout = patch.layout();
         let mut rows = vec![Terms::new(); layout.len()];
         for e in 0..patch.len() {
             let [down, along, across] = layout.places(e);
-            for (node, weight) in surface.mean_weights(e, patch)? {
+            let weights = surface.mean_weights(e, patch)?;
+            let mut owners = weights.iter().filter_map(|(node, _)| {
+                foundations.iter().position(|mat| mat.nodes.contains(node))
+            });
+            let owner = owners.next().unwrap_or(0);
+            let one = owners.all(|other| other == owner);
+            take(&mut foundations[owner].elements, e, one)?;
+            for (node, weight) in weights {
                 accumulate(&mut rows[down], &nodes[node].vertical, -weight);
                 accumulate(&mut rows[along], &nodes[node].horizontal, weight);
                 accumulate(&mut rows[across], &nodes[node].across, weight);
             }
         }
-        let rotations = mean_rotations(&nodes).map(Weights::Sparse).into();
-        let whole = Outline { nodes: 0..nodes.len(), elements: 0..patch.len(), rotations };
-        Ok(Self::from_rows(rows, vec![whole], nodes, patch))
+        if foundations.iter().any(|mat| mat.elements.is_empty()) {
+            return Err(Error::Size { quantity: UNDER, found: 0, needed: 1 });
+        }
+        Ok(Self::from_rows(rows, foundations, nodes, patch))
     }
 
     fn from_rows(
@@ -85,7 +108,7 @@ impl Base {
         nodes: Vec<FaceNode>,
         patch: &Patch,
     ) -> Self {
-        let middles = patch.iter().map(ContactElement::center).collect();
+        let middles = (0..patch.len()).map(|e| patch.middle(e)).collect();
         let (layout, areas) = (patch.layout(), patch.areas().to_vec());
         Self { rows: Rows::Sparse(rows), foundations, layout, areas, middles, nodes }
     }
@@ -106,10 +129,10 @@ impl Base {
                 elements: element..end,
                 rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
                 nodes: own,
+                corners: Vec::new(),
             };
             if end <= element {
-                let quantity = "list of contact elements under a foundation";
-                return Err(Error::Size { quantity, found: 0, needed: 1 });
+                return Err(Error::Size { quantity: UNDER, found: 0, needed: 1 });
             }
             foundations.push(footing);
             element = end;
@@ -152,20 +175,30 @@ impl Base {
         self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
     }
 
-    /// The foundations in the plane that reach beyond the ground's elements by more than their longest, and how far (m).
-    pub(crate) fn uncovered(&self, ground: &[ContactElement]) -> Vec<(usize, f64)> {
-        if self.layout.components() != PLANE {
-            return Vec::new();
-        }
-        let reach = |(nodes, own): (&[FaceNode], Range<usize>)| {
-            let own = &ground[own];
-            let [first, last] = [own.first()?, own.last()?];
-            let longest = own.iter().map(ContactElement::length).fold(0.0, f64::max);
-            let beyond = nodes.iter().map(|node| (first.left - node.x).max(node.x - last.right));
+    /// Corners of the convex outline of each foundation in plan, counter-clockwise; none in the plane.
+    pub(crate) fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + '_ {
+        self.foundations.iter().map(|footing| &footing.corners[..])
+    }
+
+    /// The foundations that reach beyond the ground's elements by more than their longest side there, along which axis
+    /// (x 0, y 1), and how far (m).
+    pub(crate) fn uncovered(&self, ground: &Patch) -> Vec<(usize, usize, f64)> {
+        let axes = if ground.is_plan() { 0..2 } else { 0..1 };
+        let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
+            let sides = own.map(|e| (ground.middle(e)[axis], ground.sides(e)[axis]));
+            let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
+            let ends = sides.map(|(middle, side)| [middle - 0.5 * side, middle + 0.5 * side]);
+            let [first, last] = far_ends(ends);
+            let places = nodes.iter().map(|node| [node.x, node.y][axis]);
+            let beyond = places.map(|place| (first - place).max(place - last));
             Some(beyond.fold(0.0, f64::max)).filter(|reach| *reach > longest)
         };
-        let reaches = self.foundations().map(reach).enumerate();
-        reaches.filter_map(|(foundation, reach)| Some((foundation, reach?))).collect()
+        let each = self.foundations().enumerate();
+        each.flat_map(|(k, (nodes, own))| {
+            let found = axes.clone().map(move |axis| (axis, reach(nodes, own.clone(), axis)));
+            found.filter_map(move |(axis, reach)| Some((k, axis, reach?)))
+        })
+        .collect()
     }
 
     /// Areas A of the elements, m²; in the plane their lengths.
@@ -178,8 +211,8 @@ impl Base {
         self.layout
     }
 
-    /// Coordinate x of the middle of an element.
-    pub(crate) fn middle(&self, element: usize) -> f64 {
+    /// Middle of an element `[x, y]`, m.
+    pub(crate) fn middle(&self, element: usize) -> [f64; 2] {
         self.middles[element]
     }
 
@@ -253,64 +286,34 @@ impl Base {
     }
 }
 
-/// Refuses nodes out of order.
-fn check_order(nodes: &[FaceNode]) -> Result<()> {
-    match nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
-        None => Ok(()),
-        Some(pair) => Err(Error::Input {
-            quantity: "coordinate of a contact node",
-            value: pair[1].x,
-            needed: "to the right of the node before it",
-        }),
-    }
-}
+const UNDER: &str = "list of contact elements under a foundation";
 
-/// Refuses an element that is not wholly under the foundation with these nodes.
-fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
-    let slack = 1e-9 * element.length();
-    let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
-    for value in [first - element.left, element.right - last] {
-        if value > slack {
-            return Err(Error::Input {
-                quantity: "overhang of a contact element beyond the structure's base, m",
-                value,
-                needed: "zero: all elements of the ground lie between the structure's outermost contact nodes",
-            });
-        }
+/// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
+fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
+    let value = e as f64;
+    if !one {
+        let quantity = "number of a contact element under two mats";
+        return Err(Error::Input { quantity, value, needed: "elements under one mat each" });
     }
+    if elements.start == elements.end {
+        elements.start = e;
+    } else if elements.end != e {
+        let quantity = "number of a contact element apart from the others of its mat";
+        return Err(Error::Input {
+            quantity,
+            value,
+            needed: "elements of a mat one after another",
+        });
+    }
+    elements.end = e + 1;
     Ok(())
-}
-
-/// Rise of the last node over the first, per distance.
-fn chord_rotation(nodes: &[FaceNode]) -> Terms {
-    let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
-    let mut terms = Terms::new();
-    accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
-    accumulate(&mut terms, &first.vertical, -1.0 / (last.x - first.x));
-    terms
-}
-
-/// (node, weight) of the mean over `element` of the piecewise linear interpolation.
-fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
-    let mut weights = Vec::new();
-    for (k, pair) in nodes.windows(2).enumerate() {
-        let (x0, x1) = (pair[0].x, pair[1].x);
-        // The outermost segments also carry what rounding leaves outside them.
-        let from = if k == 0 { element.left } else { element.left.max(x0) };
-        let to = if k + 2 == nodes.len() { element.right } else { element.right.min(x1) };
-        if to > from {
-            let middle = (0.5 * (from + to) - x0) / (x1 - x0);
-            let share = (to - from) / element.length();
-            weights.push((k, share * (1.0 - middle)));
-            weights.push((k + 1, share * middle));
-        }
-    }
-    weights
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bem::ContactElement;
+    use crate::geometry::PLANE;
     use crate::structure::{ContactNode, on_line};
 
     fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {

@@ -1,6 +1,5 @@
 //! Faces of a base in plan, and the mean of its displacement over a contact element.
 
-use super::transformation::{Terms, accumulate};
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result};
 use crate::geometry::Patch;
@@ -96,6 +95,43 @@ impl<'a> Faces<'a> {
     }
 }
 
+/// The faces of each mat, by their corners: those that touch are of one.
+pub(super) fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
+    let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+    let checked = faces.iter().map(corners).enumerate();
+    let checked: Result<Vec<_>> =
+        checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
+    let owners = Face::mats(&checked?);
+    let count = owners.iter().max().map_or(0, |last| last + 1);
+    let mut mats = vec![Vec::new(); count];
+    faces.iter().zip(owners).for_each(|(face, mat)| mats[mat].push(face.clone()));
+    Ok(mats)
+}
+
+/// The corners of the convex hull of some nodes, counter-clockwise.
+pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> {
+    let mut sorted: Vec<Point> = nodes.map(|node| [node.x, node.y]).collect();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut hull: Vec<Point> = Vec::new();
+    // From left to right below, and back above.
+    let mut half = |points: &mut dyn Iterator<Item = &Point>| {
+        let first = hull.len();
+        for point in points {
+            while let [.., a, b] = hull[first..] {
+                if side([a, b], *point) > 0.0 {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(*point);
+        }
+        hull.pop();
+    };
+    half(&mut sorted.iter());
+    half(&mut sorted.iter().rev());
+    hull
+}
+
 fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -148,27 +184,6 @@ fn shares(corners: &[Point], p: Point) -> Option<Vec<f64>> {
         }
     }
     None
-}
-
-/// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and turn
-/// about the vertical.
-pub(super) fn mean_rotations(nodes: &[FaceNode]) -> [Terms; 3] {
-    let count = nodes.len() as f64;
-    let mean = |of: &dyn Fn(&FaceNode) -> f64| nodes.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(&|node| node.x), mean(&|node| node.y));
-    let product = |one: fn([f64; 2]) -> f64| mean(&|node| one([node.x - x, node.y - y]));
-    let (xx, xy, yy) =
-        (product(|d| d[0] * d[0]), product(|d| d[0] * d[1]), product(|d| d[1] * d[1]));
-    let (scale, polar) = (count * (xx * yy - xy * xy), count * (xx + yy));
-    let mut rotations = [(); 3].map(|()| Terms::new());
-    for node in nodes {
-        let [dx, dy] = [node.x - x, node.y - y];
-        accumulate(&mut rotations[0], &node.vertical, (yy * dx - xy * dy) / scale);
-        accumulate(&mut rotations[1], &node.vertical, (xx * dy - xy * dx) / scale);
-        accumulate(&mut rotations[2], &node.across, dx / polar);
-        accumulate(&mut rotations[2], &node.horizontal, -dy / polar);
-    }
-    rotations
 }
 
 #[cfg(test)]

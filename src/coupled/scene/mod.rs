@@ -1,8 +1,9 @@
 //! A scene: all that does not change while a simulation runs.
 
 pub(crate) mod base;
-mod faces;
+pub(crate) mod faces;
 pub(crate) mod influence;
+mod line;
 pub(crate) mod operators;
 pub(crate) mod transformation;
 
@@ -15,7 +16,7 @@ use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
-use crate::geometry::{ContactLayout, Patch};
+use crate::geometry::{ContactLayout, Patch, far_ends};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
@@ -77,21 +78,30 @@ impl ProbeRows {
     }
 }
 
-/// The middle of each foundation's elements, by their midpoints `arms`: between the ends of the first and the last in
-/// the plane, and of the farthest in plan.
-fn foundation_arms(base: &Base, elements: &Patch, arms: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let middle = |(_, own): (_, Range<usize>)| {
-        [0, 1].map(|axis| {
-            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-            for e in own.clone() {
-                let half = 0.5 * elements.sides(e)[axis];
-                least = least.min(arms[e][axis] - half);
-                most = most.max(arms[e][axis] + half);
-            }
-            0.5 * (least + most)
-        })
+/// The middle of each foundation from the point `[x, y]` of the base moment: between the ends of its first and last
+/// element in the plane, whose midpoints from there are `arms`, and of its outline in plan.
+fn foundation_arms(
+    base: &Base,
+    elements: &Patch,
+    center: [f64; 2],
+    arms: &[[f64; 2]],
+) -> Vec<[f64; 2]> {
+    let middle = |[least, most]: [f64; 2]| 0.5 * (least + most);
+    let of_elements = |own: Range<usize>, axis: usize| {
+        middle(far_ends(own.map(|e| {
+            let half = 0.5 * elements.sides(e)[axis];
+            [arms[e][axis] - half, arms[e][axis] + half]
+        })))
     };
-    base.foundations().map(middle).collect()
+    let of_outline = |corners: &[[f64; 2]], axis: usize| {
+        middle(far_ends(corners.iter().map(|corner| [corner[axis]; 2]))) - center[axis]
+    };
+    let both = base.foundations().zip(base.outlines());
+    both.map(|((_, own), corners)| match corners {
+        [] => [0, 1].map(|axis| of_elements(own.clone(), axis)),
+        _ => [0, 1].map(|axis| of_outline(corners, axis)),
+    })
+    .collect()
 }
 
 impl Scene {
@@ -133,7 +143,7 @@ impl Scene {
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows: given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
             probes: std::mem::take(&mut given.probes),
-            foundation_arms: foundation_arms(&base, &elements, &arms),
+            foundation_arms: foundation_arms(&base, &elements, [x, y], &arms),
             arms,
             elements,
             model,

@@ -1,29 +1,29 @@
 //! Several structures on one ground.
 
 use crate::error::{CheckpointError, Error, Result, finite};
+use crate::geometry::far_ends;
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
 use crate::structure::{
-    ContactNode, DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets,
+    ContactNode, DofCombination, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
 };
 
 /// A structure of the group and where it stands.
 struct Member {
     structure: Box<dyn Structure>,
-    /// Added to the coordinates of its contact nodes, m.
+    /// Added to the coordinates x of its contact nodes, m.
     shift: f64,
     first_dof: usize,
     dofs: usize,
-    /// Coordinates of its contact nodes in the group, left and right, and their number.
-    span: [f64; 2],
+    /// Number of its contact nodes in the plane; none of a structure in plan.
     nodes: usize,
 }
 
 /// Structures side by side, each on foundations of its own, that feel each other through the soil.
 ///
 /// To the simulation they are one structure with several foundations; the ground needs a strip
-/// under each. [`State::foundations`](crate::coupled::State::foundations) has forces and motions of
+/// under each, or in plan a mat. [`State::foundations`](crate::coupled::State::foundations) has forces and motions of
 /// each by itself.
 ///
 /// ```
@@ -52,6 +52,19 @@ struct Member {
 /// assert!(run.energy_error < 1e-9 && high.base_rotation != low.base_rotation);
 /// # Ok::<(), basemat::Error>(())
 /// ```
+///
+/// In plan bodies stand anywhere, with an empty cell of the ground between them at least:
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::structure::{RigidBody, Structure, StructureGroup};
+///
+/// let tank = RigidBody::cylinder(4.0, 6.0, 1000.0)?;
+/// let pump = RigidBody::cuboid([3.0, 2.0, 2.0], 2400.0)?.centered_at([2.0, 7.0])?;
+/// let group = StructureGroup::new().with(tank, 0.0)?.with(pump, 0.0)?;
+/// assert_eq!((group.dofs(), group.contact_faces().len()), (12, 2));
+/// let ground = SpringGround::under(&group, 12, 4e7, 3e7)?;
+/// # Ok::<(), basemat::Error>(())
+/// ```
 #[derive(Default)]
 pub struct StructureGroup {
     members: Vec<Member>,
@@ -65,41 +78,58 @@ impl StructureGroup {
         Self::default()
     }
 
-    /// Adds `structure`, moved to the right by `shift` (m), to the right of all members so far.
+    /// Adds `structure`, moved to the right by `shift` (m): in the plane to the right of all members so far, in plan
+    /// anywhere beside them (its place along y is its own, see
+    /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at)).
     ///
     /// # Errors
     /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the
-    /// one before ends; [`Error::Size`] for a structure without contact nodes, [`Error::Scene`] for one
-    /// with faces.
+    /// one before ends; [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a structure
+    /// in plan among those of the plane, or one among those in plan, and for a base that touches another in plan.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
-        if !structure.contact_faces().is_empty() {
-            let needed = "must have a base of contact nodes in the plane, not of faces in plan";
-            return Err(Error::Scene { quantity: "structure of a group", needed });
+        let (nodes, faces) = (structure.contact_nodes(), structure.contact_faces());
+        let refuse = |needed| Err(Error::Scene { quantity: "structure of a group", needed });
+        if self.members.first().is_some_and(|first| (first.nodes == 0) == faces.is_empty()) {
+            return refuse("must be one in the plane as the others are, or in plan as they are");
         }
-        let nodes = structure.contact_nodes();
-        let (Some(left), Some(right)) = (nodes.first(), nodes.last()) else {
-            let quantity = "list of contact nodes";
-            return Err(Error::Size { quantity, found: 0, needed: 2 });
-        };
-        let span = [left.x + shift, right.x + shift];
-        let end = self.members.last().map_or(f64::NEG_INFINITY, |before| before.span[1]);
-        if span[0].partial_cmp(&end) != Some(std::cmp::Ordering::Greater) {
-            return Err(Error::Input {
-                quantity: "left end of the base of a structure",
-                value: span[0],
-                needed: "to the right of the structure before it",
-            });
+        if faces.is_empty() {
+            self.check_order(&nodes, shift)?;
+        } else if !nodes.is_empty() {
+            return refuse("must have a base of contact nodes or of faces, not both");
         }
-        self.members.push(Member {
+        let member = Member {
             shift,
             first_dof: self.dofs(),
             dofs: structure.dofs(),
-            span,
             nodes: nodes.len(),
             structure: Box::new(structure),
-        });
+        };
+        let others = self.contact_faces();
+        let touches = |face: &Vec<FaceNode>| others.iter().any(|other| !are_apart(face, other));
+        if member.faces().iter().any(touches) {
+            return refuse("must have a base apart from those before it: these touch or overlap");
+        }
+        self.members.push(member);
         Ok(self)
+    }
+
+    /// Error for a base in the plane without nodes, or not to the right of all others.
+    fn check_order(&self, nodes: &[ContactNode], shift: f64) -> Result<()> {
+        let Some(left) = nodes.first() else {
+            let quantity = "list of contact nodes";
+            return Err(Error::Size { quantity, found: 0, needed: 2 });
+        };
+        let value = left.x + shift;
+        let end = self.contact_nodes().last().map_or(f64::NEG_INFINITY, |last| last.x);
+        if value.partial_cmp(&end) == Some(std::cmp::Ordering::Greater) {
+            return Ok(());
+        }
+        Err(Error::Input {
+            quantity: "left end of the base of a structure",
+            value,
+            needed: "to the right of the structure before it",
+        })
     }
 
     /// Number of structures.
@@ -152,6 +182,40 @@ impl Member {
     fn range(&self) -> std::ops::Range<usize> {
         self.first_dof..self.first_dof.saturating_add(self.dofs)
     }
+
+    /// A row of the member in degrees of freedom of the group. An index that is no degree of freedom of the member must
+    /// not be one of the group.
+    fn moved(&self, row: &DofCombination) -> DofCombination {
+        let own = |index: usize| index < self.dofs;
+        row.map_dofs(|k| if own(k) { k.saturating_add(self.first_dof) } else { usize::MAX })
+    }
+
+    /// Its faces in the group.
+    fn faces(&self) -> Vec<Vec<FaceNode>> {
+        let mut faces = self.structure.contact_faces();
+        for node in faces.iter_mut().flatten() {
+            node.x += self.shift;
+            for row in [&mut node.horizontal, &mut node.across, &mut node.vertical] {
+                *row = self.moved(row);
+            }
+        }
+        faces
+    }
+}
+
+/// Whether there is a gap between two convex polygons: a direction in which one ends before the other begins.
+fn are_apart(one: &[FaceNode], other: &[FaceNode]) -> bool {
+    let separates = |a: &FaceNode, b: &FaceNode| {
+        let [dx, dy] = [b.y - a.y, a.x - b.x];
+        let range = |face: &[FaceNode]| far_ends(face.iter().map(|p| [dx * p.x + dy * p.y; 2]));
+        let ([low, high], [least, most]) = (range(one), range(other));
+        high < least || most < low
+    };
+    let edges = |face: &[FaceNode]| {
+        let next = face.iter().cycle().skip(1);
+        face.iter().zip(next).any(|(a, b)| separates(a, b))
+    };
+    edges(one) || edges(other)
 }
 
 impl Structure for StructureGroup {
@@ -164,22 +228,22 @@ impl Structure for StructureGroup {
         for member in &self.members {
             for mut node in member.structure.contact_nodes() {
                 node.x += member.shift;
-                // An index that is no degree of freedom of the member must not be one of the group.
-                let place = |index: usize| {
-                    let own = index < member.dofs;
-                    if own { index.saturating_add(member.first_dof) } else { usize::MAX }
-                };
-                node.horizontal = node.horizontal.map_dofs(place);
-                node.vertical = node.vertical.map_dofs(place);
+                node.horizontal = member.moved(&node.horizontal);
+                node.vertical = member.moved(&node.vertical);
                 all.push(node);
             }
         }
         all
     }
 
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.members.iter().flat_map(Member::faces).collect()
+    }
+
     fn foundation_ends(&self) -> Vec<usize> {
         let (mut ends, mut nodes) = (Vec::new(), 0);
-        for member in &self.members {
+        // In plan foundations are told by their faces.
+        for member in self.members.iter().filter(|member| member.nodes > 0) {
             let own = member.structure.foundation_ends();
             ends.extend(own.iter().map(|end| end.saturating_add(nodes)));
             nodes += member.nodes;

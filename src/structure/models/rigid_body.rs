@@ -131,6 +131,12 @@ impl RigidBody {
         Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
     }
 
+    /// The point of the degrees of freedom on the surface, m.
+    #[cfg(any(feature = "io", feature = "plot"))]
+    pub(crate) fn center(&self) -> [f64; 2] {
+        self.center
+    }
+
     /// Mass, kg.
     pub fn total_mass(&self) -> f64 {
         self.mass

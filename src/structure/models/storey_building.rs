@@ -156,6 +156,18 @@ impl StoreyBuilding {
         Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
     }
 
+    /// Heights of the storeys, m.
+    #[cfg(any(feature = "io", feature = "plot"))]
+    pub(crate) fn heights(&self) -> impl Iterator<Item = f64> {
+        self.storeys.iter().map(|storey| storey.height)
+    }
+
+    /// Middle of the mat's base, m.
+    #[cfg(any(feature = "io", feature = "plot"))]
+    pub(crate) fn center(&self) -> [f64; 2] {
+        self.mat.center()
+    }
+
     /// Mass of mat and floors, kg.
     pub fn total_mass(&self) -> f64 {
         self.mat.total_mass() + self.storeys.iter().map(|storey| storey.mass).sum::<f64>()

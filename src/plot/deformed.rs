@@ -1,0 +1,206 @@
+//! The structure at some instants, and the views in which it is drawn.
+
+use std::ops::Range;
+
+use super::axes::{Axis, LEFT, RIGHT, chart, draw_curve, drawable};
+use super::drawing::{Area, Drawing, Key, Sample, Stroke, short};
+use super::svg::{Sheet, Svg};
+use crate::error::{Error, Result, finite, positive};
+use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
+use plotters::prelude::*;
+use plotters::style::RGBColor;
+
+/// Directions in which a structure is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum View {
+    /// Along y: x to the right, up.
+    AlongY,
+    /// Against x: y to the right, up.
+    AlongX,
+    /// From the front, the right and above: x falls and y rises to the right by 30 degrees, all at one scale (isometric).
+    Slanted,
+}
+
+impl View {
+    /// Where a point (x, height, y) is seen, m.
+    pub(super) fn of(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
+        match self {
+            Self::AlongY => [x, up],
+            Self::AlongX => [y, up],
+            Self::Slanted => [(x + y) * COS, up + (y - x) * SIN],
+        }
+    }
+
+    /// All points.
+    pub(super) fn all(self, places: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        places.iter().map(|place| self.of(*place)).collect()
+    }
+}
+
+/// Of 30 degrees.
+const COS: f64 = 0.866_025_403_784_438_6;
+const SIN: f64 = 0.5;
+
+/// Error for a shape of the plane on a ground in plan, or the other way round.
+pub(super) fn check_dimension(shape: &DeformedShape, histories: &TimeSeries) -> Result<()> {
+    if shape.in_plan() == histories.in_plan() {
+        return Ok(());
+    }
+    let needed = "must be one in plan on a ground in plan, and one of the plane else";
+    Err(Error::Scene { quantity: "deformed shape", needed })
+}
+
+/// Places of the points (x, height, y), m: displacements relative to the free field, magnified.
+pub(super) fn places(
+    shape: &DeformedShape,
+    frame: &MotionFrame<'_>,
+    magnification: f64,
+) -> Result<Vec<[f64; 3]>> {
+    let moved = shape.displacements(frame.displacement)?;
+    let place = |(point, u): (&ShapePoint, [f64; 3])| {
+        let at_rest = at_rest(point);
+        [0, 1, 2].map(|k| at_rest[k] + magnification * u[k])
+    };
+    let places: Vec<[f64; 3]> = shape.points().iter().zip(moved).map(place).collect();
+    match places.iter().flatten().find(|value| !drawable(**value)) {
+        None => Ok(places),
+        Some(&value) => {
+            let (quantity, needed) = ("magnified coordinate", "below 1e60 m");
+            Err(Error::Input { quantity, value, needed })
+        }
+    }
+}
+
+fn at_rest(point: &ShapePoint) -> [f64; 3] {
+    let [x, height] = point.position;
+    [x, height, point.away]
+}
+
+/// The soil below its surface, which is y = 0, and the surface itself.
+pub(super) const SOIL: RGBColor = RGBColor(238, 229, 214);
+pub(super) const SURFACE: RGBColor = RGBColor(125, 98, 62);
+
+/// Least and largest coordinates [x, y].
+pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for place in places {
+        for k in 0..2 {
+            bounds[0][k] = bounds[0][k].min(place[k]);
+            bounds[1][k] = bounds[1][k].max(place[k]);
+        }
+    }
+    bounds
+}
+
+/// Outlines of a deformed shape's cells at these places, end to end, broken by NaN.
+fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    for cell in shape.cells() {
+        let corners = DeformedShape::corners(cell);
+        points.extend(corners.iter().map(|&k| (places[k][0], places[k][1])));
+        if corners.len() > 2 {
+            points.push((places[corners[0]][0], places[corners[0]][1]));
+        }
+        points.push((f64::NAN, f64::NAN));
+    }
+    points
+}
+
+/// The structure at rest and at the kept instants nearest to `times` (s), displacements relative to
+/// the ground and times `magnification`, at one scale in both directions. In plan it is seen along y at the left and
+/// against x at the right.
+///
+/// # Errors
+/// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]), [`Error::Size`]
+/// without times, [`Error::Input`] unless times are finite and the magnification positive,
+/// [`Error::Index`] if `shape` belongs to another structure, [`Error::Scene`] if to one of another dimension.
+pub fn deformed_shapes(
+    title: &str,
+    shape: &DeformedShape,
+    histories: &TimeSeries,
+    times: &[f64],
+    magnification: f64,
+) -> Result<Svg> {
+    positive("magnification", magnification)?;
+    if times.is_empty() {
+        return Err(Error::Size { quantity: "times of deformed shapes", found: 0, needed: 1 });
+    }
+    check_dimension(shape, histories)?;
+    let rest: Vec<[f64; 3]> = shape.points().iter().map(at_rest).collect();
+    let mut drawn = vec![("at rest".to_owned(), rest)];
+    for &time in times {
+        finite("time of a deformed shape", time)?;
+        let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
+        let nearest = histories.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let frame = nearest.ok_or(Error::Scene {
+            quantity: "deformed shape",
+            needed: "tell the recorder to keep the motion",
+        })?;
+        let name = format!("t = {:.2} s", frame.time);
+        drawn.push((name, places(shape, &frame, magnification)?));
+    }
+    let stroke = |k: usize| match k.checked_sub(1) {
+        None => Stroke::plain(RGBColor(170, 170, 170)),
+        Some(k) => Stroke::nth(k),
+    };
+    let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
+    let scale = format!("displacements × {}", short(magnification));
+    let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
+    let sheet = Sheet::new(title, Key::of(lines.chain(rest)));
+    let elevation = |view: View, room: [f64; 2]| {
+        let seen: Vec<Vec<[f64; 2]>> = drawn.iter().map(|(_, places)| view.all(places)).collect();
+        let mut all = seen.concat();
+        all.push([all[0][0], 0.0]);
+        (view, ranges(bounds(&all), room), seen)
+    };
+    let draw = |area: &Area<'_>, (view, [x, y], seen): &Elevation| -> Drawing<()> {
+        let name = if *view == View::AlongX { "y, m" } else { "x, m" };
+        let height = if histories.in_plan() { "z, m" } else { "y, m" };
+        let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
+        let mut chart = chart(area, &axes.0, &axes.1, false)?;
+        let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
+        chart.draw_series([soil])?;
+        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
+        for (k, places) in seen.iter().enumerate() {
+            draw_curve(&mut chart, &outlines(shape, places), stroke(k), 1)?;
+        }
+        Ok(())
+    };
+    if !histories.in_plan() {
+        let one = elevation(View::AlongY, sheet.room());
+        return sheet.picture(|area| draw(area, &one));
+    }
+    let [width, height] = sheet.room();
+    let axes = f64::from(LEFT + RIGHT);
+    // Both at one scale: of the wider of the two.
+    let room = [0.5 * (width - axes), height];
+    let mut both = [View::AlongY, View::AlongX].map(|view| elevation(view, room));
+    let span = |own: &Elevation| own.1[0].end - own.1[0].start;
+    let widest = span(&both[0]).max(span(&both[1]));
+    for own in &mut both {
+        let ratio = widest / span(own);
+        own.1 = own.1.clone().map(|range| {
+            let (middle, half) =
+                (0.5 * (range.start + range.end), 0.5 * ratio * (range.end - range.start));
+            middle - half..middle + half
+        });
+    }
+    sheet.picture(|area| {
+        let (left, right) = area.split_horizontally((50).percent_width());
+        draw(&left, &both[0])?;
+        draw(&right, &both[1])
+    })
+}
+
+/// A view, ranges of its axes, and the places of all points in it at every instant.
+type Elevation = (View, [Range<f64>; 2], Vec<Vec<[f64; 2]>>);
+
+/// Ranges of both axes at one scale, in a room of [width, height] pixels.
+fn ranges([low, high]: [[f64; 2]; 2], [width, height]: [f64; 2]) -> [std::ops::Range<f64>; 2] {
+    let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6) * 1.1);
+    let scale = (span[0] / width).max(span[1] / height);
+    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+    let half = [0.5 * scale * width, 0.5 * scale * height];
+    let range = |k: usize| middle[k] - half[k]..middle[k] + half[k];
+    [range(0), range(1)]
+}

@@ -1,0 +1,117 @@
+//! Motions of a structure's base, and displacements relative to them.
+
+use super::{DofCombination, FaceNode, Structure, check_base_nodes};
+use crate::error::{Error, Result, finite, positive};
+use crate::geometry::far_ends;
+
+impl DofCombination {
+    /// This displacement to the right less that of the base's middle: what an observer on the base
+    /// sees, its rotation left in. The base's slip on the ground is taken out, too.
+    ///
+    /// The base is that of `structure`, from its first contact node to its last; the row must be one
+    /// of its degrees of freedom. In a group that is a member, before
+    /// [`StructureGroup::row`](super::StructureGroup::row) moves the row. In plan this is for a displacement along x; from
+    /// one along y the second of [`DofCombination::of_base`] is to be taken.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for
+    /// contact nodes at one place.
+    pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
+        let [translation, _, _] = Self::of_base(structure, [0.0; 3])?;
+        Ok(self.clone() - translation)
+    }
+
+    /// The displacement to the right of a point `height` (m) above the base less the rigid motion of
+    /// the base there, translation and rotation: how far the structure has bent. In plan this is for a displacement along x
+    /// of a point above the middle of the base; of others, and along y, [`DofCombination::of_base`] has the rigid motion.
+    ///
+    /// ```
+    /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
+    ///
+    /// // Nothing bends in a rigid block.
+    /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
+    /// let sway = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
+    /// assert!(sway.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
+    ///
+    /// // A roof at 6 m that has moved by 0.1 m, on a base that has moved by 0.02 m and turned by
+    /// // 0.01 to the left.
+    /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 40.0e6); 2])?;
+    /// let roof = DofCombination::from(building.roof());
+    /// let moved = [0.02, 0.0, 0.01, 0.0, 0.1];
+    /// assert!((roof.relative_to_base(&building)?.value(&moved) - 0.08).abs() < 1e-15);
+    /// assert!((roof.total_drift(&building, 6.0)?.value(&moved) - 0.14).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for a
+    /// height that is not finite or contact nodes at one place.
+    pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
+        let [carried, _, _] = Self::of_base(structure, [0.0, 0.0, height])?;
+        Ok(self.clone() - carried)
+    }
+
+    /// Displacements along x, along y and up of a point that the base carries with it as if it were rigid, at `place`
+    /// `[x, y, height]` (m) from the middle of the base: what an observer on the base does not see. In the plane nothing
+    /// moves along y, and y is of no account.
+    ///
+    /// ```
+    /// use basemat::structure::{DofCombination, PlanStorey, RigidBody, StoreyBuilding};
+    ///
+    /// let mat = RigidBody::cuboid([18.0, 12.0, 1.0], 2500.0)?;
+    /// let storey = PlanStorey::new(3.2, 250.0e3, [18.0, 12.0], [4.0e8, 3.0e8, 2.0e10]);
+    /// let tower = StoreyBuilding::new(mat, &[storey; 5])?;
+    /// // Along y, a corner of the roof relative to the mat, and how far the storeys have bent there.
+    /// let [_, corner, _] = tower.floor(4, [9.0, 6.0])?;
+    /// let [_, base, _] = DofCombination::of_base(&tower, [0.0; 3])?;
+    /// let [_, carried, _] = DofCombination::of_base(&tower, [9.0, 6.0, 16.0])?;
+    /// let tilt = [0.0, 0.0, 0.0, 0.01, 0.0, 0.0];
+    /// assert!(((corner.clone() - base).value(&tilt)).abs() < 1e-15);
+    /// assert!(((corner - carried).value(&tilt) - 0.16).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`] for a
+    /// place that is not finite, or contact nodes at one place or in plan on one line.
+    pub fn of_base(structure: &dyn Structure, place: [f64; 3]) -> Result<[Self; 3]> {
+        let [x, y, height] = place;
+        finite("height above the base", height)?;
+        finite("place from the middle of the base", x)?;
+        finite("place from the middle of the base", y)?;
+        let nodes = structure.contact_faces().concat();
+        if nodes.is_empty() {
+            let [translation, rotation, rise] = base_motion(structure)?;
+            let up = if x == 0.0 { rise } else { rise + x * rotation.clone() };
+            return Ok([translation - height * rotation, Self::default(), up]);
+        }
+        check_base_nodes(&nodes, structure.dofs())?;
+        let ends = |of: fn(&FaceNode) -> f64| far_ends(nodes.iter().map(|node| [of(node); 2]));
+        let [along, across] = [ends(|node| node.x), ends(|node| node.y)];
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        let carried = FaceNode::carried(&nodes, [middle(along) + x, middle(across) + y], height);
+        let weights = carried.iter().flatten().map(|(_, weight)| *weight);
+        match weights.into_iter().find(|weight| !weight.is_finite()) {
+            None => Ok(carried),
+            Some(value) => {
+                let (quantity, needed) =
+                    ("rotation of the base", "corners that are not on one line");
+                Err(Error::Input { quantity, value, needed })
+            }
+        }
+    }
+}
+
+/// Displacement to the right of the base's middle, rotation of its chord, and displacement of the middle upwards.
+fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 3]> {
+    let nodes = structure.contact_nodes();
+    let [left, .., right] = &nodes[..] else {
+        let (found, needed) = (nodes.len(), 2);
+        return Err(Error::Size { quantity: "contact nodes", found, needed });
+    };
+    let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
+    let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();
+    let rotation = per_width * (right.vertical.clone() - left.vertical.clone());
+    let rise = 0.5 * left.vertical.clone() + 0.5 * right.vertical.clone();
+    Ok([translation, rotation, rise])
+}
