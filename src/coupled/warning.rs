@@ -106,7 +106,7 @@ pub enum Warning {
         cells: usize,
     },
     /// In plan, steps were solved with less friction than the law's, infinite or above 100, where something slid: shear there
-    /// is taken as that times the pressure. Counted since the simulation was built.
+    /// is taken as that times the pressure. Counted since the simulation was built, its static state as one.
     LessFriction {
         /// Number of such steps.
         steps: usize,

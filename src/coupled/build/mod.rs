@@ -271,6 +271,9 @@ impl SimulationBuilder {
         let uncovered = scene.base.uncovered(ground.elements());
         let period = assembled.period_on_fixed_base(&mut held);
         let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
+        if let Some(taken) = scene.static_state.stand_in {
+            Warning::count_friction(&mut warnings, taken);
+        }
         let sample = ground.sampled_cells();
         warnings
             .extend(sample.map(|[checked, cells]| Warning::SampledPassivity { checked, cells }));
