@@ -1,5 +1,5 @@
 //! Random scenes that lift off and slide: the energy balance closes and nothing gives back what it has taken.
-//! `SPACE_SCENES=1000` draws so many.
+//! `SPACE_SCENES=1000` draws so many, `SPACE_FIRST=40` from that one on.
 
 use basemat::bem::ElasticGround;
 use basemat::bem::plan::Plan;
@@ -116,18 +116,18 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
 
 #[test]
 fn energies_of_random_scenes_close() {
-    let scenes = std::env::var("SPACE_SCENES").map_or(SCENES, |number| number.parse().unwrap());
-    let mut random = Random(29);
+    let number = |name, usual| std::env::var(name).map_or(usual, |text| text.parse().unwrap());
+    let (first, scenes) = (number("SPACE_FIRST", 0), number("SPACE_SCENES", SCENES));
     let (mut opened, mut slid, mut unsolved) = (0, 0, 0);
     let (mut residual, mut least, mut steps, mut trials, mut most) = (0.0_f64, 0.0_f64, 0, 0, 0);
     let mut lessened = 0;
-    for number in 0..scenes {
+    for number in first..first + scenes {
         if number % 50 == 0 {
             println!(
                 "{number}: {steps} steps, {unsolved} unsolved, energy error {residual:.1e}, friction work {least:.1e}"
             );
         }
-        let mut simulation = match scene(&mut random) {
+        let mut simulation = match scene(&mut Random(29 + number as u64)) {
             Ok(simulation) => simulation,
             // What cannot stand under its load at t = 0.
             Err(error @ (Error::Preload { .. } | Error::Stability(_))) => {
@@ -159,14 +159,14 @@ fn energies_of_random_scenes_close() {
             };
             let energy = &state.energy_balance;
             assert!(energy.residual() < 1e-9, "{number}: {energy}");
-            assert!(energy.soil > -1e-9 * energy.largest, "{number}: {energy}");
+            assert!(energy.soil >= -1e-9 * energy.largest, "{number}: {energy}");
             for ((own, last), area) in state.contact.iter().zip(&before).zip(&areas) {
                 let along = own.shear * (own.slip - last.slip);
                 let across = own.shear_across * (own.slip_across - last.slip_across);
                 // A layer gives back what it has stored.
                 if energy.interface == 0.0 {
                     let work = area * (along + across);
-                    assert!(work > -1e-10 * energy.largest, "{number}: {work:e}");
+                    assert!(work >= -1e-10 * energy.largest, "{number}: {work:e}");
                     least = least.min(work / energy.largest);
                 }
             }

@@ -11,7 +11,7 @@ const SWEEPS: usize = 60;
 const ROUNDS: usize = 12;
 /// Greatest friction of a step that is not solved with more, nor with what stands for an endless one.
 const GRIP: f64 = 100.0;
-/// Attempts of Newton's method with parts of steps: alone, with what stands for an endless friction, and within the proximal method.
+/// Attempts of Newton's method with parts of steps: alone, towards more friction, and within the proximal method.
 const ATTEMPTS: u64 = 60;
 const SOME_ATTEMPTS: u64 = 12;
 const FEW_ATTEMPTS: u64 = 4;
@@ -48,7 +48,7 @@ pub(super) fn search(
         if found.is_some() {
             all += let_go(problem, newton, start, greatest);
             if problem.bounds[0].grip >= GRIP {
-                return (all, Some(SearchMethod::Newton));
+                return (all, found.max(Some(SearchMethod::Newton)));
             }
         }
     }
