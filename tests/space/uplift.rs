@@ -247,5 +247,5 @@ fn what_memory_forgets_is_in_the_energy_balance() {
     let (apart, bound) = ((whole.soil - ended.soil).abs(), ended.soil_error_bound);
     println!("{apart:e} of {bound:e}, {}", whole.soil);
     assert_eq!(whole.soil_error_bound, 0.0);
-    assert!(0.0 < apart && apart < bound && bound < 0.3 * whole.soil, "{apart:e} {bound:e}");
+    assert!(0.0 < apart && apart < bound && bound < 0.5 * whole.soil, "{apart:e} {bound:e}");
 }
