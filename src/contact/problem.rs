@@ -151,6 +151,8 @@ pub(crate) struct ContactSolver {
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
     jump: Vec<f64>,
+    /// Friction that was taken in place of a greater one where something slides, if any was.
+    pub(crate) stand_in: Option<f64>,
     /// A law that returned a number that is not finite since this was taken last.
     pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
@@ -177,6 +179,7 @@ impl ContactSolver {
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
             jump: vec![0.0; size],
+            stand_in: None,
             fault: None,
             factorings: 0,
             generation: 0,

@@ -38,7 +38,7 @@ pub struct Simulation {
     pub(super) books: Option<EnergyAccumulator>,
     pub(super) state: State,
     pub(super) conditioning: Conditioning,
-    /// Those that the scene calls for before its first step.
+    /// Those that the scene calls for before its first step, and steps since have.
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -62,7 +62,10 @@ impl Simulation {
         let time = step as f64 * self.scene.time_step;
         self.solve(time).map_err(|source| Error::Step { step, time, source })?;
         // From here on nothing fails.
-        let Self { scene, structure, ground, forcing, increment, state, .. } = self;
+        let Self { scene, structure, ground, forcing, increment, state, warnings, .. } = self;
+        if let Some(taken) = increment.stand_in {
+            Warning::count_friction(warnings, taken);
+        }
         if let Some(books) = &mut self.books {
             books.book(scene, structure.as_ref(), ground.as_ref(), state, forcing, increment);
             state.energy_balance = books.energy_balance;

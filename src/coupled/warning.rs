@@ -114,6 +114,14 @@ pub enum Warning {
         /// All cells.
         cells: usize,
     },
+    /// In plan, steps were solved with less friction than the law's, infinite or above 100, where something slid: shear there
+    /// is taken as that times the pressure. Counted since the simulation was built, its static state as one.
+    LessFriction {
+        /// Number of such steps.
+        steps: usize,
+        /// Least coefficient that was taken.
+        friction: f64,
+    },
     /// A soil unlike any: a number in another unit, unless the model is not to scale.
     UnusualSoil {
         /// Speed of its shear waves, m/s.
@@ -198,6 +206,17 @@ impl Warning {
             !(within(Self::SOIL_SPEEDS, *speed) && within(Self::SOIL_DENSITIES, *density))
         });
         unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
+    }
+
+    /// Counts a step that was solved with the friction `taken` in place of a greater one.
+    pub(crate) fn count_friction(warnings: &mut Vec<Self>, taken: f64) {
+        for warning in &mut *warnings {
+            if let Self::LessFriction { steps, friction } = warning {
+                (*steps, *friction) = (*steps + 1, friction.min(taken));
+                return;
+            }
+        }
+        warnings.push(Self::LessFriction { steps: 1, friction: taken });
     }
 
     /// Those that largest slip, mean element length, largest rotation, the last energy balance and the least
@@ -288,6 +307,10 @@ impl fmt::Display for Warning {
             Self::SampledPassivity { checked, cells } => {
                 write!(f, "passivity of the ground checked on {checked} of {cells} cells")
             }
+            Self::LessFriction { steps, friction } => write!(
+                f,
+                "steps solved with friction {friction:.0} in place of more: {steps}; shear is too small there"
+            ),
             Self::UnusualSoil { shear_wave_speed, density } => write!(
                 f,
                 "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",

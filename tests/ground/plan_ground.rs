@@ -12,7 +12,8 @@ use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
 use basemat::{Error, LayeredError, Soil};
 use basemat_problems::dense::solve;
-use basemat_problems::profiles::{gmb, p1};
+use basemat_problems::passivity::least_work;
+use basemat_problems::profiles::{gmb, p1, p3};
 use basemat_problems::random::Random;
 
 fn half_space() -> SoilProfile {
@@ -108,6 +109,28 @@ fn step_compliance_and_history_add_up_to_statics() {
         solved[..plan.count()].iter().for_each(|traction| sum += area * traction);
         assert!((sum / found.matrix[2][2].re - 1.0).abs() < 1e-8, "{sum} {found:?}");
     }
+}
+
+/// Four grounds under a square and an L, in steps from short to long: tractions that take out all they can get.
+/// `PLAN_STEPS=300` makes so many.
+#[test]
+fn tractions_never_take_energy_from_a_ground_in_plan() {
+    let steps = std::env::var("PLAN_STEPS").map_or(60, |number| number.parse().unwrap());
+    let thin = SoilProfile::on_rigid_base().with_layer(Soil::new(1.0, 0.45, 1.0).unwrap(), 0.4);
+    let mut least = f64::INFINITY;
+    for profile in [half_space(), p1(gmb(5), gmb(1)), p3(gmb(5)), thin.unwrap()] {
+        for plan in [Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap(), l_shape()] {
+            for step in [0.05, 0.3, 1.5] {
+                let mut ground = ElasticGround::in_plan(profile.clone(), plan.clone()).unwrap();
+                ground.prepare(step).unwrap();
+                ground.expect_steps(steps, None).unwrap();
+                let work = least_work(&mut ground, steps, 11);
+                assert!(work >= 0.0, "{work:e} at {step}");
+                least = least.min(work);
+            }
+        }
+    }
+    println!("least work over what the first ten steps gave: {least:e}");
 }
 
 /// With a coarse tolerance memory ends; what is left out is less than the bound says, and more than nothing.

@@ -1,8 +1,9 @@
 //! Random scenes that lift off and slide: the energy balance closes and nothing gives back what it has taken.
+//! `SPACE_SCENES=1000` draws so many, `SPACE_FIRST=40` from that one on.
 
 use basemat::bem::ElasticGround;
 use basemat::bem::plan::Plan;
-use basemat::coupled::{GravityStage, Load};
+use basemat::coupled::{GravityStage, Load, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
 use basemat::motion::FreeField;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -74,12 +75,23 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
         Plan::masked(sides.map(|side| -0.5 * side), pitch, cells, &mask)?
     } else {
         let [x, y] = sides.map(|side| -0.5 * side..0.5 * side);
-        Plan::rectangle(x, y, cells)?
+        let plan = Plan::rectangle(x, y, cells)?;
+        let [columns, rows] = [plan.count() / cells, cells];
+        if columns > 3 && rows > 3 && random.chance(0.3) {
+            // All but the outermost of each column and row as one.
+            let ends = |count: usize| [1, count - 2, 1];
+            plan.with_unions(&ends(columns), &ends(rows))?
+        } else {
+            plan
+        }
     };
     let pitch = plan.pitch()[1];
     let step = pitch * random.log_within(0.05, 10.0);
     let gravity = random.log_within(1e-4, 1e-2);
     let friction = random.log_within(0.02, 10.0);
+    // None at all, some, or endless.
+    let friction = if friction < 0.03 { 0.0 } else { friction };
+    let friction = if random.chance(0.1) { f64::INFINITY } else { friction };
     let pressure = gravity * density * height;
     let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / step.max(0.2));
     let mut strength = || random.within(-2.0, 2.0) * gravity;
@@ -104,10 +116,18 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
 
 #[test]
 fn energies_of_random_scenes_close() {
-    let mut random = Random(29);
+    let number = |name, usual| std::env::var(name).map_or(usual, |text| text.parse().unwrap());
+    let (first, scenes) = (number("SPACE_FIRST", 0), number("SPACE_SCENES", SCENES));
     let (mut opened, mut slid, mut unsolved) = (0, 0, 0);
-    for number in 0..SCENES {
-        let mut simulation = match scene(&mut random) {
+    let (mut residual, mut least, mut steps, mut trials, mut most) = (0.0_f64, 0.0_f64, 0, 0, 0);
+    let mut lessened = 0;
+    for number in first..first + scenes {
+        if number % 50 == 0 {
+            println!(
+                "{number}: {steps} steps, {unsolved} unsolved, energy error {residual:.1e}, friction work {least:.1e}"
+            );
+        }
+        let mut simulation = match scene(&mut Random(29 + number as u64)) {
             Ok(simulation) => simulation,
             // What cannot stand under its load at t = 0.
             Err(error @ (Error::Preload { .. } | Error::Stability(_))) => {
@@ -126,6 +146,7 @@ fn energies_of_random_scenes_close() {
             (0..ground.elements().len()).map(area).collect()
         };
         let mut before = simulation.state().contact.clone();
+        let begun = simulation.begin_run();
         for _ in 0..STEPS {
             let state = match simulation.step() {
                 Ok(state) => state,
@@ -138,22 +159,36 @@ fn energies_of_random_scenes_close() {
             };
             let energy = &state.energy_balance;
             assert!(energy.residual() < 1e-9, "{number}: {energy}");
-            assert!(energy.soil > -1e-9 * energy.largest, "{number}: {energy}");
+            assert!(energy.soil >= -1e-9 * energy.largest, "{number}: {energy}");
             for ((own, last), area) in state.contact.iter().zip(&before).zip(&areas) {
                 let along = own.shear * (own.slip - last.slip);
                 let across = own.shear_across * (own.slip_across - last.slip_across);
                 // A layer gives back what it has stored.
                 if energy.interface == 0.0 {
                     let work = area * (along + across);
-                    assert!(work > -1e-10 * energy.largest, "{number}: {work:e}");
+                    assert!(work >= -1e-10 * energy.largest, "{number}: {work:e}");
+                    least = least.min(work / energy.largest);
                 }
             }
+            residual = residual.max(energy.residual());
+            (steps, trials, most) = (steps + 1, trials + state.trials, most.max(state.trials));
             before.copy_from_slice(&state.contact);
             opened += usize::from(state.modes.contains(&Mode::Open));
             slid += usize::from(state.modes.iter().any(|mode| mode.is_slip()));
         }
+        for warning in simulation.end_run(begun).warnings {
+            if let Warning::LessFriction { steps, .. } = warning {
+                println!("{number}: {warning}");
+                lessened += steps;
+            }
+        }
     }
-    println!("{opened} steps open, {slid} slide, {unsolved} unsolved");
-    assert!(opened > SCENES * STEPS / 5 && slid > SCENES * STEPS / 5, "{opened} {slid}");
-    assert!(unsolved <= SCENES / 20, "{unsolved}");
+    println!(
+        "{scenes} scenes, {steps} steps: {opened} open, {slid} slide, {unsolved} unsolved, \
+         {lessened} with less friction; energy error {residual:.1e}, friction work {least:.1e}, \
+         {:.1} iterations, at most {most}",
+        trials as f64 / f64::from(steps)
+    );
+    assert!(opened > scenes * STEPS / 5 && slid > scenes * STEPS / 5, "{opened} {slid}");
+    assert!(unsolved <= scenes / 20, "{unsolved}");
 }

@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use basemat::bem::layered::Stages;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, SharedKernels};
-use basemat::coupled::Load;
+use basemat::coupled::{Load, Warning};
+use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Coulomb, Mode};
 use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial};
 use basemat::results::Quantity;
@@ -180,14 +181,14 @@ impl FreeField for Sines {
     }
 }
 
-/// Three steps, three masses, three coefficients of friction: W from well conditioned to hardly so.
+/// Three steps, three masses, four coefficients of friction: W from well conditioned to hardly so.
 #[test]
 fn hard_steps_are_solved() {
     let kernels = SharedKernels::default();
-    let mut all = (0, 0);
+    let (mut all, mut endless) = ((0, 0), 0);
     for crossed in [0.4, 1.9, 7.8] {
         for mass in [16.0, 1.0, 0.2] {
-            for friction in [0.3, 1.0, 3.0] {
+            for friction in [0.3, 1.0, 3.0, f64::INFINITY] {
                 let body = RigidBody::cuboid([2.0, 2.0, 4.0], mass / 16.0).unwrap();
                 let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
                 let ground = ElasticGround::under(soil, &body, 8).unwrap();
@@ -210,11 +211,46 @@ fn hard_steps_are_solved() {
                     run.whole.largest_slip.magnitude(),
                 );
                 assert!(run.energy_error < 1e-9, "{}", run.energy_error);
-                all = (all.0 + run.trials, all.1 + run.steps);
+                let less = |warning: &Warning| matches!(warning, Warning::LessFriction { .. });
+                assert!(!run.warnings.iter().any(less), "{:?}", run.warnings);
+                if friction == f64::INFINITY {
+                    endless += run.trials;
+                } else {
+                    all = (all.0 + run.trials, all.1 + run.steps);
+                }
             }
         }
     }
-    assert!(all.0 < 40 * all.1, "{all:?}");
+    println!("{all:?}, {endless}");
+    assert!(all.0 < 40 * all.1 && endless < 100 * all.1, "{all:?} {endless}");
+}
+
+/// Memory that ends changes the soil's work by less than the energy balance says it may.
+#[test]
+fn what_memory_forgets_is_in_the_energy_balance() {
+    let march = |options: HistoryOptions| {
+        let body = RigidBody::cuboid([2.0, 2.0, 4.0], 1.0).unwrap();
+        let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+        let ground = ElasticGround::under(soil, &body, 4).unwrap();
+        let mut simulation = Simulation::builder(0.2)
+            .structure(body)
+            .ground(ground.with_history(options).unwrap())
+            .interface(Coulomb::new(0.5).unwrap())
+            .motion(Sines)
+            .gravity(GRAVITY)
+            .expected_steps(700)
+            .build()
+            .unwrap();
+        let run = simulation.run(700, |_| {}).unwrap();
+        assert!(run.energy_error < 1e-9 && run.whole.uplifted_fraction.magnitude() > 0.1);
+        run.energy_balance
+    };
+    let coarse = HistoryOptions { tolerance: Some(1e-4), ..HistoryOptions::default() };
+    let [whole, ended] = [HistoryMethod::RelaxedFft.into(), coarse].map(march);
+    let (apart, bound) = ((whole.soil - ended.soil).abs(), ended.soil_error_bound);
+    println!("{apart:e} of {bound:e}, {}", whole.soil);
+    assert_eq!(whole.soil_error_bound, 0.0);
+    assert!(0.0 < apart && apart < bound && bound < 0.5 * whole.soil, "{apart:e} {bound:e}");
 }
 
 /// GOAL: weight stands upright, P–Δ or not, and not on the verge of a fall on a corner, which is an equilibrium too.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::coupled::{Load, Warning};
-use basemat::interface::Bonded;
+use basemat::interface::{Bonded, Cohesive};
 use basemat::motion::{Record, Triaxial, el_centro_1940};
 use basemat::results::Run;
 use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};
@@ -164,4 +164,29 @@ fn samples_of_the_passivity_gate_are_told() {
     };
     assert_eq!(build(None), []);
     assert_eq!(build(Some([9, 16])), [Warning::SampledPassivity { checked: 9, cells: 16 }]);
+}
+
+/// Beside a bond, endless friction is a finite one where it slides: that is said, and nowhere else.
+#[test]
+fn friction_that_was_less_is_told() {
+    let shake = |law: Cohesive| {
+        let motion = || Some(el_centro_1940().scaled(2.0).unwrap());
+        let mut simulation = Simulation::builder(4e-3)
+            .structure(RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap())
+            .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
+            .interface(law)
+            .motion(Triaxial { x: motion(), y: motion(), ..Triaxial::default() })
+            .build()
+            .unwrap();
+        simulation.run(600, |_| {}).unwrap()
+    };
+    let bond = |friction| Cohesive::new(1e6, 1.0, friction).unwrap();
+    let [endless, finite] = [f64::INFINITY, 5.0].map(|friction| shake(bond(friction)));
+    println!("{:?} {:?}", endless.warnings, finite.warnings);
+    let found = |run: &Run| {
+        let less = run.warnings.iter().find(|w| matches!(w, Warning::LessFriction { .. }));
+        less.map(ToString::to_string)
+    };
+    assert!(found(&endless).unwrap().contains("friction 10000 "));
+    assert_eq!(found(&finite), None);
 }

@@ -6,6 +6,9 @@
 //! 4. Newton's method from other forces, with parts of its steps.
 //! 5. The proximal point method around all of them.
 //!
+//! Endless friction, and any above 100, is tried by Newton's method alone; then by all of these with less, and let go from
+//! there. A step in which that does not lead to a solution keeps the one with less friction, and a run warns of it.
+//!
 //! W is symmetric and positive definite, so that a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); by small
 //! friction there is one. The shear of a sliding element lies on its disc against the slip of the same solution: its
 //! friction work is never negative.
@@ -16,6 +19,7 @@
 mod newton;
 mod problem;
 mod proximal;
+mod search;
 mod sweeps;
 #[cfg(test)]
 mod tests;
@@ -29,20 +33,8 @@ use crate::linalg::largest;
 use newton::{Newton, Normal, Status, Tangential};
 use problem::{Bounds, Problem};
 use proximal::Proximal;
+use search::search;
 
-/// Most sweeps of a round.
-const SWEEPS: usize = 60;
-/// Rounds of sweeps and Newton's method, alone and within the proximal method.
-const ROUNDS: usize = 12;
-/// Friction coefficient that stands for an infinite one: an element that opens under shear needs a pressure, however
-/// small, until it is open.
-const ENDLESS: f64 = 1e4;
-/// The same in steps that are not solved with it, nor with others above this.
-const GRIP: f64 = 100.0;
-/// Attempts of Newton's method with parts of steps: alone, with endless friction, and within the proximal method.
-const ATTEMPTS: u64 = 60;
-const SOME_ATTEMPTS: u64 = 12;
-const FEW_ATTEMPTS: u64 = 4;
 /// Gap of a bond that is gone, relative to the largest displacement.
 const GONE: f64 = 1e-12;
 
@@ -110,6 +102,7 @@ impl Cone {
             }
             self.name(modes);
         }
+        solver.stand_in = self.stand_in();
         let layout = ContactLayout::new(SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
             let [_, e] = layout.origin(i);
@@ -259,6 +252,13 @@ impl Cone {
         }
     }
 
+    /// Least friction that was taken in place of a greater one where it matters.
+    fn stand_in(&self) -> Option<f64> {
+        let elements = self.newton.statuses.iter().zip(&self.problem.bounds);
+        let taken = elements.filter(|(status, bounds)| status.is_held_by(bounds.friction));
+        taken.map(|(_, bounds)| bounds.taken()).reduce(f64::min)
+    }
+
     fn failure(&mut self, iterations: usize) -> StepError {
         let problem = &mut self.problem;
         let residual = problem.residual();
@@ -268,76 +268,6 @@ impl Cone {
         let scale = problem.largest().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }
     }
-}
-
-/// One method after the other, `start` being scratch: iterations, and the last that was needed.
-fn search(
-    problem: &mut Problem,
-    newton: &mut Newton,
-    proximal: &mut Proximal,
-    start: &mut [f64],
-) -> (usize, Option<SearchMethod>) {
-    start.copy_from_slice(&problem.change);
-    let (mut all, found) = rounds(problem, newton);
-    if found.is_some() {
-        return (all, found);
-    }
-    if problem.bounds.iter().any(|bounds| bounds.friction > GRIP) {
-        let (iterations, found) = newton.wander(problem, start, SOME_ATTEMPTS);
-        all += iterations;
-        if found {
-            return (all, Some(SearchMethod::Newton));
-        }
-        problem.bounds.iter_mut().for_each(|bounds| bounds.friction = bounds.friction.min(GRIP));
-        problem.change.copy_from_slice(start);
-        let (iterations, found) = rounds(problem, newton);
-        all += iterations;
-        if found.is_some() {
-            return (all, found);
-        }
-    }
-    let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
-    all += iterations;
-    if found {
-        return (all, Some(SearchMethod::Newton));
-    }
-    problem.change.copy_from_slice(start);
-    let found = proximal.solve(problem, |problem| {
-        newton.forget();
-        start.copy_from_slice(&problem.change);
-        let (iterations, found) = rounds(problem, newton);
-        all += iterations;
-        found.is_some() || {
-            let (iterations, found) = newton.wander(problem, start, FEW_ATTEMPTS);
-            all += iterations;
-            found
-        }
-    });
-    newton.forget();
-    (all, found.then_some(SearchMethod::Proximal))
-}
-
-/// Sweeps and Newton's method in turn: iterations, and the last that was needed.
-fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMethod>) {
-    let mut all = 0;
-    for round in 0..ROUNDS {
-        let (sweeps, found) = problem.sweep(SWEEPS);
-        all += sweeps;
-        if found {
-            let alone = SearchMethod::GaussSeidel;
-            return (all, Some(if round == 0 { alone } else { SearchMethod::Newton }));
-        }
-        let (iterations, found) = newton.solve(problem, round % 2 == 1);
-        all += iterations;
-        if found {
-            return (all, Some(SearchMethod::Newton));
-        }
-        // From forces that are none.
-        if problem.change.iter().any(|change| !change.is_finite()) {
-            problem.change.fill(0.0);
-        }
-    }
-    (all, None)
 }
 
 /// Limits of an element's law, all of them numbers.
@@ -351,7 +281,8 @@ fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> 
 /// The same of an area, m².
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
-        friction: limits.friction.min(ENDLESS),
+        friction: limits.friction,
+        grip: f64::INFINITY,
         attraction: limits.attraction * area,
         strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],

@@ -10,7 +10,7 @@
 //! | slips along d | t·d = friction (p + attraction) + strength |
 //! | across d | (1 − κ) t + κ ρ y = 0, κ = R/\|t − ρ y\|: the direction turns with the slip (Alart & Curnier 1991) |
 
-use super::problem::Problem;
+use super::problem::{Endless, Problem};
 use crate::linalg::DenseFactor;
 
 /// Iterations.
@@ -59,6 +59,11 @@ impl Status {
             Tangential::Slip { .. } => 2,
         };
         (self.normal, tangential)
+    }
+
+    /// Whether friction that is less than this lets it slip.
+    pub(super) fn is_held_by(&self, friction: f64) -> bool {
+        matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
     }
 
     /// Closed without slip.
@@ -191,6 +196,25 @@ impl Newton {
                 continue;
             }
             let [least, most] = bounds.interval;
+            if bounds.is_endless() {
+                *status = match problem.endless(e) {
+                    Endless::Open => Status::OPEN,
+                    Endless::Stick if p >= most => {
+                        Status { normal: Normal::Capped, tangential: Tangential::Stick }
+                    }
+                    Endless::Stick => Status::STICK,
+                    Endless::Slip(direction) => {
+                        let [_, i, j] = problem.places(e);
+                        let along =
+                            direction[0] * problem.force(i) + direction[1] * problem.force(j);
+                        let turn = (along / x.hypot(y)).clamp(0.0, 1.0);
+                        let slope = f64::INFINITY;
+                        let tangential = Tangential::Slip { direction, turn, slope };
+                        Status { normal: Normal::Closed, tangential }
+                    }
+                };
+                continue;
+            }
             let normal = if p <= least {
                 Normal::Open
             } else if p >= most {
@@ -207,7 +231,7 @@ impl Newton {
             } else if size <= radius {
                 Tangential::Stick
             } else {
-                let slope = if pressing + bounds.attraction > 0.0 { bounds.friction } else { 0.0 };
+                let slope = if pressing + bounds.attraction > 0.0 { bounds.taken() } else { 0.0 };
                 Tangential::Slip { direction: [x / size, y / size], turn: radius / size, slope }
             };
             *status = Status { normal, tangential };
@@ -269,12 +293,11 @@ impl Newton {
             let ([n, x, y], [_, tangential]) = (problem.places(e), problem.rho[e]);
             match (component, self.statuses[e].tangential) {
                 (1, Tangential::Slip { direction, slope, .. }) => {
-                    // Along the slip; divided by a friction above one.
-                    let scale = 1.0 / slope.max(1.0);
+                    let [sheared, pressed] = along_slip(slope);
                     self.matrix.extend(self.dofs.iter().map(|&j| match j {
-                        j if j == n => -slope * scale,
-                        j if j == x => scale * direction[0],
-                        j if j == y => scale * direction[1],
+                        j if j == n => -pressed,
+                        j if j == x => sheared * direction[0],
+                        j if j == y => sheared * direction[1],
                         _ => 0.0,
                     }));
                 }
@@ -313,8 +336,9 @@ impl Newton {
                 (1, Tangential::Slip { direction, slope, .. }) => {
                     // Forces as they are without changes, and p where it is known.
                     let along = direction[0] * problem.anchor[x] + direction[1] * problem.anchor[y];
-                    let radius = slope * (problem.force(n) + bounds.attraction) + bounds.strength;
-                    (radius - along) / slope.max(1.0)
+                    let [sheared, pressed] = along_slip(slope);
+                    pressed * (problem.force(n) + bounds.attraction)
+                        + sheared * (bounds.strength - along)
                 }
                 (2, Tangential::Slip { direction: [c, s], turn, .. }) => {
                     let across = |values: &[f64]| c * values[y] - s * values[x];
@@ -324,4 +348,10 @@ impl Newton {
             });
         }
     }
+}
+
+/// Factors of the shear and of the pressure in the row along a slip: one divided by a friction above one, so that an
+/// endless one has its limit.
+fn along_slip(friction: f64) -> [f64; 2] {
+    if friction > 1.0 { [1.0 / friction, 1.0] } else { [1.0, friction] }
 }

@@ -10,16 +10,24 @@
 //! Solutions are fixed points of r ← P(r − ρ y): p on the interval from −tension to the cap against y less the
 //! offset of a closed gap, then t on the disc. That is Signorini's and Coulomb's law at the level of displacements, with
 //! elastic layers in W's diagonal.
+//!
+//! Endless friction is the limit of that: y = 0 where something presses; else no force, or a closed gap with a shear
+//! against the slip, for which no pressure is needed.
 
 use crate::linalg::dense_multiply_add;
 
 /// Residual of a solution, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
+/// Friction coefficient that stands for an endless one beside a bond, and in methods that know discs alone.
+pub(super) const STAND_IN: f64 = 1e4;
 
 /// What the force of an element is bounded by, in forces and lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounds {
+    /// That of the law.
     pub(super) friction: f64,
+    /// Greatest friction that is taken at present.
+    pub(super) grip: f64,
     /// Force that friction acts on beside p, N.
     pub(super) attraction: f64,
     /// Shear force beside friction, N.
@@ -35,6 +43,7 @@ pub(super) struct Bounds {
 impl Bounds {
     pub(super) const NONE: Self = Self {
         friction: 0.0,
+        grip: f64::INFINITY,
         attraction: 0.0,
         strength: 0.0,
         interval: [0.0, f64::INFINITY],
@@ -47,8 +56,19 @@ impl Bounds {
         if self.bonded {
             f64::INFINITY
         } else {
-            self.friction * (p + self.attraction).max(0.0) + self.strength
+            self.taken() * (p + self.attraction).max(0.0) + self.strength
         }
+    }
+
+    /// Friction that is taken at present.
+    pub(super) fn taken(&self) -> f64 {
+        let is_plain = self.strength == 0.0 && self.interval[0] == -self.attraction;
+        self.friction.min(if is_plain { self.grip } else { self.grip.min(STAND_IN) })
+    }
+
+    /// Whether friction is taken as endless.
+    pub(super) fn is_endless(&self) -> bool {
+        self.taken() == f64::INFINITY && !self.bonded
     }
 
     /// Whether the element bears tension, or shear without pressure.
@@ -75,6 +95,15 @@ impl Bounds {
         }
         [x, y].map(|t| t * (radius / size))
     }
+}
+
+/// What an element of endless friction does by its trial.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Endless {
+    Open,
+    Stick,
+    /// Without pressure, the shear in this direction.
+    Slip([f64; 2]),
 }
 
 /// W, q and bounds; the present r and y.
@@ -158,8 +187,45 @@ impl Problem {
         ]
     }
 
+    /// Status of an element of endless friction: pressure and slip exclude each other, a gap and a shear against the
+    /// slip do, and the trial says of which more is left.
+    pub(super) fn endless(&self, e: usize) -> Endless {
+        let (bounds, [p, tx, ty]) = (&self.bounds[e], self.trial(e));
+        let ([_, x, y], [normal, tangential]) = (self.places(e), self.rho[e]);
+        let size = tx.hypot(ty);
+        let direction = if size > 0.0 { [tx / size, ty / size] } else { [0.0; 2] };
+        let along = |tx: f64, ty: f64| direction[0] * tx + direction[1] * ty;
+        if p + bounds.attraction > -tangential * along(self.y[x], self.y[y]) {
+            Endless::Stick
+        } else if along(self.force(x), self.force(y)) > normal * (self.y[e] - bounds.offset) {
+            Endless::Slip(direction)
+        } else {
+            Endless::Open
+        }
+    }
+
+    /// Distance of the force of an element of endless friction from what its status asks for, N.
+    fn miss_endless(&self, e: usize) -> f64 {
+        let (bounds, trial, [n, x, y]) = (&self.bounds[e], self.trial(e), self.places(e));
+        let force = [n, x, y].map(|i| self.force(i));
+        let [p, tx, ty]: [f64; 3] = std::array::from_fn(|k| trial[k] - force[k]);
+        let open = (force[0] - bounds.interval[0]).abs();
+        match self.endless(e) {
+            Endless::Stick => (bounds.press(trial[0]) - force[0]).abs() + tx.abs() + ty.abs(),
+            Endless::Open => open + p.max(0.0) + force[1].abs() + force[2].abs(),
+            Endless::Slip([c, s]) => {
+                let across = (c * force[2] - s * force[1]).abs() + (c * ty - s * tx).abs();
+                let [along, slip] = [c * force[1] + s * force[2], c * tx + s * ty];
+                open + p.abs() + across + (-along).max(0.0) + (-slip).max(0.0)
+            }
+        }
+    }
+
     /// Distance of an element's force from its fixed point, N, for the present y.
     pub(super) fn miss(&self, e: usize) -> f64 {
+        if self.bounds[e].is_endless() {
+            return self.miss_endless(e);
+        }
         let (bounds, [p, tx, ty]) = (&self.bounds[e], self.trial(e));
         let [n, x, y] = self.places(e);
         let p = bounds.press(p);
@@ -174,6 +240,11 @@ impl Problem {
         self.respond();
         let larger = |most: f64, miss: f64| if miss <= most { most } else { miss };
         (0..self.count).map(|e| self.miss(e)).fold(0.0, larger)
+    }
+
+    /// Takes no friction above `grip`.
+    pub(super) fn hold(&mut self, grip: f64) {
+        self.bounds.iter_mut().for_each(|bounds| bounds.grip = grip);
     }
 
     /// Component of r.

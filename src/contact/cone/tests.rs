@@ -5,7 +5,7 @@ use basemat_problems::random::Random;
 use super::newton::Newton;
 use super::problem::{Bounds, Problem};
 use super::proximal::Proximal;
-use super::search;
+use super::search::search;
 
 /// A random positive definite W of so many elements, and q.
 fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
@@ -21,7 +21,8 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
     }
     for bounds in &mut problem.bounds {
         *bounds = Bounds { friction, ..Bounds::NONE };
-        if random.chance(0.3) {
+        // Beside a bond, less friction stands for an endless one.
+        if random.chance(0.3) && friction < f64::INFINITY {
             bounds.strength = random.within(0.0, 0.3);
         }
         if random.chance(0.3) {
@@ -86,10 +87,15 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
             (0, (Kind::Capped, _)) => (row[i], row[size]) = (1.0, bounds.interval[1]),
             (0, _) => row[i] = 1.0,
             (_, (_, false)) => moves(0.0),
+            // The limit of endless friction: shear along the slip without pressure, in a closed gap.
+            (1, (Kind::Closed, true)) if bounds.is_endless() => row[e] = 1.0,
+            (2, (Kind::Closed, true)) if bounds.is_endless() => {
+                (row[i - problem.count], row[i]) = (-angles[e].sin(), angles[e].cos());
+            }
             (_, (kind, true)) => {
                 let d = if component == 1 { angles[e].cos() } else { angles[e].sin() };
                 // An open element keeps the strength until its bond is taken.
-                let friction = if kind == Kind::Open { 0.0 } else { bounds.friction };
+                let friction = if kind == Kind::Open { 0.0 } else { bounds.taken() };
                 row[i] = 1.0;
                 row[e] -= friction * d;
                 row[size] = bounds.strength * d;
@@ -121,7 +127,12 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
         let kinds: Vec<_> = (0..count).map(|_| next()).collect();
         let sliding: Vec<_> = (0..count).filter(|e| kinds[*e].1).collect();
         let capless = |e: usize| problem.bounds[e].interval[1] == f64::INFINITY;
-        if (0..count).any(|e| kinds[e].0 == Kind::Capped && capless(e)) {
+        let none = |e: usize| match kinds[e] {
+            (Kind::Capped, slides) => capless(e) || slides && problem.bounds[e].is_endless(),
+            (Kind::Open, false) => problem.bounds[e].is_endless(),
+            _ => false,
+        };
+        if (0..count).any(none) {
             continue;
         }
         // Slip across the direction of the shear, which is none at a solution.
@@ -170,7 +181,11 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
             let y = respond(&r);
             let admissible = (0..count).all(|e| {
                 let (bounds, [n, i, j]) = (&problem.bounds[e], problem.places(e));
-                let radius = bounds.radius(r[n]);
+                let radius = match kinds[e] {
+                    (Kind::Closed, true) if bounds.is_endless() => r[i].hypot(r[j]),
+                    (Kind::Open, _) if bounds.is_endless() => 0.0,
+                    _ => bounds.radius(r[n]),
+                };
                 let gap = y[n] - bounds.offset;
                 let normal = match kinds[e].0 {
                     Kind::Open => gap >= -1e-9,
@@ -208,10 +223,11 @@ fn is_among(problem: &Problem, solutions: &[Vec<f64>]) -> bool {
 #[test]
 fn each_method_finds_one_of_all_solutions() {
     let mut random = Random(11);
-    let (mut several, mut sliding, mut swept, mut nearing, mut none) = (0, 0, 0, 0, 0);
-    for case in 0..240 {
+    let (mut several, mut sliding, mut swept, mut nearing, mut none, mut endless) =
+        (0, 0, 0, 0, 0, 0);
+    for case in 0..300 {
         let count = if case % 8 == 0 { 2 } else { 1 };
-        let friction = [0.2, 0.6, 1.5, 5.0][case % 4];
+        let friction = [0.2, 0.6, 1.5, 5.0, f64::INFINITY][case % 5];
         let mut problem = problem(&mut random, count, friction);
         let solutions = all_solutions(&problem);
         several += usize::from(solutions.len() > 1);
@@ -223,15 +239,19 @@ fn each_method_finds_one_of_all_solutions() {
         assert!(is_among(&problem, &solutions), "case {case}: {} solutions", solutions.len());
         let slip = |e: usize| problem.y[count + e].hypot(problem.y[2 * count + e]) > 1e-6;
         sliding += usize::from((0..count).any(|e| slip(e) && problem.force(e) > 1e-6));
-        // Each alone, from nothing.
+        // Each alone, from nothing; discs are of some size.
+        problem.change.fill(0.0);
+        if Newton::new(count).solve(&mut problem, case % 2 == 0).1 {
+            assert!(is_among(&problem, &solutions), "case {case}, Newton");
+        }
+        if friction == f64::INFINITY {
+            endless += 1;
+            continue;
+        }
         problem.change.fill(0.0);
         if problem.sweep(2000).1 {
             swept += 1;
             assert!(is_among(&problem, &solutions), "case {case}, sweeps");
-        }
-        problem.change.fill(0.0);
-        if Newton::new(count).solve(&mut problem, case % 2 == 0).1 {
-            assert!(is_among(&problem, &solutions), "case {case}, Newton");
         }
         problem.change.fill(0.0);
         let sweep = |problem: &mut Problem| problem.sweep(200).1;
@@ -241,9 +261,12 @@ fn each_method_finds_one_of_all_solutions() {
         }
     }
     println!(
-        "{several} with several solutions, {none} without, {sliding} slide, sweeps alone find {swept}"
+        "{several} with several solutions, {none} without, {sliding} slide, sweeps alone find {swept}, {endless} endless"
     );
-    assert!(sliding > 40 && swept > 150 && nearing > 150, "{sliding} {swept} {nearing}");
+    assert!(
+        endless > 40 && sliding > 40 && swept > 150 && nearing > 150,
+        "{sliding} {swept} {nearing}"
+    );
 }
 
 /// Friction work is the shear's against the slip of the same solution.

@@ -54,6 +54,8 @@ pub(crate) struct StaticState {
     /// f(u) of a nonlinear structure, and its energies where it knows them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
+    /// Friction that was taken in place of a greater one where something slid, if any was.
+    pub(crate) stand_in: Option<f64>,
 }
 
 impl StaticState {
@@ -69,6 +71,7 @@ impl StaticState {
             memory: Vec::new(),
             force: Vec::new(),
             energy: None,
+            stand_in: None,
         }
     }
 
@@ -212,6 +215,7 @@ impl Standing<'_> {
                 // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
+                    state.stand_in = solver.stand_in.or(state.stand_in);
                     state.close_gaps(laws, start, &solver.states);
                     return Ok((state, solver.states));
                 }

@@ -275,6 +275,9 @@ impl SimulationBuilder {
         let uncovered: Vec<_> =
             uncovered.into_iter().map(|(k, along, reach)| (k, axis(along), reach)).collect();
         let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
+        if let Some(taken) = scene.static_state.stand_in {
+            Warning::count_friction(&mut warnings, taken);
+        }
         let sample = ground.sampled_cells();
         warnings
             .extend(sample.map(|[checked, cells]| Warning::SampledPassivity { checked, cells }));

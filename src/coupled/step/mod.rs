@@ -148,6 +148,8 @@ pub(crate) struct Increment {
     /// Linear solves of the mode search, and how far it had to go.
     pub(crate) trials: usize,
     pub(crate) method: SearchMethod,
+    /// Friction that was taken in place of a greater one where something slides, if any was.
+    pub(crate) stand_in: Option<f64>,
     /// f(u*) less f at the static state, and the displacement that f sees at the end of the step;
     /// empty for a linear structure.
     pub(crate) force: Vec<f64>,
@@ -174,6 +176,7 @@ impl Increment {
             memory: state.start.memory().to_vec(),
             trials: 0,
             method: SearchMethod::ActiveSet,
+            stand_in: None,
             force: vec![0.0; nonlinear],
             seen: vec![0.0; nonlinear],
         }

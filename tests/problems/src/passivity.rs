@@ -36,52 +36,9 @@ impl Scene {
         ground
     }
 
-    /// Work W_N = Σ A τ·Δs after the first ten steps: its smallest value over that after ten steps.
-    ///
-    /// Tractions are white noise for ten steps, then for half of the run they take out as much
-    /// energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀). Slow noise
-    /// follows.
+    /// As [`least_work`] of the ground.
     pub fn least_work(&self) -> f64 {
-        let mut ground = self.ground();
-        let size = 2 * self.elements;
-        let mut operator = vec![0.0; size * size];
-        ground.step_compliance(&mut operator).unwrap();
-        let inverse = inverse(&operator, size);
-        let lengths: Vec<f64> = ground.elements().iter().map(|e| e.right - e.left).collect();
-        let mut random = Random(self.seed);
-        let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
-        let mut before = vec![0.0; size];
-        let (mut work, mut least, mut given) = (0.0, f64::INFINITY, 0.0);
-        for step in 0..self.steps {
-            ground.history(&mut history).unwrap();
-            let noise = step < 10;
-            if !noise && step < self.steps / 2 {
-                let change: Vec<f64> =
-                    history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
-                traction = multiply(&inverse, &change);
-            } else {
-                for t in &mut traction {
-                    let kick = random.within(-1.0, 1.0);
-                    *t = if noise { kick } else { 0.95 * *t + 0.3 * kick };
-                }
-            }
-            let mut now = multiply(&operator, &traction);
-            for (s, h) in now.iter_mut().zip(&history) {
-                *s += h;
-            }
-            for i in 0..size {
-                work += lengths[i % self.elements] * traction[i] * (now[i] - before[i]);
-            }
-            if noise {
-                given = work;
-            }
-            if !noise || work < 0.0 {
-                least = least.min(work);
-            }
-            ground.commit(&traction);
-            before.copy_from_slice(&now);
-        }
-        least / given
+        least_work(&mut self.ground(), self.steps, self.seed)
     }
 
     /// Tractions that random displacements need: the largest of the run's last tenth over the
@@ -115,6 +72,59 @@ impl Scene {
         }
         late / early
     }
+}
+
+/// Work W_N = Σ A τ·Δs after the first ten steps: its smallest value over that after ten steps, of a ground that is
+/// ready for so many.
+///
+/// Tractions are white noise for ten steps, then for half of the run they take out as much
+/// energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀). Slow noise
+/// follows.
+pub fn least_work(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
+    let count = ground.elements().len();
+    let size = ground.directions() * count;
+    let mut operator = vec![0.0; size * size];
+    ground.step_compliance(&mut operator).unwrap();
+    let inverse = inverse(&operator, size);
+    let area = |e: usize| {
+        let ([front, back], element) = (ground.depth(e), ground.elements()[e]);
+        (element.right - element.left) * (back - front)
+    };
+    let areas: Vec<f64> = (0..count).map(area).collect();
+    let mut random = Random(seed);
+    let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
+    let mut before = vec![0.0; size];
+    let (mut work, mut least, mut given) = (0.0, f64::INFINITY, 0.0);
+    for step in 0..steps {
+        ground.history(&mut history).unwrap();
+        let noise = step < 10;
+        if !noise && step < steps / 2 {
+            let change: Vec<f64> =
+                history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
+            traction = multiply(&inverse, &change);
+        } else {
+            for t in &mut traction {
+                let kick = random.within(-1.0, 1.0);
+                *t = if noise { kick } else { 0.95 * *t + 0.3 * kick };
+            }
+        }
+        let mut now = multiply(&operator, &traction);
+        for (s, h) in now.iter_mut().zip(&history) {
+            *s += h;
+        }
+        for i in 0..size {
+            work += areas[i % count] * traction[i] * (now[i] - before[i]);
+        }
+        if noise {
+            given = work;
+        }
+        if !noise || work < 0.0 {
+            least = least.min(work);
+        }
+        ground.commit(&traction);
+        before.copy_from_slice(&now);
+    }
+    least / given
 }
 
 fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {

@@ -1,0 +1,138 @@
+//! Search for the forces of a contact problem in plan: one method after the other.
+
+use super::newton::Newton;
+use super::problem::{Problem, STAND_IN};
+use super::proximal::Proximal;
+use crate::contact::method::SearchMethod;
+
+/// Most sweeps of a round.
+const SWEEPS: usize = 60;
+/// Rounds of sweeps and Newton's method, alone and within the proximal method.
+const ROUNDS: usize = 12;
+/// Greatest friction of a step that is not solved with more, nor with what stands for an endless one.
+const GRIP: f64 = 100.0;
+/// Attempts of Newton's method with parts of steps: alone, towards more friction, and within the proximal method.
+const ATTEMPTS: u64 = 60;
+const SOME_ATTEMPTS: u64 = 12;
+const FEW_ATTEMPTS: u64 = 4;
+/// Factor by which friction is no longer raised.
+const STRIDE: f64 = 1.2;
+
+/// One method after the other, `start` being scratch: iterations, and the last that was needed. Frictions above [`GRIP`]
+/// are held where they are not found at once, and let go from there.
+pub(super) fn search(
+    problem: &mut Problem,
+    newton: &mut Newton,
+    proximal: &mut Proximal,
+    start: &mut [f64],
+) -> (usize, Option<SearchMethod>) {
+    start.copy_from_slice(&problem.change);
+    problem.hold(f64::INFINITY);
+    let greatest = problem.bounds.iter().fold(0.0_f64, |most, bounds| most.max(bounds.friction));
+    if greatest <= GRIP {
+        return search_held(problem, newton, proximal, start);
+    }
+    let (mut all, found) = newton.solve(problem, false);
+    if found {
+        return (all, Some(SearchMethod::Newton));
+    }
+    for grip in [STAND_IN, GRIP, 0.1 * GRIP, 0.03 * GRIP] {
+        problem.hold(grip);
+        problem.change.copy_from_slice(start);
+        let (iterations, found) = if grip == GRIP {
+            search_held(problem, newton, proximal, start)
+        } else {
+            rounds(problem, newton)
+        };
+        all += iterations;
+        if found.is_some() {
+            all += let_go(problem, newton, start, greatest);
+            if problem.bounds[0].grip >= GRIP {
+                return (all, found.max(Some(SearchMethod::Newton)));
+            }
+        }
+    }
+    (all, None)
+}
+
+/// Raises the friction that is held, from a solution and as far as others follow, up to the `greatest`: at once, or by
+/// less and less. Iterations made.
+fn let_go(problem: &mut Problem, newton: &mut Newton, start: &mut [f64], greatest: f64) -> usize {
+    let (mut grip, mut stride) = (problem.bounds[0].grip, f64::INFINITY);
+    let mut all = 0;
+    start.copy_from_slice(&problem.change);
+    while grip < greatest && stride > STRIDE {
+        problem.hold(grip * stride);
+        let (mut iterations, mut found) = newton.solve(problem, false);
+        if !found {
+            let (more, wandered) = newton.wander(problem, start, SOME_ATTEMPTS);
+            (iterations, found) = (iterations + more, wandered);
+        }
+        all += iterations;
+        if found {
+            (grip, stride) = (grip * stride, f64::INFINITY);
+            start.copy_from_slice(&problem.change);
+        } else {
+            problem.change.copy_from_slice(start);
+            stride = stride.min(100.0).sqrt();
+        }
+    }
+    problem.hold(grip);
+    problem.respond();
+    all
+}
+
+/// One method after the other, for frictions that are held.
+fn search_held(
+    problem: &mut Problem,
+    newton: &mut Newton,
+    proximal: &mut Proximal,
+    start: &mut [f64],
+) -> (usize, Option<SearchMethod>) {
+    let (mut all, found) = rounds(problem, newton);
+    if found.is_some() {
+        return (all, found);
+    }
+    let (iterations, found) = newton.wander(problem, start, ATTEMPTS);
+    all += iterations;
+    if found {
+        return (all, Some(SearchMethod::Newton));
+    }
+    problem.change.copy_from_slice(start);
+    let found = proximal.solve(problem, |problem| {
+        newton.forget();
+        start.copy_from_slice(&problem.change);
+        let (iterations, found) = rounds(problem, newton);
+        all += iterations;
+        found.is_some() || {
+            let (iterations, found) = newton.wander(problem, start, FEW_ATTEMPTS);
+            all += iterations;
+            found
+        }
+    });
+    newton.forget();
+    (all, found.then_some(SearchMethod::Proximal))
+}
+
+/// Sweeps and Newton's method in turn: iterations, and the last that was needed.
+fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMethod>) {
+    let mut all = 0;
+    for round in 0..ROUNDS {
+        let (sweeps, found) = problem.sweep(SWEEPS);
+        all += sweeps;
+        if found {
+            let alone = SearchMethod::GaussSeidel;
+            return (all, Some(if round == 0 { alone } else { SearchMethod::Newton }));
+        }
+        let (iterations, found) = newton.solve(problem, round % 2 == 1);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+        // From forces that are none.
+        if problem.change.iter().any(|change| !change.is_finite()) {
+            problem.change.fill(0.0);
+        }
+    }
+    (all, None)
+}
