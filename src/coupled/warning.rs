@@ -122,6 +122,8 @@ pub enum Warning {
         /// Least coefficient that was taken.
         friction: f64,
     },
+    /// The motion goes along y, too, which a ground in the plane leaves out.
+    MotionAcross,
     /// A soil unlike any: a number in another unit, unless the model is not to scale.
     UnusualSoil {
         /// Speed of its shear waves, m/s.
@@ -311,6 +313,9 @@ impl fmt::Display for Warning {
                 f,
                 "steps solved with friction {friction:.0} in place of more: {steps}; shear is too small there"
             ),
+            Self::MotionAcross => {
+                write!(f, "motion along y: a ground in the plane leaves it out")
+            }
             Self::UnusualSoil { shear_wave_speed, density } => write!(
                 f,
                 "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",

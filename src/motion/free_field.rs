@@ -8,8 +8,7 @@ use crate::error::{Error, Result, finite, positive};
 pub trait FreeField: Send {
     /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
     ///
-    /// A run starts at rest at t = 0 and measures every element's motion from what it is then, so a
-    /// field should be at rest up to t = 0; what moves already starts with a jolt.
+    /// A run starts at rest and measures every element's motion from what it is at t = 0: what moves then starts with a jolt.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
     /// Displacement `[along x, along y, up]` (m) at surface point `place` (`[x, y]`, m), for a ground in plan.
@@ -19,14 +18,17 @@ pub trait FreeField: Send {
         [horizontal, 0.0, vertical]
     }
 
+    /// Whether it moves along y, too, which a ground in the plane leaves out: a run on one warns. Default: no.
+    fn moves_across(&self) -> bool {
+        false
+    }
+
     /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
-    /// `bem::full_plane::VerticalWaves` make stresses of velocities, and a ground of your own may need
-    /// them.
+    /// `bem::full_plane::VerticalWaves` make stresses of velocities, as a ground of your own may.
     ///
-    /// Default: the central difference of displacements 10 µs before and after. What moves with f
-    /// Hz loses (2πf · 10 µs)²/6 of its velocity (7e-8 at 10 Hz, 7e-6 at 100 Hz), and rounding
-    /// adds about 2e-11 of the displacement per second. A jump or a kink is spread over 20 µs.
-    /// Fields that know their velocity should say it.
+    /// Default: the central difference of displacements 10 µs before and after. What moves with f Hz loses (2πf · 10 µs)²/6
+    /// of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A jump or a kink
+    /// is spread over 20 µs. Fields that know their velocity should say it.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         differenced(self, x, time)
     }
@@ -73,9 +75,8 @@ type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
 /// Free field from a closure for the displacement, and one for the velocity if it is known.
 ///
-/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s). They are asked
-/// only for time > 0; at and before t = 0 the field is zero. The displacement should start from
-/// zero: what it is just after t = 0 comes as a jump.
+/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0: until then the field is zero.
+/// The displacement should start from zero: what it is just after t = 0 comes as a jump.
 ///
 /// A wave that runs to the right at 1000 m/s:
 /// ```
@@ -173,7 +174,7 @@ impl FreeField for Record {
     }
 }
 
-/// Motion in three directions, the same at all points, for a ground in plan; in the plane that along y is not felt.
+/// Motion in three directions, the same at all points, for a ground in plan.
 ///
 /// ```
 /// use basemat::motion::{FreeField, Record, Triaxial};
@@ -205,13 +206,16 @@ impl FreeField for Triaxial {
             .map(|record| record.as_ref().map_or(0.0, |own| own.at(time).displacement))
     }
 
+    fn moves_across(&self) -> bool {
+        self.y.is_some()
+    }
+
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
         [&self.x, &self.up].map(|record| record.as_ref().map_or(0.0, |own| own.at(time).velocity))
     }
 }
 
-/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c); in plan in any direction
-/// ([`with_azimuth`](TravellingWave::with_azimuth)).
+/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c); in plan in any direction.
 ///
 /// ```
 /// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
@@ -238,8 +242,8 @@ impl TravellingWave {
     /// `field` as it is at `origin` (m), running along x with the apparent velocity c
     /// (`apparent_velocity`, m/s): to the right if positive, everywhere at once if infinite.
     ///
-    /// Points that the wave reaches before `origin` would have moved before t = 0, and start with
-    /// a jump: let `origin` be the edge of the base that is reached first.
+    /// Points reached before `origin` would have moved before t = 0, and start with a jump: let it be
+    /// the edge of the base that the wave reaches first.
     ///
     /// # Errors
     /// [`Error::Input`] for a velocity of zero or NaN, or an origin that is not finite.
@@ -308,6 +312,10 @@ impl FreeField for TravellingWave {
         [cos * along - sin * across, sin * along + cos * across, up]
     }
 
+    fn moves_across(&self) -> bool {
+        self.direction[1] != 0.0 || self.field.moves_across()
+    }
+
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         if self.direction == [1.0, 0.0] {
             self.field.velocity(self.origin, time - self.delay([x, 0.0]))
@@ -319,9 +327,8 @@ impl FreeField for TravellingWave {
 
 /// Ricker pulse u(t) = A (1 − 2a²) e^(−a²), a = (t − center)/sigma, the same at all points.
 ///
-/// Displacement and velocity are exact. The peak A is at t = `center`; the spectrum peaks at the
-/// frequency 1/(π sigma) Hz, as in Ricker, "The form and laws of propagation of seismic
-/// wavelets", Geophysics 18 (1953), 10–40. At and before t = 0 the field is zero, so the pulse
+/// Displacement and velocity are exact. The peak A is at t = `center`; the spectrum peaks at 1/(π sigma) Hz (Ricker,
+/// "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953), 10–40). At and before t = 0 the field is zero, so the pulse
 /// starts with a jump of A (1 − 2a₀²) e^(−a₀²), a₀ = center/sigma: 7e-10 A for a₀ = 5.
 ///
 /// ```

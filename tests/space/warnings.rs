@@ -6,9 +6,9 @@ use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::coupled::{Load, Warning};
 use basemat::interface::{Bonded, Cohesive};
-use basemat::motion::{Record, Triaxial, el_centro_1940};
+use basemat::motion::{FreeField, Record, TravellingWave, Triaxial, el_centro_1940};
 use basemat::results::Run;
-use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};
+use basemat::structure::{PlanStorey, RigidBlock, RigidBody, StoreyBuilding};
 use basemat::{Simulation, Soil};
 
 use super::cells::{BED, Cells};
@@ -189,4 +189,33 @@ fn friction_that_was_less_is_told() {
     };
     assert!(found(&endless).unwrap().contains("friction 10000 "));
     assert_eq!(found(&finite), None);
+}
+
+/// A ground in the plane says so if it leaves out what moves along y.
+#[test]
+fn motion_along_y_has_no_place_in_the_plane() {
+    let record = el_centro_1940();
+    let warns = |motion: Box<dyn FreeField>| {
+        let soil = Soil::from_shear_wave_speed(250.0, 0.3, 1900.0).unwrap();
+        let block = RigidBlock::new(6.0, 6.0, 2000.0).unwrap();
+        let mut simulation = Simulation::builder(0.01)
+            .ground(ElasticGround::under(soil, &block, 8).unwrap())
+            .structure(block)
+            .interface(Bonded)
+            .motion(motion)
+            .build()
+            .unwrap();
+        let run = simulation.run(10, |_| {}).unwrap();
+        assert_eq!(
+            run.warnings.contains(&Warning::MotionAcross),
+            run.to_string().contains("along y")
+        );
+        run.warnings.contains(&Warning::MotionAcross)
+    };
+    let wave = || TravellingWave::new(record.clone(), 800.0, -3.0).unwrap();
+    assert!(!warns(Box::new(record.clone())));
+    assert!(!warns(Box::new(wave())));
+    assert!(!warns(Box::new(Triaxial { x: Some(record.clone()), ..Triaxial::default() })));
+    assert!(warns(Box::new(motion(record.clone(), true))));
+    assert!(warns(Box::new(wave().with_azimuth(0.3).unwrap())));
 }

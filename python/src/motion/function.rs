@@ -153,6 +153,10 @@ fn sampled(
 struct InPlan(Arc<Py<PyAny>>);
 
 impl FreeField for InPlan {
+    fn moves_across(&self) -> bool {
+        true
+    }
+
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
         let [along, _, up] = self.displacement_at([x, 0.0], time);
         [along, up]

@@ -275,6 +275,9 @@ impl SimulationBuilder {
         let uncovered: Vec<_> =
             uncovered.into_iter().map(|(k, along, reach)| (k, axis(along), reach)).collect();
         let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
+        if given.motion.moves_across() && !scene.elements.is_plan() {
+            warnings.push(Warning::MotionAcross);
+        }
         if let Some(taken) = scene.static_state.stand_in {
             Warning::count_friction(&mut warnings, taken);
         }

@@ -266,6 +266,11 @@ impl FreeField for Double {
         [x, y, CORRECT]
     }
 
+    fn moves_across(&self) -> bool {
+        self.0.asked("moves_across");
+        true
+    }
+
     fn velocity(&self, x: f64, _: f64) -> [f64; 2] {
         self.0.asked("velocity");
         [CORRECT, x]
