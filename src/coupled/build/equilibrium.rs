@@ -38,6 +38,9 @@ const SLOW: f64 = 0.2;
 const STIFFENED: f64 = 1e4;
 /// Pull, relative to the load, that may not fall for rounding alone.
 const ROUNDING: f64 = 1e-6;
+/// After so many iterations that is asked of the condition: a pull of the springs turns what hardly presses from one
+/// contact mode to another and back, if that changes a large shear.
+const LONG: usize = 20;
 
 /// A static state: what weight and loads at t = 0 leave, contact conditions included.
 #[derive(Debug, Clone)]
@@ -225,7 +228,11 @@ impl Standing<'_> {
             if !change.is_finite() {
                 break;
             }
-            if change > ROUNDING.max(SLOW * previous) && epsilon > softest {
+            let rounding = match iterations {
+                0..LONG => ROUNDING,
+                _ => ROUNDING.min(current.condition() * f64::EPSILON),
+            };
+            if change > rounding.max(SLOW * previous) && epsilon > softest {
                 epsilon *= 0.1;
                 compliance = None;
                 solver.invalidate();
