@@ -79,7 +79,7 @@ def test_scenes_in_plan(reference: Path, scene) -> None:
     rust = rusts(reference, scene.__name__, "0.15", "400")
     run = scene(0.15).run(400)
     names = list(run.series)
-    assert len(names) == 21 and rust.shape == (401, len(names) + 1)
+    assert len(names) == 22 and rust.shape == (401, len(names) + 1)
     for column, key in enumerate(names):
         assert same_bits(run[key], np.ascontiguousarray(rust[:, column])), key
     # It twisted, lifted and slid.

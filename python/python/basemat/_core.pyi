@@ -754,6 +754,11 @@ class InclinedWave:
         positive.
         """
     @staticmethod
+    def sh(profile: SoilProfile, angle: float) -> InclinedWave:
+        """SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
+        direction.
+        """
+    @staticmethod
     def p(profile: SoilProfile, angle: float) -> InclinedWave:
         """P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
         positive.
@@ -920,6 +925,9 @@ class Summary:
     def ends(self) -> list[float]:
         """x of its two ends, m."""
     @property
+    def depth(self) -> list[float]:
+        """In plan: y of its front and its back, m; zeros in the plane."""
+    @property
     def static_normal_force(self) -> float:
         """Total pressure at the start, N/m."""
     @property
@@ -960,7 +968,9 @@ class Summary:
         """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
     @property
     def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a :class:`Peak`; on a ground in plan over any edge."""
+        """Least factor of safety against overturning, a :class:`Peak`; in plan the lesser of "overturning_safety", over the
+        left or the right edge, and "overturning_safety_across", over the front or the back one.
+        """
     @property
     def residual_slip_across(self) -> float:
         """In plan: slip along y averaged over it at the end, m."""
@@ -1111,7 +1121,7 @@ class Run(Summary):
     @property
     def motion(self) -> dict[str, Any]:
         """Snapshots of the structure: dict of "time" (frames,), s, "displacement" and "velocity" (frames, n),
-        m and m/s, and "free_field" (frames, 2), m to the right and up.
+        m and m/s, and "free_field" (frames, 2), m to the right and up; in plan also "free_field_across" (frames,), m along y.
         """
     @property
     def dof_names(self) -> list[str] | None:
@@ -1271,8 +1281,15 @@ class DofCombination:
         """The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit."""
     def weights(self, dofs: int) -> NDArray[np.float64]:
         """All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``."""
+    @staticmethod
+    def of_base(structure: _Structure, place: Sequence[float]) -> list[DofCombination]:
+        """The three :class:`DofCombination` of the displacements along x, along y and up of a point that the base of the
+        ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
+        """
     def relative_to_base(self, structure: _Structure) -> DofCombination:
-        """This displacement to the right less that of the middle of the base of the ``structure``."""
+        """This displacement to the right less that of the middle of the base of the ``structure``; in plan subtract a row of
+        :meth:`of_base`.
+        """
     def total_drift(self, structure: _Structure, height: float) -> DofCombination:
         """This displacement to the right less that of the base of the ``structure``, its rotation included,
         which moves what is ``height`` (m) above it: the lateral deformation.
@@ -2057,12 +2074,13 @@ class ReducedModel(Structure):
 @final
 class StructureGroup(Structure):
     """Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
-    ``(structure, shift)`` from left to right, each moved to the right by its shift (m).
+    ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
+    each other, along y where they are themselves (``center`` of :meth:`RigidBody.cuboid`).
     """
 
     def __new__(cls, members: Sequence[tuple[_Structure, float]]) -> Self: ...
     def row(self, member: int, row: _RowLike) -> DofCombination:
-        """A ``row`` of the structure ``member`` (0: the leftmost) as a :class:`DofCombination` of the group."""
+        """A ``row`` of the structure ``member`` (0: the first) as a :class:`DofCombination` of the group."""
 
 @final
 class WithModalDamping(Structure):

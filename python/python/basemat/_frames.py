@@ -107,6 +107,7 @@ def foundation_frame(self: Run) -> Any:
         row.update({name: own.extremes(name).largest.value for name in names})
         row["residual_slip"] = own.residual_slip
         if self.in_plan:
+            row["front"], row["back"] = own.depth
             row["residual_slip_across"] = own.residual_slip_across
         rows.append(row)
     units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}

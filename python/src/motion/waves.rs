@@ -333,6 +333,13 @@ impl PyInclinedWave {
         Ok(Self(InclinedWave::sv(profile.0.clone(), angle).or_raise()?))
     }
 
+    /// SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
+    /// direction.
+    #[staticmethod]
+    fn sh(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
+        Ok(Self(InclinedWave::sh(profile.0.clone(), angle).or_raise()?))
+    }
+
     /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
     /// positive.
     #[staticmethod]

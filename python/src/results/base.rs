@@ -28,6 +28,8 @@ getters! {
     PySummary, own;
     /// x of its two ends, m.
     ends: [f64; 2] = own.0.ends;
+    /// In plan: y of its front and its back, m; zeros in the plane.
+    depth: [f64; 2] = own.0.depth;
     /// Total pressure at the start, N/m.
     static_normal_force: f64 = own.0.static_normal_force;
     /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
@@ -56,7 +58,8 @@ getters! {
     slip_path: f64 = own.0.sliding.path;
     /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
     least_sliding_safety: Option<PyPeak> = known(own.0.sliding_safety);
-    /// Least factor of safety against overturning, a :class:`Peak`; on a ground in plan over any edge.
+    /// Least factor of safety against overturning, a :class:`Peak`; in plan the lesser of "overturning_safety", over the
+    /// left or the right edge, and "overturning_safety_across", over the front or the back one.
     least_overturning_safety: PyPeak = PyPeak(least(own.0.overturning_safety.lowest, own.0.overturning_safety_across.lowest));
 }
 

@@ -143,7 +143,7 @@ impl PyRun {
     }
 
     /// Snapshots of the structure: dict of "time" (frames,), s, "displacement" and "velocity" (frames, n),
-    /// m and m/s, and "free_field" (frames, 2), m to the right and up.
+    /// m and m/s, and "free_field" (frames, 2), m to the right and up; in plan also "free_field_across" (frames,), m along y.
     #[getter]
     fn motion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         series::motion(py, self.kept()?)

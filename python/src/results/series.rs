@@ -116,5 +116,9 @@ pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<B
     columns.set_item("velocity", all(|frame| frame.velocity.to_vec(), shape)?)?;
     let two = [frames.len(), 2];
     columns.set_item("free_field", all(|frame| frame.free_field.to_vec(), two)?)?;
+    if !histories.depths().is_empty() {
+        let across = frames.iter().map(|frame| frame.free_field_across);
+        columns.set_item("free_field_across", across.collect::<Array>())?;
+    }
     Ok(columns)
 }

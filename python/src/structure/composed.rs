@@ -94,7 +94,8 @@ impl PyReducedModel {
 }
 
 /// Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
-/// ``(structure, shift)`` from left to right, each moved to the right by its shift (m).
+/// ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
+/// each other, along y where they are themselves (``center`` of :meth:`RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
     make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
@@ -128,7 +129,7 @@ impl PyStructureGroup {
         Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
     }
 
-    /// A ``row`` of the structure ``member`` (0: the leftmost) as a :class:`DofCombination` of the group.
+    /// A ``row`` of the structure ``member`` (0: the first) as a :class:`DofCombination` of the group.
     fn row(
         &self,
         #[pyo3(from_py_with = whole)] member: usize,

@@ -1,6 +1,6 @@
 //! What Python can do with a weighted sum of degrees of freedom.
 
-use basemat::structure::Structure;
+use basemat::structure::{DofCombination, Structure};
 use numpy::PyArray1;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -8,14 +8,14 @@ use pyo3::prelude::*;
 use super::recipe;
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
-use crate::row::{PyDofCombination, RowLike};
+use crate::row::{PyDofCombination, RowLike, rows};
 
 impl PyDofCombination {
     /// The structure in the plane that this row is for.
     fn in_plane(&self, structure: &Bound<'_, PyAny>) -> PyResult<Box<dyn Structure>> {
         let structure = recipe(structure)?().or_raise()?;
         if !structure.contact_faces().is_empty() {
-            let needed = "in plan subtract rows of its mat, or take StoreyBuilding.total_drift";
+            let needed = "in plan subtract a row of DofCombination.of_base";
             return Err(refuse(format!("the structure is none of the plane: {needed}")));
         }
         self.1.check("the row", structure.dofs())?;
@@ -69,7 +69,16 @@ impl PyDofCombination {
         Ok(PyArray1::from_vec(py, weights))
     }
 
-    /// This displacement to the right less that of the middle of the base of the ``structure``.
+    /// The three :class:`DofCombination` of the displacements along x, along y and up of a point that the base of the
+    /// ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
+    #[staticmethod]
+    fn of_base(structure: Bound<'_, PyAny>, place: [f64; 3]) -> PyResult<[Self; 3]> {
+        let structure = recipe(&structure)?().or_raise()?;
+        Ok(rows(DofCombination::of_base(structure.as_ref(), place).or_raise()?))
+    }
+
+    /// This displacement to the right less that of the middle of the base of the ``structure``; in plan subtract a row of
+    /// :meth:`of_base`.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = self.in_plane(&structure)?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
