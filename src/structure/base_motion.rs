@@ -10,20 +10,19 @@ impl DofCombination {
     ///
     /// The base is that of `structure`, from its first contact node to its last; the row must be one
     /// of its degrees of freedom. In a group that is a member, before
-    /// [`StructureGroup::row`](super::StructureGroup::row) moves the row. In plan this is for a displacement along x; from
-    /// one along y the second of [`DofCombination::of_base`] is to be taken.
+    /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
     ///
     /// # Errors
     /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for
-    /// contact nodes at one place.
+    /// contact nodes at one place, [`Error::Scene`] in plan: a row does not tell x from y, so a displacement of
+    /// [`DofCombination::of_base`] is to be taken from it.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
-        let [translation, _, _] = Self::of_base(structure, [0.0; 3])?;
+        let [translation, _, _] = in_the_plane(structure, 0.0)?;
         Ok(self.clone() - translation)
     }
 
     /// The displacement to the right of a point `height` (m) above the base less the rigid motion of
-    /// the base there, translation and rotation: how far the structure has bent. In plan this is for a displacement along x
-    /// of a point above the middle of the base; of others, and along y, [`DofCombination::of_base`] has the rigid motion.
+    /// the base there, translation and rotation: how far the structure has bent.
     ///
     /// ```
     /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
@@ -45,9 +44,10 @@ impl DofCombination {
     ///
     /// # Errors
     /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for a
-    /// height that is not finite or contact nodes at one place.
+    /// height that is not finite or contact nodes at one place, [`Error::Scene`] in plan, as for
+    /// [`DofCombination::relative_to_base`].
     pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
-        let [carried, _, _] = Self::of_base(structure, [0.0, 0.0, height])?;
+        let [carried, _, _] = in_the_plane(structure, height)?;
         Ok(self.clone() - carried)
     }
 
@@ -100,6 +100,15 @@ impl DofCombination {
             }
         }
     }
+}
+
+/// Rigid motion of a base in the plane above its middle.
+fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombination; 3]> {
+    if structure.contact_faces().is_empty() {
+        return DofCombination::of_base(structure, [0.0, 0.0, height]);
+    }
+    let needed = "in plan a row does not tell x from y: subtract a displacement of `DofCombination::of_base`";
+    Err(Error::Scene { quantity: "displacement relative to the base", needed })
 }
 
 /// Displacement to the right of the base's middle, rotation of its chord, and displacement of the middle upwards.

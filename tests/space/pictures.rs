@@ -225,11 +225,10 @@ fn motions_relative_to_the_base_are_known_along_both_axes() {
             assert!((found - drift[k].value(&dofs)).abs() < 1e-13);
         }
         let [along, _, _] = own.floor(storey, [0.0; 2]).unwrap();
-        let found = along.total_drift(&own, height).unwrap().value(&dofs);
-        let exact = own.total_drift(storey, [0.0; 2]).unwrap()[0].value(&dofs);
-        assert!((found - exact).abs() < 1e-13);
-        let found = along.relative_to_base(&own).unwrap().value(&dofs);
-        assert!((found - (along.value(&dofs) - dofs[0])).abs() < 1e-13);
+        // It may be along y as well.
+        for refused in [along.total_drift(&own, height), along.relative_to_base(&own)] {
+            assert!(matches!(refused, Err(Error::Scene { .. })), "{refused:?}");
+        }
     }
     assert!(matches!(
         DofCombination::of_base(&own, [0.0, f64::NAN, 1.0]),
