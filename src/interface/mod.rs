@@ -46,6 +46,7 @@ pub struct ContactState {
 
 impl ContactState {
     /// Gap, slip and tractions of an element by their components: down, along x, and in plan along y.
+    #[inline]
     pub(crate) fn from_components(
         jump: impl Fn(usize) -> f64,
         traction: impl Fn(usize) -> f64,

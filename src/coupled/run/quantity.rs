@@ -190,21 +190,21 @@ quantities! {
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
         |base| base.least(|_, footing| against_overturning(footing, 0));
-    /// In plan: horizontal force on the soil along y, N.
-    ShearAcross shear_across, "base shear across", "N/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
-        |base| base.sum(|own, _| own.shear_across);
     /// In plan: resultant of the horizontal forces on the soil along x and y, N.
     HorizontalForce horizontal_force, "horizontal force", "N/m", Scale::Unit, [Plan, Page, Comparison, ComparisonTime],
         |base| base.sum(|own, _| own.base_shear).hypot(base.sum(|own, _| own.shear_across));
+    /// In plan: area of open elements inside the outline of the base, m².
+    UpliftedArea uplifted_area, "uplifted area", "m²", Scale::Unit, [Plan, Page],
+        open_area;
+    /// In plan: horizontal force on the soil along y, N.
+    ShearAcross shear_across, "base shear across", "N/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
+        |base| base.sum(|own, _| own.shear_across);
     /// In plan: moment on the soil about the axis along x, by the right-hand rule, static part included, N·m.
     MomentAcross moment_across, "base moment across", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
         |base| base.sum(|own, [_, y]| own.moment_across - own.normal_force * y);
     /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
     Torque torque, "torque", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
         |base| base.sum(|own, [x, y]| own.torque + x * own.shear_across - y * own.base_shear);
-    /// In plan: area of open elements inside the outline of the base, m².
-    UpliftedArea uplifted_area, "uplifted area", "m²", Scale::Unit, [Plan, Page],
-        open_area;
     /// In plan: slip along y averaged over the base, m.
     MeanSlipAcross mean_slip_across, "mean slip across", "m", Scale::Unit, [Plan, Foundations, Comparison],
         |base| base.mean(|own| own.slip_across);
@@ -224,6 +224,9 @@ quantities! {
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
         |base| base.least(|_, footing| against_overturning(footing, 1));
 }
+
+/// In the plane this quantity and those after it keep their first value.
+const ACROSS: usize = Quantity::ShearAcross as usize;
 
 /// Most slip events of a base that memory is reserved for.
 const EVENTS: usize = 1000;
@@ -327,7 +330,8 @@ impl Summary {
     /// Takes in the state of a step that began at `begin`; `foundation` as at the start.
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
-        for (extremes, row) in self.each().into_iter().zip(TABLE) {
+        let changing = if state.context.elements.is_plan() { TABLE } else { &TABLE[..ACROSS] };
+        for (extremes, row) in self.each().into_iter().zip(changing) {
             extremes.see((row.value)(&base), time);
         }
         let slip = (Quantity::MeanSlip.row().value)(&base);
