@@ -264,6 +264,11 @@ impl Plan {
         self.owners.as_deref().map(Unions::new)
     }
 
+    /// Contact element of a cell.
+    pub(super) fn element_of(&self, cell: usize) -> usize {
+        self.owners.as_ref().map_or(cell, |owners| owners[cell])
+    }
+
     /// Sides of the contact elements along x, and front and back ends, m.
     pub(in crate::bem) fn sides(&self) -> (Vec<ContactElement>, Vec<[f64; 2]>) {
         let ends = |axis: usize, cell: &[usize; 2]| {
@@ -275,7 +280,7 @@ impl Plan {
         for (number, cell) in self.cells.iter().enumerate() {
             let ([left, right], depth) = (ends(0, cell), ends(1, cell));
             // Cells of a mat come row by row, and the first of an element before its others.
-            let owner = self.owners.as_ref().map_or(number, |owners| owners[number]);
+            let owner = self.element_of(number);
             if let Some((element, [_, back])) = elements.get_mut(owner).zip(depths.get_mut(owner)) {
                 (element.right, *back) = (element.right.max(right), back.max(depth[1]));
             } else {
@@ -291,7 +296,7 @@ impl Plan {
         let [a, b] = self.lattice.pitch;
         let mut sums: Vec<[f64; 2]> = vec![];
         for (number, inside) in self.inside().into_iter().enumerate() {
-            let owner = self.owners.as_ref().map_or(number, |owners| owners[number]);
+            let owner = self.element_of(number);
             sums.resize(sums.len().max(owner + 1), [0.0; 2]);
             sums[owner][0] += inside;
             sums[owner][1] += a * b;

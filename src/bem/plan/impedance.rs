@@ -52,7 +52,7 @@ const ENTRIES: usize = MOTIONS * MOTIONS;
 ///
 /// Frequency 0 is the static stiffness. Layers may have any damping, hysteretic too; without any they take eight times
 /// as long. Relaxed contact has vertical motions and rocking without shear, horizontal ones and torsion without
-/// pressure.
+/// pressure. Tractions are constant over the contact elements, whether cells or unions of them.
 ///
 /// ```
 /// use basemat::bem::layered::StripContact;

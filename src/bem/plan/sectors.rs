@@ -6,7 +6,8 @@
 //!
 //! e_pᵀ F e_q = |G| Σ χ(h) `F`_(p, hq)
 //!
-//! so that a quarter of the cells is left of a rectangle, in four systems.
+//! so that a quarter of the cells is left of a rectangle, in four systems. Cells in unions act together, and p and q are
+//! elements.
 
 use realfft::num_complex::Complex64;
 
@@ -20,37 +21,63 @@ pub(super) const MOTIONS: usize = 6;
 /// Components of a cell: down, along x, along y.
 const COMPONENTS: usize = 3;
 
+/// A reflection of a plan in x, in y, or in both.
+#[derive(Debug)]
+struct Reflection {
+    axes: [bool; 2],
+    /// Mirror image of each element.
+    images: Vec<usize>,
+}
+
 /// Symmetry of a plan.
 #[derive(Debug)]
 pub(super) struct Sectors<'a> {
     plan: &'a Plan,
-    /// Reflections (in x, in y), the identity first.
-    group: Vec<[bool; 2]>,
-    /// One cell of each orbit.
-    cells: Vec<[usize; 2]>,
+    /// Reflections that keep the elements, the identity first.
+    group: Vec<Reflection>,
+    /// One element of each orbit.
+    elements: Vec<usize>,
+    /// Cells of these, each with the place of its element among them.
+    cells: Vec<([usize; 2], usize)>,
 }
 
 impl<'a> Sectors<'a> {
     pub(super) fn new(plan: &'a Plan) -> Self {
+        Self::by(plan, &[[false, false], [true, false], [false, true], [true, true]])
+    }
+
+    /// Symmetry in these reflections at most.
+    fn by(plan: &'a Plan, reflections: &[[bool; 2]]) -> Self {
+        let owners: Vec<_> = (0..plan.cells.len()).map(|cell| plan.element_of(cell)).collect();
+        let count = owners.iter().max().map_or(0, |last| last + 1);
         let counts = plan.lattice.counts;
-        let mut on = vec![false; counts[0] * counts[1]];
-        for [i, j] in &plan.cells {
-            on[j * counts[0] + i] = true;
+        let mut on = vec![None; counts[0] * counts[1]];
+        for ([i, j], owner) in plan.cells.iter().zip(&owners) {
+            on[j * counts[0] + i] = Some(*owner);
         }
-        let kept = |h: &[bool; 2]| {
-            let image = |cell: &[usize; 2]| mirrored(*h, *cell, counts);
-            plan.cells.iter().map(image).all(|[i, j]| on[j * counts[0] + i])
+        // Cells of an element must stay together.
+        let reflection = |axes: &[bool; 2]| {
+            let mut images = vec![None; count];
+            for (cell, owner) in plan.cells.iter().zip(&owners) {
+                let [i, j] = mirrored(*axes, *cell, counts);
+                let image = on[j * counts[0] + i]?;
+                if *images[*owner].get_or_insert(image) != image {
+                    return None;
+                }
+            }
+            Some(Reflection { axes: *axes, images: images.into_iter().flatten().collect() })
         };
-        let all = [[false, false], [true, false], [false, true], [true, true]];
-        let mut group: Vec<_> = all.into_iter().filter(kept).collect();
+        let mut group: Vec<_> = reflections.iter().filter_map(reflection).collect();
         // Half a turn alone is no reflection.
-        if group.len() == 2 && group[1] == [true, true] {
+        if group.len() == 2 && group[1].axes == [true, true] {
             group.pop();
         }
-        let first =
-            |cell: &&[usize; 2]| group.iter().all(|h| mirrored(*h, **cell, counts) >= **cell);
-        let cells = plan.cells.iter().filter(first).copied().collect();
-        Self { plan, group, cells }
+        let is_first = |element: &usize| group.iter().all(|h| h.images[*element] >= *element);
+        let elements: Vec<_> = (0..count).filter(is_first).collect();
+        let place = |owner| elements.binary_search(owner).ok();
+        let each = plan.cells.iter().zip(&owners);
+        let cells = each.filter_map(|(cell, owner)| Some((*cell, place(owner)?))).collect();
+        Self { plan, group, elements, cells }
     }
 
     /// Forces and moments on the soil by unit rigid motions, AᵀF⁻¹A, for compliances of all classes. Components of a
@@ -64,7 +91,7 @@ impl<'a> Sectors<'a> {
         parts: &[&[usize]],
     ) -> Result<[[Complex; MOTIONS]; MOTIONS]> {
         let mut sum = [[Complex64::default(); MOTIONS]; MOTIONS];
-        let has = |axis: usize| self.group.iter().any(|h| h[axis]);
+        let has = |axis: usize| self.group.iter().any(|h| h.axes[axis]);
         let signs = |axis: usize| if has(axis) { &[1.0, -1.0][..] } else { &[1.0][..] };
         for x in signs(0) {
             for y in signs(1) {
@@ -97,16 +124,17 @@ impl<'a> Sectors<'a> {
             };
             sign(0) * sign(1)
         };
-        // Place of each component of each cell; a cell on an axis has no odd ones.
+        // Place of each component of each element; an element on an axis has no odd ones.
         let mut order = 0;
         let places: Vec<[Option<usize>; COMPONENTS]> = self
-            .cells
+            .elements
             .iter()
-            .map(|cell| {
+            .map(|element| {
                 let mut places = [None; COMPONENTS];
                 for component in components {
-                    let fixed = |h: &&[bool; 2]| mirrored(**h, *cell, counts) == *cell;
-                    if self.group.iter().filter(fixed).all(|h| character(*h, *component) > 0.0) {
+                    let fixed = |h: &&Reflection| h.images[*element] == *element;
+                    let even = |h: &Reflection| character(h.axes, *component) > 0.0;
+                    if self.group.iter().filter(fixed).all(even) {
                         places[*component] = Some(order);
                         order += 1;
                     }
@@ -120,26 +148,28 @@ impl<'a> Sectors<'a> {
         let mut matrix = vec![Complex64::default(); order * order];
         let mut loads = vec![Complex64::default(); order * MOTIONS];
         let size = self.group.len() as f64;
-        for (receiver, rows) in self.cells.iter().zip(&places) {
-            for h in &self.group {
-                let resultants = self.resultants(mirrored(*h, *receiver, counts));
+        for (receiver, element) in &self.cells {
+            let rows = places[*element];
+            for Reflection { axes, .. } in &self.group {
+                let resultants = self.resultants(mirrored(*axes, *receiver, counts));
                 for (component, row) in rows.iter().enumerate() {
                     let Some(row) = row else { continue };
                     let loads = &mut loads[row * MOTIONS..(row + 1) * MOTIONS];
                     for (load, value) in loads.iter_mut().zip(resultants[component]) {
-                        load.re += character(*h, component) * value;
+                        load.re += character(*axes, component) * value;
                     }
                 }
             }
-            for (source, columns) in self.cells.iter().zip(&places) {
-                for h in &self.group {
-                    let image = mirrored(*h, *source, counts);
+            for (source, element) in &self.cells {
+                let columns = places[*element];
+                for Reflection { axes, .. } in &self.group {
+                    let image = mirrored(*axes, *source, counts);
                     let block = self.plan.lattice.block(values, offset(*receiver, image));
                     for (row, block) in rows.iter().zip(block) {
                         let Some(row) = row else { continue };
                         for (component, column) in columns.iter().enumerate() {
                             let Some(column) = column else { continue };
-                            let value = block[component].scale(size * character(*h, component));
+                            let value = block[component].scale(size * character(*axes, component));
                             matrix[row * order + column] += value.inner();
                         }
                     }
@@ -203,11 +233,19 @@ mod tests {
             ("##\n#.", 1),
             ("###\n#.#\n###", 4),
         ];
-        let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
-        for (text, order) in masks {
+        let masked = |(text, order): (&str, usize)| {
             let columns = text.lines().next().unwrap().len();
             let mask: Vec<bool> = text.lines().flat_map(str::chars).map(|c| c == '#').collect();
-            let plan = Plan::masked([0.0; 2], [1.0, 0.8], columns, &mask).unwrap();
+            (Plan::masked([0.0; 2], [1.0, 0.8], columns, &mask).unwrap(), order)
+        };
+        let mut plans: Vec<_> = masks.into_iter().map(masked).collect();
+        for (along, order) in [(vec![1, 3, 1], 4), (vec![1, 2, 2, 1], 4), (vec![1, 2, 1, 1], 2)] {
+            let cells = along.iter().sum();
+            let plan = Plan::masked([0.0; 2], [1.0, 0.8], cells, &vec![true; 4 * cells]).unwrap();
+            plans.push((plan.with_unions(&along, &[1, 2, 1]).unwrap(), order));
+        }
+        let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
+        for (plan, order) in plans {
             let s = Complex::new(0.1, 0.8);
             let mut watch = Watch::nobody();
             let integrals = Integrals::new(&plan.lattice, &profile, [s], 1e-9, &mut watch).unwrap();
@@ -215,13 +253,13 @@ mod tests {
             let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
             integrals.compliance(&profile, s, &mut work, &mut values).unwrap();
             let sectors = Sectors::new(&plan);
-            assert_eq!(sectors.group.len(), order, "{text}");
-            let whole = Sectors { plan: &plan, group: vec![[false; 2]], cells: plan.cells.clone() };
+            assert_eq!(sectors.group.len(), order, "{plan:?}");
+            let whole = Sectors::by(&plan, &[[false; 2]]);
             for parts in [&[&[0, 1, 2][..]][..], &[&[0], &[1, 2]]] {
                 let found = sectors.stiffness(&values, parts).unwrap();
                 let wanted = whole.stiffness(&values, parts).unwrap();
                 for (found, wanted) in found.iter().flatten().zip(wanted.iter().flatten()) {
-                    assert!((*found - *wanted).abs() < 1e-11, "{text} {found:?} {wanted:?}");
+                    assert!((*found - *wanted).abs() < 1e-11, "{plan:?} {found:?} {wanted:?}");
                 }
             }
         }
