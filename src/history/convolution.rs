@@ -1,6 +1,6 @@
 //! Convolutions: the traits of weights and of histories, and the direct sum.
 
-use super::exponentials::ExponentialSum;
+use super::exponentials::tail::ExponentialSum;
 use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::wave_level::SharedSpectra;
 use crate::error::{CheckpointError, Error, Observer, Result, same_length};
