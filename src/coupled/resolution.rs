@@ -51,7 +51,7 @@ use super::state::State;
 use super::variation::{OWN, Sampler, Variation};
 use super::warning::Warning;
 use crate::bem::Ground;
-use crate::geometry::{Patch, SPACE, far_ends};
+use crate::geometry::{Patch, SPACE, axis_name, far_ends};
 use crate::motion::FreeField;
 
 /// Largest r where the base shear follows the ground.
@@ -334,10 +334,11 @@ impl Resolution {
             let needed = crossing / CROSSING_STEPS[1];
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
-        let few = |(own, _): &(&Axis, char)| own.elements < own.needed();
-        if let Some((own, name)) = self.axes.iter().zip(['x', 'y']).find(few) {
-            let (foundation, elements, needed) = (self.foundation, own.elements, own.needed());
-            let axis = self.in_plan.then_some(name);
+        let few = |axis: &Axis| axis.elements < axis.needed();
+        if let Some(found) = self.axes.iter().position(few) {
+            let Axis { elements, .. } = self.axes[found];
+            let (foundation, needed) = (self.foundation, self.axes[found].needed());
+            let axis = axis_name(self.in_plan, found);
             warnings.push(Warning::FewElements { foundation, elements, needed, axis });
         }
         let counts = self.in_plan || self.samples.running;

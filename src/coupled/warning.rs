@@ -3,7 +3,9 @@
 use std::fmt;
 
 use super::energy_balance::EnergyBalance;
-use crate::motion::STANDARD_GRAVITY;
+use super::scene::Scene;
+use crate::bem::Ground;
+use crate::motion::{FreeField, STANDARD_GRAVITY};
 use crate::soil::Soil;
 
 /// Where the assumptions of a run are strained, or its time step or elements too coarse.
@@ -175,24 +177,32 @@ impl Warning {
     /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
     const LARGEST_ACCELERATION: f64 = 60.0;
 
-    /// Those that a scene calls for before its first step: `soils` of the ground, foundations that reach beyond the
-    /// ground's elements, in plan along which axis, and how far (m), `period` on a fixed base (s).
+    /// Those that a scene calls for before its first step, of a structure with this `period` on a fixed base (s).
     pub(crate) fn of_scene(
-        soils: &[Soil],
-        uncovered: &[(usize, Option<char>, f64)],
+        scene: &Scene,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
         period: f64,
     ) -> Vec<Self> {
-        let mut warnings: Vec<_> = Self::of_soils(soils).collect();
+        let mut warnings: Vec<_> = Self::of_soils(&ground.soils()).collect();
         // A model not to scale has been told so.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }
-        let uncovered = uncovered.iter();
-        warnings.extend(uncovered.map(|&(foundation, axis, reach)| Self::UncoveredBase {
+        let uncovered = scene.base.uncovered(&scene.elements).into_iter();
+        warnings.extend(uncovered.map(|(foundation, axis, reach)| Self::UncoveredBase {
             foundation,
             reach,
             axis,
         }));
+        if motion.moves_across() && !scene.elements.is_plan() {
+            warnings.push(Self::MotionAcross);
+        }
+        if let Some(taken) = scene.static_state.stand_in {
+            Self::count_friction(&mut warnings, taken);
+        }
+        let sample = ground.sampled_cells();
+        warnings.extend(sample.map(|[checked, cells]| Self::SampledPassivity { checked, cells }));
         warnings
     }
 

@@ -125,7 +125,7 @@ impl DeformedShape {
         for face in block.contact_faces() {
             let (first, count) = (points.len(), face.len());
             let top = |node: &FaceNode| {
-                let rows = FaceNode::carried(&face, [node.x, node.y], height);
+                let rows = FaceNode::carried(&face, node.place(), height);
                 ShapePoint::in_space([node.x, node.y, height], rows)
             };
             points.extend(face.iter().map(FaceNode::shape));

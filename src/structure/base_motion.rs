@@ -2,7 +2,7 @@
 
 use super::{DofCombination, FaceNode, Structure, check_base_nodes};
 use crate::error::{Error, Result, finite, positive};
-use crate::geometry::far_ends;
+use crate::geometry::{middle, span};
 
 impl DofCombination {
     /// This displacement to the right less that of the base's middle: what an observer on the base
@@ -86,10 +86,8 @@ impl DofCombination {
             return Ok([translation - height * rotation, Self::default(), up]);
         }
         check_base_nodes(&nodes, structure.dofs())?;
-        let ends = |of: fn(&FaceNode) -> f64| far_ends(nodes.iter().map(|node| [of(node); 2]));
-        let [along, across] = [ends(|node| node.x), ends(|node| node.y)];
-        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-        let carried = FaceNode::carried(&nodes, [middle(along) + x, middle(across) + y], height);
+        let center = [0, 1].map(|axis| middle(span(nodes.iter().map(|node| node.place()[axis]))));
+        let carried = FaceNode::carried(&nodes, [center[0] + x, center[1] + y], height);
         let weights = carried.iter().flatten().map(|(_, weight)| *weight);
         match weights.into_iter().find(|weight| !weight.is_finite()) {
             None => Ok(carried),

@@ -269,21 +269,8 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let uncovered = scene.base.uncovered(&scene.elements);
         let period = assembled.period_on_fixed_base(&mut held);
-        let axis = |axis: usize| scene.elements.is_plan().then_some(['x', 'y'][axis]);
-        let uncovered: Vec<_> =
-            uncovered.into_iter().map(|(k, along, reach)| (k, axis(along), reach)).collect();
-        let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
-        if given.motion.moves_across() && !scene.elements.is_plan() {
-            warnings.push(Warning::MotionAcross);
-        }
-        if let Some(taken) = scene.static_state.stand_in {
-            Warning::count_friction(&mut warnings, taken);
-        }
-        let sample = ground.sampled_cells();
-        warnings
-            .extend(sample.map(|[checked, cells]| Warning::SampledPassivity { checked, cells }));
+        let warnings = Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.

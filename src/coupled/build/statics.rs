@@ -8,7 +8,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
 use crate::error::{Error, Result, all_finite, finite};
-use crate::geometry::{PLANE, SPACE};
+use crate::geometry::PLANE;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
 };
@@ -214,7 +214,7 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             let [down, along] = layout.places(e);
             contact.gap = -moved[down];
             contact.slip = moved[along];
-            if layout.components() == SPACE {
+            if layout.is_plan() {
                 contact.slip_across = moved[layout.place(PLANE, e)];
             }
             if contact.gap < -closed {

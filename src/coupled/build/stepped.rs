@@ -10,7 +10,6 @@ use crate::coupled::scene::base::Base;
 use crate::coupled::scene::operators::{Factor, Model, Operators};
 use crate::coupled::scene::transformation::ModalBasis;
 use crate::error::{Error, Result};
-use crate::geometry::SPACE;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot, generalised_modes, largest};
 use crate::structure::{Structure, Tangent};
 
@@ -164,7 +163,7 @@ pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     for matrix in matrices {
         parts.couple(matrix);
     }
-    let is_plan = assembled.base.layout().components() == SPACE;
+    let is_plan = assembled.base.layout().is_plan();
     let most = RIGID_MOTIONS[usize::from(is_plan)] * parts.sets().len();
     if rigid > most || smallest.fold(top, f64::min) < SMALLEST * top {
         return None;

@@ -7,7 +7,7 @@
 
 use super::base::Base;
 use super::transformation::Terms;
-use crate::geometry::{ContactLayout, SPACE};
+use crate::geometry::ContactLayout;
 use crate::linalg::matrix::spread;
 use crate::structure::FaceNode;
 
@@ -156,7 +156,7 @@ impl Part {
             let [down, along, across] = layout.places(e);
             displacement[down] += up;
             displacement[along] -= right;
-            if layout.components() == SPACE {
+            if layout.is_plan() {
                 displacement[across] -= away;
             }
         }

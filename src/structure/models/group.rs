@@ -1,7 +1,7 @@
 //! Several structures on one ground.
 
 use crate::error::{CheckpointError, Error, Result, finite};
-use crate::geometry::far_ends;
+use crate::geometry::{Edge, span};
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
@@ -205,17 +205,14 @@ impl Member {
 
 /// Whether there is a gap between two convex polygons: a direction in which one ends before the other begins.
 fn are_apart(one: &[FaceNode], other: &[FaceNode]) -> bool {
-    let separates = |a: &FaceNode, b: &FaceNode| {
-        let [dx, dy] = [b.y - a.y, a.x - b.x];
-        let range = |face: &[FaceNode]| far_ends(face.iter().map(|p| [dx * p.x + dy * p.y; 2]));
-        let ([low, high], [least, most]) = (range(one), range(other));
+    let [one, other] =
+        [one, other].map(|face| face.iter().map(FaceNode::place).collect::<Vec<_>>());
+    let separates = |edge: Edge| {
+        let range = |corners: &[[f64; 2]]| span(corners.iter().map(|p| edge.outward(*p)));
+        let ([low, high], [least, most]) = (range(&one), range(&other));
         high < least || most < low
     };
-    let edges = |face: &[FaceNode]| {
-        let next = face.iter().cycle().skip(1);
-        face.iter().zip(next).any(|(a, b)| separates(a, b))
-    };
-    edges(one) || edges(other)
+    Edge::all(&one).chain(Edge::all(&other)).any(separates)
 }
 
 impl Structure for StructureGroup {
