@@ -31,7 +31,7 @@ impl ContactElement {
 
 /// Directions of motion and traction at each element of a ground in the plane: down, along x.
 pub(crate) const PLANE: usize = 2;
-/// Those of a ground in plan: down, along x, along y.
+/// Directions of motion and traction at each element of a ground in plan: down, along x, along y.
 pub(crate) const SPACE: usize = 3;
 
 /// Order of the numbers in a contact vector: component by component, all elements in their order.
@@ -52,7 +52,7 @@ impl ContactLayout {
         self.components
     }
 
-    /// Whether it is that of a ground in plan, of three directions.
+    /// Whether the ground is one in plan, of three directions.
     pub(crate) const fn is_plan(self) -> bool {
         self.components == SPACE
     }
@@ -101,7 +101,7 @@ impl ContactLayout {
         })
     }
 
-    /// The same, to be changed.
+    /// Components of a contact vector as by [`ContactLayout::split`], to be changed.
     pub(crate) fn split_mut<T, const N: usize>(self, mut vector: &mut [T]) -> [&mut [T]; N] {
         std::array::from_fn(|_| {
             let all = std::mem::take(&mut vector);

@@ -18,7 +18,8 @@ pub trait FreeField: Send {
         [horizontal, 0.0, vertical]
     }
 
-    /// Whether it moves along y, too, which a ground in the plane leaves out: a run on one warns. Default: no.
+    /// Whether the motion has a component along y. A ground in the plane leaves it out, and a run on one warns.
+    /// Default: no.
     fn moves_across(&self) -> bool {
         false
     }
@@ -101,7 +102,7 @@ impl FreeFieldFn {
         Self { displacement: Box::new(displacement), velocity: None }
     }
 
-    /// With its `velocity(x, time)`, the time derivative of the displacement.
+    /// Adds the `velocity(x, time)`, the time derivative of the displacement.
     #[must_use]
     pub fn with_velocity(self, velocity: impl Fn(f64, f64) -> [f64; 2] + Send + 'static) -> Self {
         Self { velocity: Some(Box::new(velocity)), ..self }
@@ -264,7 +265,7 @@ impl TravellingWave {
         Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
     }
 
-    /// The same wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
+    /// This wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
     /// counter-clockwise from x as seen from above, and its components along and across that direction turn with it.
     /// `origin` counts from (0, 0) in that direction. In the plane its components along x and up are felt, at y = 0.
     ///
@@ -371,7 +372,7 @@ impl RickerDisplacement {
         Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
     }
 
-    /// The same pulse, turned into the vertical (positive up).
+    /// This pulse, turned into the vertical (positive up).
     #[must_use]
     pub fn vertical(self) -> Self {
         let [horizontal, vertical] = self.amplitude;

@@ -216,7 +216,7 @@ impl DeformedShape {
         &self.cells
     }
 
-    /// Whether it moves along y too.
+    /// Whether the shape moves along y too.
     #[cfg(feature = "plot")]
     pub(crate) fn in_plan(&self) -> bool {
         self.points.iter().any(|point| !point.across.is_empty())
@@ -256,7 +256,7 @@ impl DeformedShape {
 }
 
 impl ShapePoint {
-    /// At (x, y, height), moved along x, along y and up.
+    /// Point at (x, y, height), moved along x, along y and up.
     fn in_space([x, away, height]: [f64; 3], rows: [DofCombination; 3]) -> Self {
         let [horizontal, across, vertical] = rows;
         Self { position: [x, height], horizontal, vertical, away, across }

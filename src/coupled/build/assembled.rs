@@ -24,7 +24,7 @@ use crate::structure::{
 /// Passes that refine the influence vectors.
 const REFINEMENTS: usize = 3;
 
-/// What a structure is made of, before coordinates are chosen.
+/// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
     pub(crate) linear: bool,
     pub(crate) mass: SparseMatrix,
@@ -109,7 +109,7 @@ impl Assembled {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
     }
 
-    /// What a search for mechanisms looks at; `structure` knows the names of its degrees of freedom.
+    /// The structure at rest, for a search for mechanisms; `structure` knows the names of its degrees of freedom.
     pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
         let stiffness = self.stiffness_at_rest();
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }

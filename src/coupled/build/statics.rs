@@ -22,7 +22,7 @@ const INCREMENTS: usize = 10;
 /// Passes in which laws that remember settle.
 const PASSES: usize = 10;
 
-/// Of the step that a stage is to the laws, s.
+/// Length of the step that a gravity stage is to the laws, s.
 const TIME_STEP: f64 = 1.0;
 
 /// The state under weight and the loads at t = 0, which the structure's internal variables follow;

@@ -16,7 +16,7 @@ use crate::structure::{Structure, Tangent};
 /// Steps that modes have to pay for themselves in, if not told otherwise.
 const STEPS: usize = 4_000;
 
-/// What [`Coordinates::Modes`] asks for.
+/// Needs of [`Coordinates::Modes`].
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
 
@@ -98,7 +98,7 @@ enum Chosen {
     Modes(ModalBasis),
 }
 
-/// What to say of `error`, that the effective stiffness has no factors.
+/// Cause of `error`, that the effective stiffness has no factors.
 fn cause(
     assembled: &Assembled,
     structure: &dyn Structure,

@@ -165,8 +165,8 @@ fn resultants(
     })
 }
 
-/// Of all edges of a convex outline that the resultant at this distance from `middle` moves to, the largest part of the
-/// way to one of them, and the axis which that faces more.
+/// Largest part of the way from `middle` to an edge of a convex outline that a resultant at this `distance` has gone,
+/// and the axis that this edge faces more.
 fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
     let parts = Edge::all(outline).map(|edge| {
         let faces_y = edge.normal[1].abs() > edge.normal[0].abs();
@@ -278,16 +278,15 @@ const SINGULAR: f64 = 1e18;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Conditioning {
-    /// Of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
-    /// One for a structure that is stepped in its modes: they do not meet.
+    /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state. One for a
+    /// structure that is stepped in its modes, which are not coupled.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub effective_stiffness: f64,
-    /// Of the ground's instantaneous operator G¹. Nothing here divides by it: a rigid ground has
-    /// none.
+    /// Condition of the ground's step compliance G¹. It has no limit: no step solves with G¹ alone.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub ground: f64,
-    /// Of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its
-    /// normal part alone where there is no friction, with the compliance of a thin layer added.
+    /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its normal part
+    /// alone where there is no friction, with the compliance of a thin layer added.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub delassus: f64,
 }

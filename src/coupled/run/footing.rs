@@ -28,7 +28,7 @@ impl<'a> Base<'a> {
         self.foundation.map(|k| &self.state.foundations[k])
     }
 
-    /// The whole base's number, or that of the foundation.
+    /// Value of the whole base, or that of the foundation.
     pub(super) fn pick(&self, whole: f64, own: fn(&Foundation) -> f64) -> f64 {
         self.own().map_or(whole, own)
     }
@@ -74,7 +74,7 @@ impl<'a> Base<'a> {
         self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
     }
 
-    /// Left and right, front and back end: of its elements in the plane, of its outline in plan.
+    /// Left and right, front and back ends (m): those of the elements in the plane, of the outline in plan.
     pub(super) fn ends(&self) -> [[f64; 2]; 2] {
         let context = &self.state.context;
         if !context.elements.is_plan() {
@@ -118,7 +118,7 @@ pub(super) fn open_area(base: &Base<'_>) -> f64 {
     open.fold(0.0, |sum, (area, _)| sum + area)
 }
 
-/// Elements of a foundation, with what they carry.
+/// Elements of a foundation with their tractions.
 #[derive(Clone, Copy)]
 pub(super) struct Footing<'a> {
     pub(super) elements: &'a [ContactElement],

@@ -153,7 +153,7 @@ impl Base {
         Ok(Self::from_rows(rows, foundations, nodes, elements))
     }
 
-    /// The same base of the coordinates that are stepped.
+    /// This base in the coordinates that are stepped.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
         for rotation in foundations.iter_mut().flat_map(|footing| &mut footing.rotations) {

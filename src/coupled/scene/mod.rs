@@ -205,7 +205,7 @@ impl Scene {
         }
     }
 
-    /// What the nonlinear force sees of a motion.
+    /// Displacement in a motion that the nonlinear force depends on.
     pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
         let mut seen = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);

@@ -190,7 +190,7 @@ impl Member {
         row.map_dofs(|k| if own(k) { k.saturating_add(self.first_dof) } else { usize::MAX })
     }
 
-    /// Its faces in the group.
+    /// Faces of the member in the group.
     fn faces(&self) -> Vec<Vec<FaceNode>> {
         let mut faces = self.structure.contact_faces();
         for node in faces.iter_mut().flatten() {
@@ -262,7 +262,7 @@ impl Structure for StructureGroup {
         self.write(matrix, Structure::damping)
     }
 
-    /// Those that none of the members describes by numbers of the group.
+    /// Descriptions by the members; degrees of freedom that a member does not describe have their numbers in the group.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let mut texts = Vec::new();
         for (k, member) in self.members.iter().enumerate() {
@@ -277,7 +277,7 @@ impl Structure for StructureGroup {
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// If that of a member is.
+    /// Whether the damping of a member is active.
     fn has_active_damping(&self) -> bool {
         self.members.iter().any(|member| member.structure.has_active_damping())
     }
