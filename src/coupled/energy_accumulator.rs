@@ -42,7 +42,7 @@ pub(crate) struct EnergyAccumulator {
     scratch: Scratch,
 }
 
-/// Buffers that no step leaves anything in.
+/// Nothing in it outlives a step.
 #[derive(Clone)]
 struct Scratch {
     vector: Vec<f64>,
@@ -51,8 +51,8 @@ struct Scratch {
 }
 
 impl EnergyAccumulator {
-    /// Accumulator at the beginning of a run; the energy of an initial motion counts as input. `compliant` says whether
-    /// any law stores energy in its elements.
+    /// At the beginning of a run; the energy of an initial motion counts as input. `compliant` says
+    /// whether any law stores energy in its elements.
     pub(crate) fn new(
         scene: &Scene,
         structure: &dyn Structure,

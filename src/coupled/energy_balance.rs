@@ -4,12 +4,12 @@ use std::fmt;
 
 use crate::text::column::{column, number, of_body};
 
-/// Side of the balance on which a term stands.
+/// Where a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
     /// Left-hand side of the balance: kept, or still to come.
     Balance,
-    /// Left-hand side, of energy that the structure has lost for good or to the ground.
+    /// The same, of what the structure has lost for good, or to the ground.
     Lost,
     /// Right-hand side.
     Input,
@@ -65,7 +65,7 @@ macro_rules! energies {
                 [$(self.$field),+]
             }
 
-            /// Terms in the order of [`EnergyTerm::ALL`], to be overwritten.
+            /// The same, to be overwritten.
             pub(crate) fn terms_mut(&mut self) -> [&mut f64; ROWS.len()] {
                 [$(&mut self.$field),+]
             }
@@ -118,19 +118,19 @@ energies! {
 }
 
 impl EnergyTerm {
-    /// Name in tables and pictures. Terms of one name are shown as their sum.
+    /// Its name in tables and pictures. Terms of one name are shown as their sum.
     pub(crate) fn name(self) -> &'static str {
         ROWS[self as usize].2
     }
 
-    /// Column in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
+    /// Its column in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
     pub(crate) fn column(self, in_plan: bool) -> String {
         let word = ROWS[self as usize].0;
         let name = if word.contains("bound") { word.to_owned() } else { format!("{word} energy") };
         column(&name, of_body("J/m", in_plan))
     }
 
-    /// Whether the structure has lost this energy for good or to the ground.
+    /// Whether it is what the structure has lost for good, or to the ground.
     pub(crate) fn is_lost(self) -> bool {
         self.side() == Side::Lost
     }
@@ -159,7 +159,7 @@ impl EnergyBalance {
         all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
     }
 
-    /// Energies that the input has become, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
+    /// What the input has become, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
     pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
         for (term, energy) in self.balance() {
@@ -193,8 +193,8 @@ impl EnergyBalance {
         self.input.is_nan()
     }
 
-    /// Left-hand side minus input, relative to the [largest energy](EnergyBalance::largest) so far; NaN without an
-    /// energy balance.
+    /// Left-hand side minus input, relative to the [largest energy](EnergyBalance::largest) so far; NaN if no
+    /// energy balance is kept.
     pub fn residual(&self) -> f64 {
         if self.is_left_out() {
             return f64::NAN;
