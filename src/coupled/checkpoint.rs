@@ -62,7 +62,7 @@ struct Identity {
     /// Whether a energy balance is kept.
     energy_balance: bool,
     probes: Vec<String>,
-    /// Where the memory of each element's law ends; empty if no law has any.
+    /// Ends of the state variables of each element's law; empty if no law has any.
     memory: Vec<usize>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -158,7 +158,7 @@ impl Identity {
     }
 }
 
-/// All that the steps so far have left behind.
+/// Saves the state of the run.
 pub(super) fn save(
     scene: &Scene,
     structure: &dyn Structure,

@@ -70,7 +70,7 @@ pub(crate) enum Quantity {
 }
 
 impl Motion {
-    /// At rest.
+    /// Motion at rest.
     pub(crate) fn new(model: &Model) -> Self {
         let zero = || vec![0.0; model.coordinates];
         Self {
@@ -182,7 +182,7 @@ impl Load {
         Self { row: row.into(), value: Box::new(value) }
     }
 
-    /// The same `force` at any time, the static state included.
+    /// Load of constant `force`, in the static state too.
     pub fn constant(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |_| force)
     }
@@ -233,12 +233,12 @@ impl Load {
         }))
     }
 
-    /// Where it acts.
+    /// Row of the degrees of freedom on which the load acts.
     pub(crate) fn row(&self) -> &DofCombination {
         &self.row
     }
 
-    /// Its value at `time`, s.
+    /// Force at `time` (s).
     pub fn value(&self, time: f64) -> f64 {
         (self.value)(time)
     }
@@ -262,7 +262,7 @@ impl fmt::Debug for Load {
 pub(crate) struct SteppedLoad {
     load: Load,
     row: Weights,
-    /// Its value in the static state.
+    /// Force in the static state.
     at_start: f64,
 }
 

@@ -51,7 +51,7 @@ use super::state::State;
 use super::variation::{OWN, Sampler, Variation};
 use super::warning::Warning;
 use crate::bem::Ground;
-use crate::geometry::{Patch, SPACE, far_ends};
+use crate::geometry::{Patch, SPACE, axis_name, far_ends};
 use crate::motion::FreeField;
 
 /// Largest r where the base shear follows the ground.
@@ -60,7 +60,7 @@ const FOLLOWING: f64 = 0.6;
 const SLOWER: f64 = 0.85;
 /// Multiple of the ground's r above which the base shear rings.
 const RINGING: f64 = 2.0;
-/// Steps per period that are asked for, in the two cases.
+/// Steps per period that a warning recommends, in the two cases.
 const OWN_STEPS: f64 = 30.0;
 const FOLLOWING_STEPS: f64 = 15.0;
 /// Error of the largest base shear over r² of the ground: of one that varies as the ground does,
@@ -68,24 +68,24 @@ const FOLLOWING_STEPS: f64 = 15.0;
 const ERROR_FOLLOWING: f64 = 0.3;
 const AS_THE_GROUND: [f64; 2] = [0.95, 1.1];
 const ERROR: f64 = 0.9;
-/// Estimated error that calls for a warning, and the one that is asked for.
+/// Estimated error that calls for a warning, and the one that the recommended step has.
 const ERRORS: [f64; 2] = [0.05, 0.03];
 /// Fewest steps that tell a frequency.
 const LEAST_STEPS: usize = 8;
-/// Base shear that is rounding, relative to the normal force.
+/// Base shear, relative to the normal force, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 /// Second difference of the free field that is rounding, relative to the largest free field so far.
 const AT_REST: f64 = 16.0 * f64::EPSILON;
 /// Elements per wavelength of the shear wave: fewest, and those that are asked for.
 const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
-/// The same in plan.
+/// Elements per wavelength in plan, likewise.
 const CELLS_PER_WAVELENGTH: [f64; 2] = [12.0, 12.0];
 /// Steps in which waves cross a base in plan: fewest, and those that are asked for.
 const CROSSING_STEPS: [f64; 2] = [4.0, 8.0];
 /// Fewest elements under a foundation by its base moment over base shear times width; below the
 /// last, rocking does not matter.
 const ELEMENTS: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
-/// Elements that any foundation needs: one takes no moment, so that none is seen.
+/// Elements that any foundation needs: a single one carries no moment, so that no rocking would be seen.
 const TWO: usize = 2;
 /// Time step and elements that base shear, ground and foundations of a run require.
 #[derive(Debug, Clone)]
@@ -98,7 +98,7 @@ pub(crate) struct Resolution {
     shear_wave_speed: Option<f64>,
     /// The foundation with the fewest elements.
     foundation: usize,
-    /// What these are along x, and in plan along y.
+    /// Its elements, shear and moment along x, and in plan along y.
     axes: [Axis; 2],
     steps: usize,
     last_step: usize,
@@ -106,7 +106,7 @@ pub(crate) struct Resolution {
     /// Mean free field at the last two steps, and its last second difference.
     free_field: [[f64; SPACE]; 2],
     acceleration: [f64; SPACE],
-    /// Its largest component after the first steps.
+    /// Largest component of that difference after the first steps.
     peak: f64,
     /// Largest |free field| so far.
     largest: [f64; SPACE],
@@ -130,7 +130,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// Elements with such ends.
+    /// Axis of elements with these `ends` along it.
     fn new(mut ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
         let [least, most] = far_ends(ends.iter().copied());
         ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
@@ -251,7 +251,7 @@ impl Resolution {
         self.peak / self.time_step.powi(2)
     }
 
-    /// Whether a base shear that means anything was seen.
+    /// Whether the base shear rose above rounding, over enough steps.
     fn has_response(&self) -> bool {
         let rounding = ROUNDING * self.normal_force;
         self.steps >= LEAST_STEPS
@@ -264,7 +264,7 @@ impl Resolution {
         self.base_shear.ratio() < SLOWER * self.ground.ratio()
     }
 
-    /// Whether the time step may miss what the base shear does.
+    /// Whether the time step may not resolve the base shear.
     fn is_coarse(&self) -> bool {
         let limit = if self.is_own_vibration() { OWN } else { FOLLOWING };
         self.has_response() && self.base_shear.ratio() > limit
@@ -297,12 +297,12 @@ impl Resolution {
         if self.in_plan { CELLS_PER_WAVELENGTH } else { PER_WAVELENGTH }
     }
 
-    /// That wavelength where elements are too long for it.
+    /// Wavelength of the base shear if elements are too long for it, m.
     fn short_waves(&self) -> Option<f64> {
         self.wavelength().filter(|length| *length < self.per_wavelength()[0] * self.longest)
     }
 
-    /// Adds what steps and elements have missed.
+    /// Adds warnings of what steps and elements did not resolve.
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
         if !self.has_response() {
             return;
@@ -334,10 +334,11 @@ impl Resolution {
             let needed = crossing / CROSSING_STEPS[1];
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
-        let few = |(own, _): &(&Axis, char)| own.elements < own.needed();
-        if let Some((own, name)) = self.axes.iter().zip(['x', 'y']).find(few) {
-            let (foundation, elements, needed) = (self.foundation, own.elements, own.needed());
-            let axis = self.in_plan.then_some(name);
+        let few = |axis: &Axis| axis.elements < axis.needed();
+        if let Some(found) = self.axes.iter().position(few) {
+            let Axis { elements, .. } = self.axes[found];
+            let (foundation, needed) = (self.foundation, self.axes[found].needed());
+            let axis = axis_name(self.in_plan, found);
             warnings.push(Warning::FewElements { foundation, elements, needed, axis });
         }
         let counts = self.in_plan || self.samples.running;
@@ -347,8 +348,8 @@ impl Resolution {
         }
     }
 
-    /// Samples the ground between steps that may have missed something in `times` (s): what they
-    /// see of a faster motion is aliased.
+    /// Samples the ground between the steps in `times` (s) if these may have missed something: a faster motion is
+    /// aliased in them.
     pub(crate) fn resolve_ground(
         &mut self,
         ground: &dyn Ground,

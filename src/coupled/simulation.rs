@@ -38,7 +38,7 @@ pub struct Simulation {
     pub(super) books: Option<EnergyAccumulator>,
     pub(super) state: State,
     pub(super) conditioning: Conditioning,
-    /// Those that the scene calls for before its first step, and steps since have.
+    /// Warnings of the scene before its first step, and of the steps since.
     pub(super) warnings: Vec<Warning>,
 }
 

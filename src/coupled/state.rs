@@ -48,7 +48,7 @@ impl Transition {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Foundation {
-    /// Its elements, as indices of [`State::contact`].
+    /// Elements of the foundation, as indices of [`State::contact`].
     pub elements: std::ops::Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
@@ -71,13 +71,13 @@ pub struct Foundation {
     /// In plan: moment on the soil about the vertical axis through the middle, counter-clockwise from above, N·m.
     #[cfg_attr(feature = "serde", serde(default))]
     pub torque: f64,
-    /// In plan: slip along y averaged over its elements, m.
+    /// In plan: slip along y averaged over the elements, m.
     #[cfg_attr(feature = "serde", serde(default))]
     pub mean_slip_across: f64,
-    /// In plan: rotation of its base about the axis along x, by the right-hand rule, rad.
+    /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub rotation_across: f64,
-    /// In plan: rotation of its base about the vertical axis, counter-clockwise from above, rad.
+    /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub twist: f64,
 }
@@ -102,7 +102,7 @@ impl Foundation {
     }
 }
 
-/// What a state needs of its simulation to be read; not part of what makes two states equal.
+/// Data of the simulation that results of a state need; two states are compared without them.
 #[derive(Debug)]
 pub(crate) struct Context {
     /// Names of the probes.
@@ -122,7 +122,7 @@ impl PartialEq for Context {
     }
 }
 
-/// Which simulation a state belongs to; not part of what makes two states equal.
+/// Number of the simulation that a state belongs to; two states are compared without it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Origin(u64);
 
@@ -184,7 +184,7 @@ pub struct State {
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],
-    /// In plan: its mean displacement along y, m; zero in the plane.
+    /// In plan: mean displacement of the free field along y, m; zero in the plane.
     pub free_field_across: f64,
     /// The energy balance; every term is NaN if none is kept.
     pub energy_balance: EnergyBalance,
@@ -216,7 +216,7 @@ impl State {
         self.motion.dofs(Quantity::Displacement)
     }
 
-    /// The same with the translation of the free field: where the structure has got to.
+    /// Displacement with the translation of the free field added.
     pub fn absolute_displacement(&self) -> &[f64] {
         self.motion.dofs(Quantity::AbsoluteDisplacement)
     }

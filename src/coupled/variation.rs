@@ -1,4 +1,4 @@
-//! How fast a series varies, and the ground's motion between steps.
+//! Rate at which a series varies, and the ground's motion between steps.
 
 use std::f64::consts::PI;
 use std::ops::Range;

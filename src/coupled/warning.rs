@@ -3,10 +3,12 @@
 use std::fmt;
 
 use super::energy_balance::EnergyBalance;
-use crate::motion::STANDARD_GRAVITY;
+use super::scene::Scene;
+use crate::bem::Ground;
+use crate::motion::{FreeField, STANDARD_GRAVITY};
 use crate::soil::Soil;
 
-/// Where the assumptions of a run are strained, or its time step or elements too coarse.
+/// Warning that assumptions of a run are strained, or that its time step or elements are too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -31,15 +33,15 @@ pub enum Warning {
         tension: f64,
         /// Middle of that element, m.
         x: f64,
-        /// In plan: its middle along y, m.
+        /// In plan: middle of that element along y, m.
         #[cfg_attr(feature = "serde", serde(default))]
         y: Option<f64>,
-        /// When, s.
+        /// Time of that tension, s.
         time: f64,
     },
     /// The energy balance does not close to 1e-9 at the end.
     EnergyBalance {
-        /// Its residual, relative to the largest energy of the run.
+        /// Residual of the balance, relative to the largest energy of the run.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         residual: f64,
     },
@@ -74,8 +76,8 @@ pub enum Warning {
         /// [`UnresolvedPeriod`](Self::UnresolvedPeriod).
         error: f64,
     },
-    /// In plan, a body vibrates by itself, and shear waves cross its base in less than four steps: they damp its rocking
-    /// more than radiation does.
+    /// In plan, a body vibrates at its own period while shear waves cross its base in less than four steps: steps that
+    /// long damp its rocking more than radiation does.
     UnresolvedRadiation {
         /// Time in which shear waves cross the shorter side of the base, s.
         crossing: f64,
@@ -86,9 +88,9 @@ pub enum Warning {
     },
     /// Fewer elements under a foundation than its rocking stiffness takes.
     FewElements {
-        /// The foundation, from the left, from 0.
+        /// Number of the foundation, from the left, from 0.
         foundation: usize,
-        /// Its elements; in plan those of a row or of a column.
+        /// Elements of the foundation; in plan those of a row or of a column.
         elements: usize,
         /// Fewest that it needs.
         needed: usize,
@@ -98,47 +100,48 @@ pub enum Warning {
     },
     /// The base reaches beyond the ground's elements, by more than one of them: nothing carries it there.
     UncoveredBase {
-        /// The foundation, from the left, from 0.
+        /// Number of the foundation, from the left, from 0.
         foundation: usize,
         /// Distance from the outermost element to the end of the foundation, m.
         reach: f64,
-        /// In plan: `x` or `y`, along which that is.
+        /// In plan: axis along which the base reaches too far, `x` or `y`.
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
-    /// More cells in plan than are checked for passivity together: theorem and all steps are as they were, but errors of the
-    /// quadrature and damping laws that are not passive are looked for among some of them only.
+    /// More cells in plan than can be checked for passivity at once: only a sample of them was searched for errors of
+    /// the quadrature and damping laws that are not passive. Steps are the same as with a full check.
     SampledPassivity {
         /// Cells that were checked together.
         checked: usize,
         /// All cells.
         cells: usize,
     },
-    /// In plan, steps were solved with less friction than the law's, infinite or above 100, where something slid: shear there
-    /// is taken as that times the pressure. Counted since the simulation was built, its static state as one.
+    /// In plan, steps were solved with less friction than the law's, which is infinite or above 100, because an element
+    /// slid: its shear is that lower coefficient times its pressure. Steps are counted since the simulation was built,
+    /// the static state as one.
     LessFriction {
         /// Number of such steps.
         steps: usize,
-        /// Least coefficient that was taken.
+        /// Least coefficient used.
         friction: f64,
     },
-    /// The motion goes along y, too, which a ground in the plane leaves out.
+    /// The motion has a component along y, which a ground in the plane leaves out.
     MotionAcross,
-    /// A soil unlike any: a number in another unit, unless the model is not to scale.
+    /// A soil with numbers that no soil has: one in another unit, unless the model is not to scale.
     UnusualSoil {
         /// Speed of its shear waves, m/s.
         shear_wave_speed: f64,
-        /// Its density, kg/m³.
+        /// Density, kg/m³.
         density: f64,
     },
     /// A structure slower than almost any: a stiffness in another unit, unless the model is not to scale.
     LongPeriod {
-        /// Its period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
+        /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
         period: f64,
     },
     /// Ground acceleration above any that was recorded: a motion in another unit, unless the model is not to scale.
     UnusualMotion {
-        /// Its largest component at any step, m/s².
+        /// Largest component at any step, m/s².
         acceleration: f64,
     },
     /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear, where waves run along
@@ -175,33 +178,41 @@ impl Warning {
     /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
     const LARGEST_ACCELERATION: f64 = 60.0;
 
-    /// Those that a scene calls for before its first step: `soils` of the ground, foundations that reach beyond the
-    /// ground's elements, in plan along which axis, and how far (m), `period` on a fixed base (s).
+    /// Warnings of a scene before its first step, of a structure with this `period` on a fixed base (s).
     pub(crate) fn of_scene(
-        soils: &[Soil],
-        uncovered: &[(usize, Option<char>, f64)],
+        scene: &Scene,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
         period: f64,
     ) -> Vec<Self> {
-        let mut warnings: Vec<_> = Self::of_soils(soils).collect();
+        let mut warnings: Vec<_> = Self::of_soils(&ground.soils()).collect();
         // A model not to scale has been told so.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }
-        let uncovered = uncovered.iter();
-        warnings.extend(uncovered.map(|&(foundation, axis, reach)| Self::UncoveredBase {
+        let uncovered = scene.base.uncovered(&scene.elements).into_iter();
+        warnings.extend(uncovered.map(|(foundation, axis, reach)| Self::UncoveredBase {
             foundation,
             reach,
             axis,
         }));
+        if motion.moves_across() && !scene.elements.is_plan() {
+            warnings.push(Self::MotionAcross);
+        }
+        if let Some(taken) = scene.static_state.stand_in {
+            Self::count_friction(&mut warnings, taken);
+        }
+        let sample = ground.sampled_cells();
+        warnings.extend(sample.map(|[checked, cells]| Self::SampledPassivity { checked, cells }));
         warnings
     }
 
-    /// The one that the largest ground acceleration of a run calls for (m/s²).
+    /// Warning of a largest ground acceleration (m/s²) above any recorded.
     pub(crate) fn of_motion(acceleration: f64) -> Option<Self> {
         (acceleration > Self::LARGEST_ACCELERATION).then_some(Self::UnusualMotion { acceleration })
     }
 
-    /// Those that the numbers of `soils` call for.
+    /// Warnings of `soils` with unusual numbers.
     fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
         let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
         let unusual = numbers.filter(|[speed, density]| {
@@ -221,8 +232,8 @@ impl Warning {
         warnings.push(Self::LessFriction { steps: 1, friction: taken });
     }
 
-    /// Those that largest slip, mean element length, largest rotation, the last energy balance and the least
-    /// algorithmic energy of the run call for.
+    /// Warnings of the largest slip, mean element length, largest rotation, last energy balance and least algorithmic
+    /// energy of a run.
     pub(crate) fn all(
         slip: f64,
         element_length: f64,

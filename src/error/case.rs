@@ -9,10 +9,10 @@ use super::Error;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaseError<E> {
-    /// It failed with an error of its own.
+    /// The case failed with an error of its own.
     #[error("{0}")]
     Failed(E),
-    /// It panicked.
+    /// The case panicked.
     #[error("the case panicked: {message}")]
     Panicked {
         /// Message of the panic; empty if that is no text.
@@ -81,7 +81,7 @@ pub enum SweepError {
     Failed {
         /// Number of the case.
         case: usize,
-        /// Its error, printed.
+        /// Error of the case, printed.
         reason: String,
     },
     /// A file that cannot be opened or read.

@@ -37,13 +37,13 @@ pub enum LayeredError {
     Modulus {
         /// Layer, from 1 at the surface.
         layer: usize,
-        /// Its real part, Pa.
+        /// Real part of the modulus, Pa.
         value: f64,
         /// Re s, 1/s.
         re: f64,
         /// Im s, 1/s.
         im: f64,
-        /// What was needed.
+        /// Condition that the value must meet.
         needed: &'static str,
     },
     /// A wavenumber integral that bisection does not resolve: a pole lies on the path.
@@ -91,7 +91,7 @@ pub enum LayeredError {
         element: f64,
         /// Thickness of the top layer, m; infinite for a half-plane.
         layer: f64,
-        /// What would help most.
+        /// Change that would help most.
         cure: &'static str,
     },
     /// Damping that no mechanisms reproduce over the band.
@@ -145,12 +145,12 @@ pub enum LayeredError {
     File {
         /// Name of the file.
         file: String,
-        /// What is wrong with it.
+        /// Fault of the file.
         reason: KernelFileError,
     },
 }
 
-/// What is wrong with a file of step coefficients.
+/// Fault of a file of step coefficients.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KernelFileError {

@@ -16,7 +16,7 @@ use super::{Error, Result};
 pub struct MemoryError {
     /// Name of the quantity.
     pub quantity: &'static str,
-    /// How many of it were asked for.
+    /// Number that was requested.
     pub asked: f64,
     /// Memory that they would take, estimated, bytes.
     pub needed: f64,

@@ -209,7 +209,7 @@ pub enum Error {
     Singular {
         /// Name of the matrix.
         matrix: &'static str,
-        /// Its order.
+        /// Order of the matrix.
         order: usize,
     },
     /// A structure with stiffness to a fixed point: the ground alone must hold it up.
@@ -226,7 +226,7 @@ pub enum Error {
         force: f64,
         /// The degree of freedom where the force is largest beside the stiffness around.
         dof: usize,
-        /// Its size beside that.
+        /// Size of that part relative to the whole.
         share: f64,
     },
     /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on
@@ -282,7 +282,7 @@ pub enum Error {
     IllConditioned {
         /// Name of the matrix.
         matrix: &'static str,
-        /// Its condition number, estimated; infinite if it is singular.
+        /// Estimated condition number; infinite if the matrix is singular.
         condition: f64,
         /// Largest that is accepted.
         limit: f64,
@@ -334,7 +334,7 @@ pub enum Error {
     NotPassive {
         /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), over that of the instantaneous part.
         margin: f64,
-        /// Where it is on the unit circle, radians per step.
+        /// Angle on the unit circle, radians per step.
         frequency: f64,
     },
     /// A call that its [`Observer`] stopped; everything is as it was before it.

@@ -17,7 +17,7 @@ pub enum PlanError {
     Face {
         /// Face, from 0.
         face: usize,
-        /// What is wrong with it.
+        /// Fault of the face.
         reason: &'static str,
     },
     /// Faces that the cells do not cover, or that overlap.

@@ -12,7 +12,7 @@ use super::{Error, Result};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// What is being computed.
+    /// Name of the computation.
     pub task: &'static str,
     /// Parts that are done.
     pub done: usize,

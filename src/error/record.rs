@@ -70,7 +70,7 @@ pub enum RecordError {
     /// A quantity of the header is given, but not as a number and a unit that are known.
     #[error("the {quantity} '{text}' is not understood")]
     Unclear {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
         /// The file's own words, cut to 40 characters.
         text: String,

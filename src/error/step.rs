@@ -175,7 +175,7 @@ pub enum StabilityError {
     Uplift {
         /// Left and right end of the base of the part that is lifted, m.
         ends: [f64; 2],
-        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// Resultant upwards, N/m; zero if nothing presses.
         upward: f64,
@@ -190,7 +190,7 @@ pub enum StabilityError {
     Sliding {
         /// Left and right end of the base of the part that slides, m.
         ends: [f64; 2],
-        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// Horizontal resultant, positive to the right, N/m; in plan that of both directions.
         horizontal: f64,
@@ -214,9 +214,9 @@ pub enum StabilityError {
     Overturning {
         /// Left and right end of the base of the part that overturns, m.
         ends: [f64; 2],
-        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
-        /// In plan: `x` where it overturns to the left or the right, `y` where to the front or the back.
+        /// In plan: `x` if it overturns to the left or the right, `y` if to the front or the back.
         axis: Option<char>,
         /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan that which raises
         /// what lies ahead along the axis.
@@ -240,7 +240,7 @@ pub enum StabilityError {
     BearingFailure {
         /// Left and right end of the base of the part that sinks in, m.
         ends: [f64; 2],
-        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// Normal force, N/m.
         normal: f64,
@@ -262,13 +262,13 @@ pub enum StabilityError {
     Beyond {
         /// Left and right end of the base of the part, m.
         ends: [f64; 2],
-        /// In plan: its front and back end along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
-        /// In plan: `x` or `y`, along which that is.
+        /// In plan: axis along which the resultant passes beyond the elements, `x` or `y`.
         axis: Option<char>,
         /// Number of its elements.
         elements: usize,
-        /// Where the resultant passes, m.
+        /// Coordinate at which the resultant passes, m.
         resultant: f64,
         /// Middles of the first and the last element along that axis, m.
         reach: [f64; 2],
@@ -276,7 +276,7 @@ pub enum StabilityError {
     /// A bond of the interface breaks, and without it the rest follows.
     #[error("the bond of the interface breaks, and without it: {then}")]
     BondBreaks {
-        /// What follows.
+        /// Failure that follows.
         then: Box<StabilityError>,
     },
     /// Part of the structure has neither stiffness nor damping nor mass against a motion.

@@ -31,7 +31,7 @@ impl ContactElement {
 
 /// Directions of motion and traction at each element of a ground in the plane: down, along x.
 pub(crate) const PLANE: usize = 2;
-/// Those of a ground in plan: down, along x, along y.
+/// Directions of motion and traction at each element of a ground in plan: down, along x, along y.
 pub(crate) const SPACE: usize = 3;
 
 /// Order of the numbers in a contact vector: component by component, all elements in their order.
@@ -50,6 +50,16 @@ impl ContactLayout {
     /// Components of each element: down, along x, and in plan along y.
     pub(crate) const fn components(self) -> usize {
         self.components
+    }
+
+    /// Whether the ground is one in plan, of three directions.
+    pub(crate) const fn is_plan(self) -> bool {
+        self.components == SPACE
+    }
+
+    /// Axes along the surface: x (0), and in plan y (1).
+    pub(crate) const fn axes(self) -> std::ops::Range<usize> {
+        0..self.components - 1
     }
 
     /// Number of elements Q.
@@ -91,7 +101,7 @@ impl ContactLayout {
         })
     }
 
-    /// The same, to be changed.
+    /// Components of a contact vector as by [`ContactLayout::split`], to be changed.
     pub(crate) fn split_mut<T, const N: usize>(self, mut vector: &mut [T]) -> [&mut [T]; N] {
         std::array::from_fn(|_| {
             let all = std::mem::take(&mut vector);
@@ -149,7 +159,7 @@ impl Patch {
 
     /// Whether the ground is one in plan, of three directions.
     pub(crate) fn is_plan(&self) -> bool {
-        self.components == SPACE
+        self.layout().is_plan()
     }
 
     /// Front and back end of each element along y, m; `[0, 1]` in the plane.
@@ -186,8 +196,7 @@ impl Patch {
     /// The middle `[x, y]` between the farthest ends of all, m.
     pub(crate) fn center(&self) -> [f64; 2] {
         let along = self.elements.iter().map(|element| [element.left, element.right]);
-        [far_ends(along), far_ends(self.depths.iter().copied())]
-            .map(|[least, most]| 0.5 * (least + most))
+        [far_ends(along), far_ends(self.depths.iter().copied())].map(middle)
     }
 
     /// Midpoint of an element `[x, y]`, m.
@@ -201,6 +210,47 @@ impl Patch {
 pub(crate) fn far_ends(ends: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];
     ends.fold(none, |[least, most], [low, high]| [least.min(low), most.max(high)])
+}
+
+/// The least and the greatest of all values.
+pub(crate) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    far_ends(values.map(|value| [value; 2]))
+}
+
+/// The middle between two ends.
+pub(crate) fn middle([low, high]: [f64; 2]) -> f64 {
+    0.5 * (low + high)
+}
+
+/// Name of the axis x (0) or y (1) in plan; `None` in the plane, where there is but one.
+pub(crate) fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
+    is_plan.then_some(['x', 'y'][axis])
+}
+
+/// Edge of a polygon whose corners go counter-clockwise.
+pub(crate) struct Edge {
+    /// Corner at which it begins.
+    start: [f64; 2],
+    /// Outward normal, as long as the edge.
+    pub(crate) normal: [f64; 2],
+}
+
+impl Edge {
+    /// Edges of the polygon with these corners, the last of which leads back to the first.
+    pub(crate) fn all(corners: &[[f64; 2]]) -> impl Iterator<Item = Self> {
+        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+        pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
+    }
+
+    /// Component of a vector along the normal, times the length of the edge.
+    pub(crate) fn outward(&self, vector: [f64; 2]) -> f64 {
+        self.normal[0] * vector[0] + self.normal[1] * vector[1]
+    }
+
+    /// Distance from a point inside, times the length of the edge.
+    pub(crate) fn reach(&self, from: [f64; 2]) -> f64 {
+        self.outward([0, 1].map(|axis| self.start[axis] - from[axis]))
+    }
 }
 
 impl std::ops::Deref for Patch {

@@ -77,13 +77,13 @@ words! { HistoryMethod, "history", {
 pub enum ChoiceReason {
     /// The options name it.
     Asked,
-    /// It is exact, and fits into the memory allowed.
+    /// The method is exact and fits into the memory allowed.
     Exact,
-    /// It is exact, and nothing is known of the number of steps.
+    /// The method is exact, and the number of steps is not known.
     UnknownLength,
     /// The tolerance allowed makes it the cheapest.
     ToleranceAllowed,
-    /// It takes least time, and its coefficients err by rounding: 1e-12 at most.
+    /// The method takes least time, and its coefficients err by rounding: 1e-12 at most.
     Rounding,
     /// An exact history would take more memory than is allowed.
     MemoryLimit,
@@ -114,7 +114,7 @@ impl fmt::Display for ChoiceReason {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct HistoryChoice {
-    /// Which one; never [`HistoryMethod::Auto`].
+    /// The method chosen; never [`HistoryMethod::Auto`].
     pub kind: HistoryMethod,
     /// Why.
     pub reason: ChoiceReason,
@@ -159,7 +159,7 @@ impl SavedChoice {
         [kind as f64, self.steps.map_or(-1.0, |steps| steps as f64)]
     }
 
-    /// From the first of `values`, and what follows.
+    /// Choice from the first of `values`, and the values behind it.
     pub(crate) fn read(values: &[f64]) -> Result<(Self, &[f64])> {
         let corrupt = CheckpointError::Corrupt { quantity: "choice of the history" };
         let [kind, steps, rest @ ..] = values else { return Err(corrupt.into()) };
@@ -215,9 +215,9 @@ pub(super) const LONGEST_WINDOW: usize = 1_000_000;
 #[derive(Clone, Copy)]
 pub(super) struct Estimate {
     pub(super) memory: usize,
-    /// Per step.
+    /// Cost of a step.
     pub(super) cost: f64,
-    /// Before the first step.
+    /// Cost before the first step.
     pub(super) making: f64,
 }
 
@@ -276,7 +276,7 @@ impl Estimate {
         Ok(block + (32.0 * q + 16.0 * classes) * lags as f64)
     }
 
-    /// Of blocks up to this many steps.
+    /// Estimate for blocks up to this many steps.
     fn transforms(kernel: &dyn ConvolutionWeights, steps: usize, lasts: f64) -> Self {
         let length = (steps as f64).max(64.0).log2().ceil().exp2();
         if let Some((lattice, _)) = kernel.classes().plan() {

@@ -58,7 +58,7 @@ impl ChosenHistory {
         Ok(Self { kernel: Arc::clone(kernel), options, choice, announced, room, kept })
     }
 
-    /// Which one, and why.
+    /// Method chosen, and why.
     pub(crate) fn choice(&self) -> HistoryChoice {
         self.choice
     }
@@ -141,8 +141,8 @@ impl ChosenHistory {
         Ok(())
     }
 
-    /// The same as it is once it has given way before `steps` steps, without what came before;
-    /// `None` if it would not have.
+    /// This history as it is once it has given way before `steps` steps, without the tractions before; `None` if it
+    /// would not have.
     pub(crate) fn succeeded(&self, steps: usize) -> Result<Option<Self>> {
         let most = self.most();
         if matches!(self.kept, Kept::Exponentials(_)) || steps < most {
@@ -240,11 +240,11 @@ const ROUNDING: f64 = 1e-12;
 pub struct HistoryOptions {
     /// Method; [`HistoryMethod::Auto`] by default.
     pub method: HistoryMethod,
-    /// Relative error that coefficients may have, 1e-12 to 1e-2. In plan, [`HistoryMethod::Auto`] leaves out late
-    /// coefficients that are together less than this of all (1e-8 unless given, or [what their errors](ConvolutionWeights::late_error) sum up to) as soon as a run is twice as long as
-    /// the others. Exponentials take it instead of 1e-12
-    /// ([`HistoryMethod::Auto`]) or 1e-10 ([`HistoryMethod::Exponentials`]); only the half-plane's closed form has
-    /// them.
+    /// Relative error that coefficients may have, 1e-12 to 1e-2. Exponentials, which only the half-plane's closed form
+    /// has, use it in place of 1e-12 ([`HistoryMethod::Auto`]) or 1e-10 ([`HistoryMethod::Exponentials`]). In plan,
+    /// [`HistoryMethod::Auto`] drops late coefficients whose sum is less than this part of the sum of all, once a run
+    /// is twice as long as the others: 1e-8 unless given, or their [error](ConvolutionWeights::late_error) if that is
+    /// larger.
     pub tolerance: Option<f64>,
     /// Memory that the history may take, bytes; 1 GiB by default.
     ///

@@ -1,6 +1,6 @@
 //! Convolutions: the traits of weights and of histories, and the direct sum.
 
-use super::exponentials::ExponentialSum;
+use super::exponentials::tail::ExponentialSum;
 use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::wave_level::SharedSpectra;
 use crate::error::{CheckpointError, Error, Observer, Result, same_length};
@@ -20,7 +20,7 @@ pub trait ConvolutionHistory: Send {
     /// If a kernel cannot be evaluated.
     fn reserve(&mut self, steps: usize) -> Result<()>;
 
-    /// The same, with an observer; of what is quick there is nothing to hear (the default).
+    /// Reserves for so many steps with an observer; by default, for what is quick, without.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for
@@ -49,7 +49,7 @@ pub trait ConvolutionHistory: Send {
         0.0
     }
 
-    /// All that the tractions so far have left behind, for [`ConvolutionHistory::restore`].
+    /// Saves the state of the history, for [`ConvolutionHistory::restore`].
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`], unless a history implements it.
@@ -133,7 +133,7 @@ pub trait ConvolutionWeights: Send + Sync {
         Ok(())
     }
 
-    /// The same, with an observer; of a closed form there is nothing to hear (the default).
+    /// Prepares with an observer; by default, for closed forms, without.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].
@@ -158,7 +158,7 @@ pub trait ConvolutionWeights: Send + Sync {
         values: [&mut [f64]; KINDS],
     ) -> Result<()>;
 
-    /// The same for cells of a lattice in plan, for kinds zz, xx, yy, xy, zx and zy, integrals over the receiver in
+    /// Coefficients of cells of a lattice in plan, for kinds zz, xx, yy, xy, zx and zy, integrals over the receiver in
     /// m³/Pa: zx is down due to shear along x with the receiver to the right of the source, zy down due to shear along
     /// y with the receiver behind it, xy along one due to shear along the other with both.
     ///
@@ -188,15 +188,14 @@ pub trait ConvolutionWeights: Send + Sync {
         None
     }
 
-    /// What errors of late coefficients may sum up to, of the sum of all; zero (the default) if these are exact. A memory
-    /// that [forgets](super::HistoryOptions) takes no less for nothing.
+    /// Largest sum of the errors of late coefficients, relative to the sum of all; zero (the default) if they are
+    /// exact. It is the least tolerance of a memory that [forgets](super::HistoryOptions).
     fn late_error(&self) -> f64 {
         0.0
     }
 
-    /// Where histories of this kernel leave the spectra of its coefficients for each other; `None`
-    /// (the default) if each makes its own. To be kept beside the coefficients, shared by clones,
-    /// and by nothing else.
+    /// Store of the spectra that histories of this kernel share; `None` (the default) if each makes its own. To be kept
+    /// beside the coefficients, shared by clones, and by nothing else.
     fn spectra(&self) -> Option<&SharedSpectra> {
         None
     }

@@ -22,8 +22,8 @@ pub struct DirectHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
-    /// Of each kind, class by class: the coefficient of lag n at the length less n. The coupling only
-    /// as long as it is not zero.
+    /// Coefficients of each kind, class by class, that of lag n at the length less n; of the coupling only while it is
+    /// not zero.
     kinds: Vec<Vec<Vec<f64>>>,
     /// Per contact component: its value at every step.
     traction: Vec<Vec<f64>>,

@@ -1,4 +1,4 @@
-//! Where a kernel in plan may end: the soil forgets.
+//! Last lag that a kernel in plan needs: the soil forgets.
 
 use super::convolution::ConvolutionWeights;
 use crate::error::Result;

@@ -26,7 +26,7 @@ pub(crate) struct Action {
     pub(crate) odd: Option<f64>,
 }
 
-/// What the kinds of coefficients stand for.
+/// Meaning of the kinds of coefficients.
 pub(crate) const ACTIONS: [Action; 4] = [
     Action { kind: 0, displacement: 0, traction: 0, odd: None },
     Action { kind: 1, displacement: 1, traction: 1, odd: None },
@@ -34,7 +34,7 @@ pub(crate) const ACTIONS: [Action; 4] = [
     Action { kind: 2, displacement: 1, traction: 0, odd: Some(-1.0) },
 ];
 
-/// What a traction's component of a pair's source does to a component of its receiver's displacement.
+/// Effect of a component of the traction at a pair's source on a component of the displacement at its receiver.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
     /// Kind of coefficient.
@@ -45,10 +45,10 @@ pub(crate) struct Term {
     pub(crate) factor: f64,
 }
 
-/// Where a pair of elements finds its coefficients.
+/// Place of the coefficients of a pair of elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// Which class of pairs it belongs to.
+    /// Class of pairs to which it belongs.
     pub class: usize,
     /// 1/length of the receiver, 1/m: class coefficients are integrals over it, not means.
     pub scale: f64,

@@ -138,7 +138,7 @@ impl InterfaceLaw for Cohesive {
         }
     }
 
-    /// In plan an element whose strength is exceeded bears it to the end of the step, unless it opens.
+    /// Limits in plan: an element whose strength is exceeded carries it to the end of the step, unless it opens.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let broken = self.broken.limits(start)?;
         if is_glued(start) {
@@ -148,7 +148,7 @@ impl InterfaceLaw for Cohesive {
         }
     }
 
-    /// That of the broken interface: adhesion is left out.
+    /// Friction coefficient of the broken interface, without adhesion.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction())
     }

@@ -3,18 +3,18 @@
 use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 use crate::error::{Error, Result, not_negative};
 
-/// On what the contact conditions of a closed element act.
+/// Quantity on which the contact conditions of a closed element act.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum UnilateralCondition {
-    /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
+    /// Gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
     #[default]
     Position,
-    /// On its change: an element whose gap at the start is at most `closed_below` (m) obeys
-    /// Δg ≥ 0, p ≥ 0, p·Δg = 0, any other one is free (Moreau 1988; Jean 1999). The base may
-    /// penetrate by what it moves within the step of its landing.
+    /// Change of the gap: an element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg =
+    /// 0, any other one is free (Moreau 1988; Jean 1999). The base may penetrate by what it moves within the step of
+    /// its landing.
     Velocity {
         /// Gap up to which an element counts as closed, m.
         closed_below: f64,
@@ -87,13 +87,13 @@ impl Coulomb {
         Self { friction: 0.0, tensile_strength: 0.0, condition: UnilateralCondition::Position }
     }
 
-    /// The same with another coefficient, unchecked.
+    /// This law with another coefficient, unchecked.
     pub(super) fn with_coefficient(self, friction: f64) -> Self {
         Self { friction, ..self }
     }
 
-    /// With a tensile strength (Pa) that holds an element until it first opens; friction is then
-    /// limited by friction · (p + strength).
+    /// Adds a tensile strength (Pa), which holds an element until it first opens; friction is then limited by friction
+    /// · (p + strength).
     ///
     /// # Errors
     /// [`Error::Input`] unless finite and not below zero.
@@ -102,7 +102,7 @@ impl Coulomb {
         Ok(self)
     }
 
-    /// With another [`UnilateralCondition`] of the contact conditions.
+    /// Sets the [`UnilateralCondition`] of the contact conditions.
     ///
     /// # Errors
     /// [`Error::Input`] unless `closed_below` is finite and not below zero.
@@ -217,7 +217,7 @@ impl InterfaceLaw for Coulomb {
         })
     }
 
-    /// That of the law; what a tensile strength adds is left out.
+    /// Friction coefficient of the law, without the part of a tensile strength.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }

@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Result, finite, not_negative};
 
-/// What bounds the tractions of an element in plan during a step: see [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
+/// Bounds of the tractions of an element in plan during a step: see
+/// [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
 ///
 /// | | |
 /// |---|---|
@@ -55,7 +56,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// The same, if all are possible.
+    /// These limits if all are possible, or an error.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, value) in
             [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]

@@ -16,13 +16,13 @@ pub enum Mode {
     Open,
     /// Closed, no slip; the soil yields under the pressure ([`Yielding`](super::Yielding)).
     Yield,
-    /// The same; the structure slides to the left.
+    /// Closed; the soil yields under the pressure, and the structure slides to the left.
     YieldLeft,
-    /// The same; the structure slides to the right.
+    /// Closed; the soil yields under the pressure, and the structure slides to the right.
     YieldRight,
     /// In plan: closed; the structure slides over the soil in the direction of the shear traction on it.
     Slip,
-    /// In plan: the same; the soil yields under the pressure.
+    /// In plan: as `Slip`, on soil that yields under the pressure.
     YieldSlip,
 }
 
@@ -54,7 +54,7 @@ impl Mode {
         matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight | Mode::YieldSlip)
     }
 
-    /// The same mode on soil that does not yield.
+    /// This mode on soil that does not yield.
     #[must_use]
     pub(crate) fn elastic(self) -> Self {
         match self {
@@ -66,7 +66,7 @@ impl Mode {
         }
     }
 
-    /// The same mode on soil that yields; an open element stays open.
+    /// This mode on soil that yields; an open element stays open.
     #[must_use]
     pub(crate) fn yielding(self) -> Self {
         match self {
@@ -78,7 +78,7 @@ impl Mode {
         }
     }
 
-    /// The same mode on a ground in plan, where slip has any direction.
+    /// This mode on a ground in plan, where slip has any direction.
     pub(crate) fn in_plan(self) -> Self {
         match self {
             Mode::SlipLeft | Mode::SlipRight => Mode::Slip,

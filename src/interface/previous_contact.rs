@@ -55,7 +55,7 @@ impl PreviousContact<'_> {
         }
     }
 
-    /// The same with another memory: for a law made of others, each of which owns a part of it.
+    /// This contact with other state variables: for a law made of others, each of which owns a part of them.
     #[must_use]
     pub(crate) fn with_memory(self, memory: &[f64]) -> PreviousContact<'_> {
         let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = self;
@@ -76,7 +76,7 @@ pub struct PreviousContacts {
     past: Vec<Past>,
     /// The memories of all elements, one after the other.
     memory: Vec<f64>,
-    /// Where that of each element ends; empty if no law has any.
+    /// Ends of the state variables of each element; empty if no law has any.
     ends: Vec<usize>,
 }
 
@@ -90,7 +90,7 @@ struct Past {
     static_pressure: f64,
 }
 
-/// Where the memory of each element ends; empty if no law has any.
+/// Ends of the state variables of each element; empty if no law has any.
 pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<Vec<usize>> {
     if laws.iter().all(|law| law.state_variables() == 0) {
         return Ok(Vec::new());
@@ -107,7 +107,8 @@ pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Resul
 }
 
 impl PreviousContacts {
-    /// From the start of each element. Where that has no memory, the law says what it begins with.
+    /// Previous contact of all elements from that of each; where it has no state variables, the law says with which the
+    /// element begins.
     pub(crate) fn new(
         laws: &[Box<dyn InterfaceLaw>],
         elements: &[PreviousContact<'_>],
@@ -183,7 +184,7 @@ impl PreviousContacts {
         self.ends.get(element).copied().unwrap_or(0)
     }
 
-    /// Where the memory of each element ends; empty if no law has any.
+    /// Ends of the state variables of each element; empty if no law has any.
     pub(crate) fn memory_ends(&self) -> &[usize] {
         &self.ends
     }
@@ -193,7 +194,7 @@ impl PreviousContacts {
         &self.memory
     }
 
-    /// The same, to be set.
+    /// State variables of all elements, to be set.
     pub(crate) fn memory_mut(&mut self) -> &mut [f64] {
         &mut self.memory
     }

@@ -17,7 +17,7 @@ use super::{
 use crate::error::{Error, Result, not_negative, positive};
 use crate::soil::Soil;
 
-/// Which pressure limits friction.
+/// Pressure that limits friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -181,7 +181,7 @@ impl ThinLayer {
         })
     }
 
-    /// With another thickness, as a fraction of the height of the element beside the layer.
+    /// Sets the thickness, as a fraction of the height of the element beside the layer.
     ///
     /// # Errors
     /// [`Error::Input`] unless finite, above zero, and the stiffness it gives is finite.
@@ -193,7 +193,7 @@ impl ThinLayer {
         Ok(self)
     }
 
-    /// With another fraction of the stiffness left in debonding; 0.001 unless given.
+    /// Sets the fraction of the stiffness left in debonding; 0.001 unless given.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
@@ -202,22 +202,22 @@ impl ThinLayer {
         Ok(self)
     }
 
-    /// With another pressure in the friction limit.
+    /// Sets the pressure in the friction limit.
     #[must_use]
     pub fn with_friction_limit(mut self, limit: FrictionLimit) -> Self {
         self.limit = limit;
         self
     }
 
-    /// With another rule for the sense of slip.
+    /// Sets the rule for the sense of slip.
     #[must_use]
     pub fn with_slip_sense(mut self, sense: SlipSense) -> Self {
         self.sense = sense;
         self
     }
 
-    /// With a fraction of the shear stiffness that resists the slip of each step, beyond friction;
-    /// none unless given. It acts as a viscosity does, since the next step knows nothing of it.
+    /// Sets the fraction of the shear stiffness that resists the slip of each step, beyond friction; none unless given.
+    /// It acts as a viscosity does, since the next step knows nothing of it.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
@@ -358,7 +358,7 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// In plan an open element carries nothing, and slip is what goes beyond the elastic one.
+    /// Limits in plan: an open element carries nothing, and slip is the part beyond elastic deformation.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let refuse = |needed| Err(Error::Scene { quantity: "thin layer in plan", needed });
         if self.debonded > 0.0 {
@@ -373,7 +373,7 @@ impl InterfaceLaw for ThinLayer {
         })
     }
 
-    /// That of the law, whatever its [`FrictionLimit`].
+    /// Friction coefficient of the law, whatever its [`FrictionLimit`].
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }

@@ -164,7 +164,7 @@ impl InterfaceLaw for Yielding {
         })
     }
 
-    /// The same bearing pressure without friction.
+    /// This law without friction, its bearing pressure kept.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Self { contact: Coulomb::frictionless(), ..*self })
     }

@@ -75,7 +75,7 @@ impl RecordFormat for CosmosFormat {
     }
 }
 
-/// Which of the real header values of COSMOS is the sampling interval, ms.
+/// Place of the sampling interval (ms) among the real header values of COSMOS.
 const SAMPLING_INTERVAL: usize = 33;
 
 fn read(lines: &mut Lines, format: &CosmosFormat) -> Reason<(f64, Vec<f64>)> {
@@ -167,7 +167,7 @@ fn csmip(title: &str) -> Option<&str> {
     Some(title.split_once("equally spaced at")?.1)
 }
 
-/// Where the time step of a title of CSMIP ends.
+/// End of the time step in a title of CSMIP.
 fn time_end(text: &str) -> usize {
     let keys = [" in ", "units=", "format="].map(|key| text.find(key));
     // A bracket may hold the unit of time.
@@ -185,7 +185,7 @@ fn unit_text(title: &str) -> Option<&str> {
     Some(title.split_once("units=").or_else(csmip)?.1)
 }
 
-/// Where the name of a unit ends: `cm/s^2 (4),Format=(8F10.5)`, `cm/sec2. (8f10.3)`.
+/// End of the name of a unit: `cm/s^2 (4),Format=(8F10.5)`, `cm/sec2. (8f10.3)`.
 fn name_end(text: &str) -> usize {
     text.find([',', '(']).unwrap_or(text.len())
 }

@@ -8,7 +8,8 @@ use crate::error::{Error, Result, finite, positive};
 pub trait FreeField: Send {
     /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
     ///
-    /// A run starts at rest and measures every element's motion from what it is at t = 0: what moves then starts with a jolt.
+    /// A run starts at rest and measures each element's motion from that at t = 0: a ground that moves then starts with
+    /// a jolt.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
     /// Displacement `[along x, along y, up]` (m) at surface point `place` (`[x, y]`, m), for a ground in plan.
@@ -18,15 +19,15 @@ pub trait FreeField: Send {
         [horizontal, 0.0, vertical]
     }
 
-    /// Whether it moves along y, too, which a ground in the plane leaves out: a run on one warns. Default: no.
+    /// Whether the motion has a component along y, which a ground in the plane leaves out with a warning. Default: no.
     fn moves_across(&self) -> bool {
         false
     }
 
-    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
-    /// `bem::full_plane::VerticalWaves` make stresses of velocities, as a ground of your own may.
+    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations use displacements only;
+    /// `bem::full_plane::VerticalWaves` makes stresses of velocities, as a ground of your own may.
     ///
-    /// Default: the central difference of displacements 10 µs before and after. What moves with f Hz loses (2πf · 10 µs)²/6
+    /// Default: the central difference of displacements 10 µs before and after. A motion of f Hz loses (2πf · 10 µs)²/6
     /// of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A jump or a kink
     /// is spread over 20 µs. Fields that know their velocity should say it.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
@@ -101,7 +102,7 @@ impl FreeFieldFn {
         Self { displacement: Box::new(displacement), velocity: None }
     }
 
-    /// With its `velocity(x, time)`, the time derivative of the displacement.
+    /// Adds the `velocity(x, time)`, the time derivative of the displacement.
     #[must_use]
     pub fn with_velocity(self, velocity: impl Fn(f64, f64) -> [f64; 2] + Send + 'static) -> Self {
         Self { velocity: Some(Box::new(velocity)), ..self }
@@ -264,9 +265,10 @@ impl TravellingWave {
         Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
     }
 
-    /// The same wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
+    /// This wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
     /// counter-clockwise from x as seen from above, and its components along and across that direction turn with it.
-    /// `origin` counts from (0, 0) in that direction. In the plane its components along x and up are felt, at y = 0.
+    /// `origin` counts from (0, 0) in that direction. A ground in the plane moves with its components along x and up,
+    /// at y = 0.
     ///
     /// ```
     /// use basemat::motion::{FreeField, PlaneWave, el_centro_1940};
@@ -313,7 +315,8 @@ impl FreeField for TravellingWave {
     }
 
     fn moves_across(&self) -> bool {
-        self.direction[1] != 0.0 || self.field.moves_across()
+        // The sine of π is a rounding.
+        self.direction[1].abs() > f64::EPSILON || self.field.moves_across()
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
@@ -371,7 +374,7 @@ impl RickerDisplacement {
         Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
     }
 
-    /// The same pulse, turned into the vertical (positive up).
+    /// This pulse, turned into the vertical (positive up).
     #[must_use]
     pub fn vertical(self) -> Self {
         let [horizontal, vertical] = self.amplitude;

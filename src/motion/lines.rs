@@ -155,7 +155,7 @@ pub(super) fn record(file: &str, parsed: Reason<(f64, Vec<f64>)>) -> Result<supe
 /// The fields of a line: commas or else semicolons separate, and so does white space.
 pub(super) struct Fields<'a> {
     line: &'a str,
-    /// None: white space.
+    /// Separator of columns; `None` for white space.
     pub(super) separator: Option<char>,
     pub(super) texts: Vec<&'a str>,
 }

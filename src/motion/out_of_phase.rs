@@ -81,7 +81,7 @@ impl Late {
         Self::of(record.time_step(), record.velocities())
     }
 
-    /// From two or more samples of the record's velocity.
+    /// Transform of two or more samples of the record's velocity.
     fn of(step: f64, source: &[f64]) -> Result<Self> {
         let count = source.len();
         // Velocity and displacement, not acceleration, are transformed: what the transform of an
@@ -259,7 +259,7 @@ mod tests {
         }
     }
 
-    /// No seam where the moments take over, and V is the slope of W everywhere.
+    /// GOAL: no seam where the moments take over, and V is the slope of W everywhere.
     #[test]
     fn far_and_near_meet() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();

@@ -111,7 +111,7 @@ impl PlaneWave {
         Self { slowness, horizontal: Complex::real(1.0), vertical, across: 0.0 }
     }
 
-    /// The same wave running the other way.
+    /// This wave running the other way.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self { slowness: -self.slowness, vertical: self.vertical.scale(-1.0), ..self }

@@ -63,7 +63,7 @@ impl Record {
         self.ordinates(periods, damping, &mut Watch::nobody())
     }
 
-    /// The same, with an observer; parts are samples of the record, as many for every period.
+    /// Response spectrum with an observer; parts are samples of the record, counted again for every period.
     ///
     /// # Errors
     /// [`Error::Stopped`]; as for [`Record::response_spectrum`].

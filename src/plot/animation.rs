@@ -15,7 +15,7 @@ const WIDTH: f64 = 940.0;
 const HEIGHT: f64 = 640.0;
 /// The structure is drawn inside this box: left, top, right, bottom.
 const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
-/// Left end of the key, the scale and the clock.
+/// x of the left end of key, scale and clock, pixels.
 const ASIDE: f64 = 725.0;
 /// More frames than these make files that browsers choke on.
 const MOST_FRAMES: usize = 600;
@@ -87,7 +87,7 @@ pub fn animation(
     Ok(Svg::new(out + "</svg>\n"))
 }
 
-/// Where metres are on the screen.
+/// Scale and origin of metres on the screen.
 struct Screen {
     scale: f64,
     left: f64,

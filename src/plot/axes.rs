@@ -53,7 +53,7 @@ pub(super) fn drawable(value: f64) -> bool {
     value.abs() < LARGEST
 }
 
-/// From the lowest to the highest value that can be drawn, with a margin; never empty.
+/// Range from the lowest to the highest value that can be drawn, with a margin; never empty.
 ///
 /// Spans below 1e-9 of the values, or 1/`LARGEST`, count as none.
 pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
@@ -70,7 +70,7 @@ pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
     low - margin..high + margin
 }
 
-/// Where marks are.
+/// Places of the marks.
 #[derive(Debug, Clone, PartialEq)]
 enum Scale {
     Linear,
@@ -99,7 +99,7 @@ impl Axis {
         Self { range: logarithms, description: description.into(), scale }
     }
 
-    /// With these marks.
+    /// Axis with these marks.
     pub(super) fn marked(range: Range<f64>, marks: Vec<(f64, String)>, description: &str) -> Self {
         Self { range, description: description.into(), scale: Scale::Marked(marks) }
     }

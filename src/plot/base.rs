@@ -1,4 +1,4 @@
-//! What happens along the base: contact modes over time, and the envelope of pressure.
+//! Contact along the base: modes over time, and the envelope of pressure.
 
 use super::axes::{Axis, Chart, LABEL, chart, draw_curve, linear, range_of};
 use super::drawing::{COLORS, Drawing, Key, Sample, Stroke, short, width};
@@ -126,17 +126,17 @@ const MARKS: usize = 11;
 struct Piece {
     left: f64,
     right: f64,
-    /// Where its left end is drawn.
+    /// Place at which the left end is drawn, m.
     start: f64,
 }
 
 /// A gap that is drawn shorter than it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Break {
-    /// Where it is drawn.
+    /// Ends as drawn, m.
     pub(super) from: f64,
     pub(super) to: f64,
-    /// Its width, m.
+    /// True width, m.
     pub(super) width: f64,
 }
 
@@ -177,14 +177,14 @@ impl Base {
         Self { pieces, breaks }
     }
 
-    /// Where a point of the base is drawn.
+    /// Place at which a point of the base is drawn, m.
     pub(super) fn place(&self, x: f64) -> f64 {
         // Between two foundations nothing is drawn: the last that begins before it counts.
         let piece = self.pieces.iter().rev().find(|p| p.left <= x).or(self.pieces.first());
         piece.map_or(x, |piece| piece.start + x - piece.left)
     }
 
-    /// Its axis, with marks on the foundations only.
+    /// Axis along the base, with marks on the foundations only.
     pub(super) fn axis(&self) -> Axis {
         let description = "x along the base, m";
         let (Some(first), Some(last)) = (self.pieces.first(), self.pieces.last()) else {

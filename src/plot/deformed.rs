@@ -17,12 +17,13 @@ pub(super) enum View {
     AlongY,
     /// Against x: y to the right, up.
     AlongX,
-    /// From the front, the right and above: x falls and y rises to the right by 30 degrees, all at one scale (isometric).
+    /// View from the front, the right and above: x falls and y rises to the right by 30 degrees, all at one scale
+    /// (isometric).
     Slanted,
 }
 
 impl View {
-    /// Where a point (x, height, y) is seen, m.
+    /// Place in the picture of a point (x, height, y), m.
     pub(super) fn of(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
         match self {
             Self::AlongY => [x, up],
@@ -37,7 +38,7 @@ impl View {
     }
 }
 
-/// Of 30 degrees.
+/// Cosine of 30 degrees.
 const COS: f64 = 0.866_025_403_784_438_6;
 const SIN: f64 = 0.5;
 

@@ -1,9 +1,9 @@
-//! Where charts are drawn: areas, strokes of curves, text and the key to the colours.
+//! Areas on which charts are drawn, strokes of curves, text and the key to the colours.
 
 use crate::text::table::wrapped;
 use plotters::prelude::*;
 
-/// Where charts are drawn.
+/// Area on which a chart is drawn.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
 /// Whatever goes wrong while drawing into memory.
@@ -40,7 +40,7 @@ const SIGNS: usize = 9;
 pub(super) struct Stroke {
     pub(super) color: RGBColor,
     pub(super) marker: Option<Marker>,
-    /// Where the first marker is, over the distance of markers: those of two curves seldom meet.
+    /// Distance of the first marker over that of markers, different for each curve so that markers seldom meet.
     phase: f64,
 }
 
@@ -49,7 +49,7 @@ impl Stroke {
         Self { color, marker: None, phase: 0.0 }
     }
 
-    /// Of the curve number `k`: the first seven without markers; all alike after 42.
+    /// Style of the curve number `k`: the first seven without markers; all alike after 42.
     pub(super) fn nth(k: usize) -> Self {
         let marker = (k / COLORS.len()).checked_sub(1).map(|round| MARKERS[round % MARKERS.len()]);
         let phase = (0.1 + 0.618 * (k % 100) as f64).fract();

@@ -20,9 +20,9 @@ const LIMIT: RGBColor = RGBColor(120, 120, 120);
 /// A named curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its name, for the legend.
+    /// Name in the legend.
     pub name: String,
-    /// Its points; where one is not finite the curve is broken.
+    /// Points; the curve is broken where one is not finite.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -134,7 +134,7 @@ fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
-/// The same curve by the extremes of its stretches, peaks and gaps kept.
+/// This curve by the extremes of its stretches, peaks and gaps kept.
 pub(super) fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     if points.len() <= 4 * BUCKETS {
         return points.to_vec();

@@ -14,7 +14,7 @@ pub(super) enum Shown {
     Weightless,
     SlipLeft,
     SlipRight,
-    /// In plan, any way.
+    /// In plan: slip in any direction.
     Slip,
 }
 

@@ -51,7 +51,7 @@ impl Line {
     }
 }
 
-/// What is derived from several quantities, or is none.
+/// Result that is no quantity or is made of several: name, unit, column, factor and value.
 type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
 const DERIVED: [Derived; 9] = [
@@ -131,7 +131,7 @@ fn lines(of: &[bool]) -> Vec<Line> {
 }
 
 impl Comparison {
-    /// No cases yet.
+    /// Comparison without cases.
     pub fn new() -> Self {
         Self::default()
     }

@@ -125,7 +125,7 @@ impl DeformedShape {
         for face in block.contact_faces() {
             let (first, count) = (points.len(), face.len());
             let top = |node: &FaceNode| {
-                let rows = FaceNode::carried(&face, [node.x, node.y], height);
+                let rows = FaceNode::carried(&face, node.place(), height);
                 ShapePoint::in_space([node.x, node.y, height], rows)
             };
             points.extend(face.iter().map(FaceNode::shape));
@@ -216,7 +216,7 @@ impl DeformedShape {
         &self.cells
     }
 
-    /// Whether it moves along y too.
+    /// Whether the shape moves along y too.
     #[cfg(feature = "plot")]
     pub(crate) fn in_plan(&self) -> bool {
         self.points.iter().any(|point| !point.across.is_empty())
@@ -256,7 +256,7 @@ impl DeformedShape {
 }
 
 impl ShapePoint {
-    /// At (x, y, height), moved along x, along y and up.
+    /// Point at (x, y, height), moved along x, along y and up.
     fn in_space([x, away, height]: [f64; 3], rows: [DofCombination; 3]) -> Self {
         let [horizontal, across, vertical] = rows;
         Self { position: [x, height], horizontal, vertical, away, across }

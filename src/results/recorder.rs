@@ -19,12 +19,12 @@ impl Default for Recorder {
 }
 
 impl Recorder {
-    /// Scalars and probes at every step.
+    /// Recorder of scalars and probes at every step.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Keeps scalars and probes of every `steps`th step only; floor spectra can no longer be had.
+    /// Keeps scalars and probes of every `steps`th step only; floor spectra are then not possible.
     #[must_use]
     pub fn every(self, steps: usize) -> Self {
         Self { every: steps, ..self }

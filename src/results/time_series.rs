@@ -263,7 +263,7 @@ pub struct MotionFrame<'a> {
     pub velocity: &'a [f64],
     /// Mean displacement [horizontal, up] of the free field under the base, m.
     pub free_field: [f64; 2],
-    /// In plan: its mean displacement along y, m; zero in the plane.
+    /// In plan: mean displacement of the free field along y, m; zero in the plane.
     pub free_field_across: f64,
 }
 

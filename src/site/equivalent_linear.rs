@@ -20,10 +20,10 @@ const LEAST_STRAIN: f64 = 1e-12;
 /// Least and largest relaxation factor.
 const FACTORS: [f64; 2] = [0.3, 20.0];
 
-/// How [`SoilColumn::equivalent_linear`] iterates.
+/// Options of [`SoilColumn::equivalent_linear`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EquivalentLinearOptions {
-    /// Where the motion belongs to.
+    /// Place at which the motion is given.
     pub control: ControlPoint,
     /// Effective strain over the largest, at most 1.
     pub strain_ratio: f64,
@@ -71,7 +71,7 @@ pub struct LayerResponse {
     pub depth: f64,
     /// Shear modulus, Pa.
     pub shear_modulus: f64,
-    /// The same over that at small strain.
+    /// Shear modulus over that at small strain.
     pub modulus_ratio: f64,
     /// Damping ratio.
     pub damping: f64,
@@ -88,7 +88,8 @@ pub struct EquivalentLinear {
     /// The site for a ground: strain-compatible moduli at its own first frequency, damping constant over the band.
     pub profile: SoilProfile,
     /// Motion of the free surface, for [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`.
-    /// The one to take: `profile` disperses, and its own surface ([`SoilColumn::to_surface`]) peaks up to 5 % beside.
+    /// Use this one: `profile` disperses, and the peak of its own surface motion ([`SoilColumn::to_surface`]) differs
+    /// by up to 5 %.
     pub surface: Record,
     /// Properties and strains from the surface down.
     pub layers: Vec<LayerResponse>,
@@ -197,7 +198,7 @@ impl SoilColumn {
         SoilProfile::new(layers.collect::<Result<_>>()?, self.profile.base().clone())
     }
 
-    /// The same by laws that march in time, with these moduli at its first frequency.
+    /// Profile of these properties with causal laws of damping, whose moduli are theirs at its first frequency.
     fn causal(&self, properties: &[[f64; 2]], band: [f64; 2]) -> Result<SoilProfile> {
         let soft = self.compatible(properties, |_| Ok(Elastic))?;
         let reference = soft.first_frequency().unwrap_or(band[0]).clamp(band[0], band[1]);
@@ -273,7 +274,7 @@ impl<'a> Iteration<'a> {
         column.inside(what, self.options.control, step, samples)
     }
 
-    /// From small strain on.
+    /// Iterates from small strain.
     fn converged(&self) -> Result<Converged> {
         let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
             *self.options;

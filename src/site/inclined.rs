@@ -26,7 +26,7 @@ pub enum InclinedControl {
     Incident,
 }
 
-/// What comes up.
+/// Kind of the incident wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
     Sv,
@@ -70,7 +70,7 @@ pub struct InclinedWave {
     slowness: f64,
     /// Elastic slowness of the wave, and the cosine of its angle.
     own: [f64; 2],
-    /// Of the base without layers.
+    /// Plane wave in the base without layers.
     outcrop: PlaneWave,
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Where the assumptions of an equivalent-linear response are strained.
+/// Warning that assumptions of an equivalent-linear response are strained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SiteWarning {
@@ -10,14 +10,14 @@ pub enum SiteWarning {
     LargeStrain {
         /// Layer, from 1 at the surface.
         layer: usize,
-        /// Its largest strain.
+        /// Largest strain of the layer.
         strain: f64,
     },
     /// Effective strain beyond the end of the layer's curves, whose last value was taken.
     Extrapolated {
         /// Layer, from 1 at the surface.
         layer: usize,
-        /// Its effective strain.
+        /// Effective strain of the layer.
         strain: f64,
         /// Largest strain of its curves.
         largest: f64,

@@ -43,7 +43,7 @@ pub(super) struct Medium {
 type Square = [Complex; 4];
 
 impl Medium {
-    /// Of a finite layer.
+    /// Slownesses of a finite layer.
     pub(super) fn layer(soil: Soil, modulus: Complex, s: Complex, p: f64) -> Self {
         let [shear, pressure] = squares(soil, modulus);
         let floor = |square: Complex| {
@@ -63,8 +63,8 @@ impl Medium {
         [self.a, self.b]
     }
 
-    /// Of the half-plane below, which the wave comes from; `own` is the elastic slowness of this wave
-    /// and the cosine of its angle, which give its vertical slowness without cancellation.
+    /// Slownesses of the half-plane below, from which the wave comes; `own` is the elastic slowness of this wave and
+    /// the cosine of its angle, which give its vertical slowness without cancellation.
     pub(super) fn base(soil: Soil, modulus: Complex, s: Complex, p: f64, own: [f64; 2]) -> Self {
         let elastic = Complex::real(soil.shear_modulus());
         let change = (elastic - modulus) / modulus;

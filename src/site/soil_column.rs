@@ -15,7 +15,7 @@ use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};
 use crate::soil::{Soil, SoilProfile};
 
-/// What travels.
+/// Kind of wave that travels along a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -27,7 +27,7 @@ pub enum VerticalWave {
     Pressure,
 }
 
-/// Where a motion at depth belongs to.
+/// Place to which a motion at depth belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -64,7 +64,7 @@ pub struct SoilColumn {
     pub(super) wave: VerticalWave,
 }
 
-/// What moves inside a column.
+/// Motion inside a column that is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Inside {
     /// Acceleration at the tops of all layers and of the base.
@@ -273,7 +273,7 @@ impl SoilColumn {
         Ok(found)
     }
 
-    /// The same with what follows the end of `motion`.
+    /// Motion at the surface, with its part after the end of `motion`.
     fn whole(
         &self,
         control: ControlPoint,

@@ -85,13 +85,13 @@ impl Contour {
         Ok(Self { time_step, length, window: WINDOW, decay })
     }
 
-    /// The same along real frequencies, for filters that exist there alone: what lasts longer than the quiet three
-    /// quarters of the transform wraps around.
+    /// This transform along real frequencies, for filters that exist there alone: motion that lasts longer than the
+    /// quiet three quarters of the transform wraps around.
     pub(super) fn at_real_frequencies(self) -> Self {
         Self { window: 0.0, decay: 0.0, ..self }
     }
 
-    /// Its end, the highest frequency.
+    /// End of the contour, the highest frequency.
     pub(super) fn end(&self) -> Result<Complex> {
         let highest =
             finite("highest frequency of a motion", std::f64::consts::PI / self.time_step)?;
@@ -129,7 +129,7 @@ impl Contour {
         Ok(std::array::from_fn(|_| found.next().unwrap_or_default()))
     }
 
-    /// The same by `count` functions, whose values `filters` writes.
+    /// Samples filtered by `count` functions, whose values `filters` writes.
     pub(super) fn filtered_by(
         &self,
         motion: &[f64],

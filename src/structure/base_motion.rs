@@ -2,11 +2,11 @@
 
 use super::{DofCombination, FaceNode, Structure, check_base_nodes};
 use crate::error::{Error, Result, finite, positive};
-use crate::geometry::far_ends;
+use crate::geometry::{middle, span};
 
 impl DofCombination {
-    /// This displacement to the right less that of the base's middle: what an observer on the base
-    /// sees, its rotation left in. The base's slip on the ground is taken out, too.
+    /// Displacement to the right relative to the middle of the base: what an observer on the base sees. The base's slip
+    /// is taken out, its rotation is not.
     ///
     /// The base is that of `structure`, from its first contact node to its last; the row must be one
     /// of its degrees of freedom. In a group that is a member, before
@@ -21,8 +21,8 @@ impl DofCombination {
         Ok(self.clone() - translation)
     }
 
-    /// The displacement to the right of a point `height` (m) above the base less the rigid motion of
-    /// the base there, translation and rotation: how far the structure has bent.
+    /// Displacement to the right of a point `height` (m) above the base, relative to the rigid motion of the base
+    /// there, translation and rotation: the deformation of the structure.
     ///
     /// ```
     /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
@@ -52,8 +52,8 @@ impl DofCombination {
     }
 
     /// Displacements along x, along y and up of a point that the base carries with it as if it were rigid, at `place`
-    /// `[x, y, height]` (m) from the middle of the base: what an observer on the base does not see. In the plane nothing
-    /// moves along y, and y is of no account.
+    /// `[x, y, height]` (m) from the middle of the base: what an observer on the base does not see. In the plane
+    /// nothing moves along y, and y is ignored.
     ///
     /// ```
     /// use basemat::structure::{DofCombination, PlanStorey, RigidBody, StoreyBuilding};
@@ -86,10 +86,8 @@ impl DofCombination {
             return Ok([translation - height * rotation, Self::default(), up]);
         }
         check_base_nodes(&nodes, structure.dofs())?;
-        let ends = |of: fn(&FaceNode) -> f64| far_ends(nodes.iter().map(|node| [of(node); 2]));
-        let [along, across] = [ends(|node| node.x), ends(|node| node.y)];
-        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-        let carried = FaceNode::carried(&nodes, [middle(along) + x, middle(across) + y], height);
+        let center = [0, 1].map(|axis| middle(span(nodes.iter().map(|node| node.place()[axis]))));
+        let carried = FaceNode::carried(&nodes, [center[0] + x, center[1] + y], height);
         let weights = carried.iter().flatten().map(|(_, weight)| *weight);
         match weights.into_iter().find(|weight| !weight.is_finite()) {
             None => Ok(carried),

@@ -130,6 +130,11 @@ impl FaceNode {
         ]
     }
 
+    /// Coordinates `[x, y]`, m.
+    pub(crate) fn place(&self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+
     /// Displacements to the right, upwards and away; a node of the plane has none of the last.
     pub(crate) fn rows(&self) -> [&DofCombination; 3] {
         [&self.horizontal, &self.vertical, &self.across]

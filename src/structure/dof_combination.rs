@@ -34,7 +34,7 @@ impl DofCombination {
         self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
     }
 
-    /// The same sum of degrees of freedom with other numbers.
+    /// This sum with other numbers of its degrees of freedom.
     pub(super) fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
     }

@@ -156,7 +156,7 @@ pub trait Structure: Any + Send {
         None
     }
 
-    /// The same force, to commit a step or restore a state. No simulation takes a structure that
+    /// Nonlinear force of the structure, to commit a step or restore a state. No simulation takes a structure that
     /// gives it here and not in [`nonlinear`](Structure::nonlinear), or the other way round
     /// ([`Error::Scene`](crate::Error::Scene)).
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {

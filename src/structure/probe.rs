@@ -55,7 +55,7 @@ impl Probe {
         Self { displacement: row.into(), ..Self::new(name, "m") }
     }
 
-    /// The same with the translation of the free field.
+    /// Displacement with the translation of the free field added.
     pub fn absolute_displacement(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { absolute: true, ..Self::displacement(name, row) }
     }
@@ -89,7 +89,7 @@ impl Probe {
         Self { unit: unit.into(), ..self }
     }
 
-    /// Its column in files, `roof_left_m_per_s2`: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
+    /// Column in files, `roof_left_m_per_s2`: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
     pub(crate) fn column(&self) -> String {
         column(&self.name, &self.unit)
     }

@@ -11,7 +11,7 @@ macro_rules! words {
             /// All variants, in the order of their declaration.
             pub(crate) const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
 
-            /// Its word, as `Display` writes and `FromStr` reads it.
+            /// Word of the choice, as `Display` writes and `FromStr` reads it.
             pub(crate) fn word(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word,)+
@@ -39,8 +39,7 @@ macro_rules! words {
     };
 }
 
-/// The same for an enum of which some variants have one number, in brackets behind the word:
-/// `reduced(1e-6)`.
+/// Table of words for an enum of which some variants have one number, in brackets behind the word: `reduced(1e-6)`.
 macro_rules! words_with_numbers {
     (
         $(#[$doc:meta])*

@@ -4,48 +4,24 @@
 
 use basemat::bem::SpringGround;
 use basemat::coupled::largest_convergent_step;
-use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
-};
+use basemat::interface::{Coulomb, Mode, PreviousContact};
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation, StepError};
 
-/// Coulomb's law in steps of this length (s) or shorter ones; in others always for another mode.
-struct ContentUpTo(f64);
+use basemat_problems::wrapped::Wayward;
 
-fn coulomb() -> Coulomb {
-    Coulomb::new(0.5).unwrap()
-}
-
-impl InterfaceLaw for ContentUpTo {
-    fn modes(&self) -> &[Mode] {
-        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        coulomb().conditions(mode, start)
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        if start.time_step <= self.0 {
-            return coulomb().next_mode(mode, start, trial, tolerance);
-        }
-        if mode == Mode::Open { Mode::Stick } else { Mode::Open }
-    }
-}
-
+/// Coulomb's law in steps of length `limit` (s) or shorter ones; in others always for another mode.
 fn scene(step: f64, limit: f64) -> Result<Simulation> {
+    let next = move |mode: Mode, start: &PreviousContact, next: Mode| match mode {
+        _ if start.time_step <= limit => next,
+        Mode::Open => Mode::Stick,
+        _ => Mode::Open,
+    };
     Simulation::builder(step)
         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
         .ground(SpringGround::new(-2.0..2.0, 3, 8e7, 4e7)?)
-        .interface(ContentUpTo(limit))
+        .interface(Wayward { law: Coulomb::new(0.5)?, next })
         .motion(el_centro_1940())
         .build()
 }

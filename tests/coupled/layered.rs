@@ -14,20 +14,17 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::sweep::Sweep;
 use basemat::{Error, LayeredError, Simulation, Soil, StepError};
 
+use basemat_problems::profiles::constant_q;
 use basemat_problems::sampled_block::{distance, sample, under_pulse};
 use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};
-
-fn damping(ratio: f64) -> GeneralizedMaxwell {
-    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()
-}
 
 /// The soil of the scenes, 3 m of it on rock, with 5 % damping.
 fn profile() -> SoilProfile {
     SoilProfile::on_half_plane(Soil::from_shear_wave_speed(600.0, 0.3, 2200.0).unwrap())
-        .with_base_damping(damping(0.01))
+        .with_base_damping(constant_q(0.01))
         .with_layer(soil(SI), 3.0)
         .unwrap()
-        .with_damping(damping(0.05))
+        .with_damping(constant_q(0.05))
 }
 
 fn layered(elements: usize) -> ElasticGround {
@@ -164,7 +161,7 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
         layered(6).with_stages(Stages::Three),
         layered(6).with_tolerance(1e-8).unwrap(),
         ElasticGround::new(
-            profile().with_base_damping(damping(0.02)),
+            profile().with_base_damping(constant_q(0.02)),
             Strip::graded(-2.0..2.0, 6).unwrap(),
         )
         .unwrap(),
@@ -258,7 +255,7 @@ fn a_layer_on_rock_uplifts_more_than_the_half_plane() {
     let rock = Soil::from_shear_wave_speed(500.0, 0.3, 2200.0).unwrap();
     let plane = SoilProfile::on_half_plane(soft);
     let elastic = SoilProfile::on_half_plane(rock).with_layer(soft, 6.0).unwrap();
-    let damped = elastic.clone().with_damping(damping(0.05)).with_base_damping(damping(0.01));
+    let damped = elastic.clone().with_damping(constant_q(0.05)).with_base_damping(constant_q(0.01));
     // Base shear (kN/m) and elements open of 12, of another program's coefficients.
     for (name, profile, sliding, shear, open) in [
         ("half-plane", &plane, false, 224.9, 7.0),

@@ -6,10 +6,7 @@
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Load, SimulationBuilder};
-use basemat::interface::{
-    Bonded, Cohesive, Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact,
-    Tolerance, VariableFriction,
-};
+use basemat::interface::{Bonded, Cohesive, Coulomb, Mode, PreviousContact, VariableFriction};
 use basemat::structure::{
     ContactNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
 };
@@ -18,6 +15,7 @@ use basemat::{Error, Result, Simulation};
 use super::{NOT_FINITE, error_with, soil};
 use basemat_problems::block_on_springs::bed;
 use basemat_problems::random::Random;
+use basemat_problems::wrapped::Wayward;
 
 const WIDTH: f64 = 4.0;
 const WEIGHT: f64 = 4.0 * 6.0 * 2000.0 * 9.81;
@@ -268,26 +266,14 @@ fn a_base_of_many_nodes_is_accepted() {
     }
 }
 
-/// Coulomb's law that asks for a mode it does not have.
-struct Foreign;
-
-impl InterfaceLaw for Foreign {
-    fn modes(&self) -> &[Mode] {
-        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight]
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        Coulomb::uplift_only().conditions(mode, start)
-    }
-
-    fn next_mode(&self, mode: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
-        if mode == Mode::Stick { Mode::Yield } else { mode }
-    }
-}
-
 #[test]
 fn a_mode_that_the_law_does_not_have_is_named() {
-    let mut simulation = standing(4, false).interface(Foreign).gravity(0.0).build().unwrap();
+    let next = |mode: Mode, _: &PreviousContact, _: Mode| match mode {
+        Mode::Stick => Mode::Yield,
+        _ => mode,
+    };
+    let law = Wayward { law: Coulomb::new(0.5).unwrap(), next };
+    let mut simulation = standing(4, false).interface(law).gravity(0.0).build().unwrap();
     let error = error_with("interface law of element 0, mode stick", simulation.step().map(drop));
     assert!(error.to_string().contains("the next mode is yield"), "{error}");
 }

@@ -5,14 +5,13 @@
 
 use std::fmt::Debug;
 
-use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
-};
+use basemat::interface::{Coulomb, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::FreeFieldFn;
 use basemat::{Error, Simulation, StepError};
 
 use super::builder::good;
 use super::spoilt::Spoilt;
+use basemat_problems::wrapped::Wayward;
 
 /// The step that fails, with the state before and after the attempt.
 fn failing_step(mut simulation: Simulation) -> (Error, usize, Simulation) {
@@ -75,25 +74,17 @@ fn a_force_that_breaks_leaves_the_last_accepted_step() {
 }
 
 /// A law that is never content.
-struct Fickle;
-
-impl InterfaceLaw for Fickle {
-    fn modes(&self) -> &[Mode] {
-        &[Mode::Stick, Mode::Open]
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        Coulomb::uplift_only().conditions(mode, start)
-    }
-
-    fn next_mode(&self, mode: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
-        if mode == Mode::Stick { Mode::Open } else { Mode::Stick }
-    }
+fn fickle() -> impl InterfaceLaw {
+    let next = |mode: Mode, _: &PreviousContact, _: Mode| match mode {
+        Mode::Stick => Mode::Open,
+        _ => Mode::Stick,
+    };
+    Wayward { law: Coulomb::uplift_only(), next }
 }
 
 #[test]
 fn modes_that_are_not_found_are_an_error_with_residual_and_modes() {
-    let (error, accepted, _) = failing_step(good().interface(Fickle).build().unwrap());
+    let (error, accepted, _) = failing_step(good().interface(fickle()).build().unwrap());
     assert_eq!(accepted, 0);
     let Error::Step {
         step: 1,
@@ -104,13 +95,13 @@ fn modes_that_are_not_found_are_an_error_with_residual_and_modes() {
         panic!("{error:?}");
     };
     assert!(*iterations > 0 && !residual.is_nan());
-    assert_eq!((modes.len(), *sets), (4, Some(16)));
+    assert_eq!((modes.len(), *sets), (4, Some(256)));
     let message = error.to_string();
     assert!(
         message.contains("residual")
             && message.contains("modes ")
             && message.contains("0.001")
-            && message.contains("none of all 16 sets")
+            && message.contains("none of all 256 sets")
     );
 }
 
@@ -119,7 +110,7 @@ fn errors_are_ordinary_errors() {
     fn is_error<T: std::error::Error + Send + Sync + Clone + Debug + 'static>() {}
     is_error::<Error>();
     is_error::<StepError>();
-    let (error, ..) = failing_step(good().interface(Fickle).build().unwrap());
+    let (error, ..) = failing_step(good().interface(fickle()).build().unwrap());
     // Its text is complete, and no source repeats it.
     assert!(std::error::Error::source(&error).is_none());
 }

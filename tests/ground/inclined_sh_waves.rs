@@ -8,23 +8,13 @@ use basemat::bem::ElasticGround;
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, PlaneWave, Record};
 use basemat::site::{ControlPoint, InclinedControl, InclinedWave, SoilColumn, VerticalWave};
-use basemat::soil::{Elastic, GeneralizedMaxwell, Hysteretic, Relaxation, SoilProfile};
+use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBody;
 use basemat::{Complex, Error, LayeredError, Simulation, Soil};
 
+use basemat_problems::profiles::{constant_q, one_layer, rock, soft, two_layers};
+
 const OUTCROP: InclinedControl = InclinedControl::OutcropHorizontal;
-
-fn soil() -> Soil {
-    Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap()
-}
-
-fn rock() -> Soil {
-    Soil::from_shear_wave_speed(600.0, 0.25, 2200.0).unwrap()
-}
-
-fn damping(ratio: f64) -> GeneralizedMaxwell {
-    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()
-}
 
 /// μ b and s b, b = √(ρ/μ − p²).
 fn across(soil: Soil, law: &dyn Relaxation, p: f64, s: Complex) -> [Complex; 2] {
@@ -38,29 +28,16 @@ fn across(soil: Soil, law: &dyn Relaxation, p: f64, s: Complex) -> [Complex; 2] 
 #[test]
 fn one_layer_has_its_closed_form() {
     let height = 6.0;
-    let laws: [[Box<dyn Relaxation>; 2]; 3] = [
-        [Box::new(Elastic), Box::new(Elastic)],
-        [Box::new(damping(0.05)), Box::new(damping(0.01))],
-        [Box::new(Hysteretic::new(0.1).unwrap()), Box::new(Hysteretic::new(0.03).unwrap())],
-    ];
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-    for (case, [upper, lower]) in laws.iter().enumerate() {
-        for [above, below] in [[soil(), rock()], [rock(), soil()]] {
-            let base = SoilProfile::on_half_plane(below);
-            let layer = |base: SoilProfile| base.with_layer(above, height).unwrap();
-            let profile = match case {
-                0 => layer(base),
-                1 => layer(base.with_base_damping(damping(0.01))).with_damping(damping(0.05)),
-                _ => layer(base.with_base_damping(Hysteretic::new(0.03).unwrap()))
-                    .with_damping(Hysteretic::new(0.1).unwrap()),
-            };
+    for [above, below] in [[soft(), rock()], [rock(), soft()]] {
+        for (profile, [upper, lower]) in one_layer(above, below, height) {
             for angle in [-50.0_f64, 0.0, 12.0, 25.0, 40.0, 60.0, 85.0] {
                 let wave = InclinedWave::sh(profile.clone(), angle.to_radians()).unwrap();
                 let p = 1.0 / wave.apparent_velocity();
                 for frequency in [0.2, 1.7, 6.0, 14.0, 33.0] {
                     let s = Complex::new(0.0, TAU * frequency);
-                    let [z, sb] = across(above, &**upper, p, s);
-                    let [z0, _] = across(below, &**lower, p, s);
+                    let [z, sb] = across(above, &*upper, p, s);
+                    let [z0, _] = across(below, &*lower, p, s);
                     let [up, down] = [1.0, -1.0].map(|sign| (sb * (sign * height)).exp());
                     let wanted = ((up + down) * 0.5 + z / z0 * (up - down) * 0.5).inverse();
                     let [found, vertical] = wave.transfer(OUTCROP, frequency).unwrap();
@@ -80,13 +57,7 @@ fn one_layer_has_its_closed_form() {
 
 #[test]
 fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
-    let layered = SoilProfile::on_half_plane(rock())
-        .with_base_damping(damping(0.02))
-        .with_layer(soil(), 6.0)
-        .unwrap()
-        .with_damping(damping(0.05))
-        .with_layer(Soil::from_shear_wave_speed(400.0, 0.3, 2000.0).unwrap(), 9.0)
-        .unwrap();
+    let layered = two_layers(constant_q(0.05), constant_q(0.02));
     let column = SoilColumn::new(layered.clone(), VerticalWave::Shear).unwrap();
     let upright = InclinedWave::sh(layered.clone(), 0.0).unwrap();
     let motion: Vec<f64> = (0..900).map(|i| (0.3 * f64::from(i)).sin()).collect();
@@ -111,7 +82,7 @@ fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
 
     // Nothing moves up; a layer stiffer than the base has no refracted wave beyond its critical angle.
     assert!(upright.transfer(InclinedControl::OutcropVertical, 1.0).is_err());
-    let covered = SoilProfile::on_half_plane(soil()).with_layer(rock(), 4.0).unwrap();
+    let covered = SoilProfile::on_half_plane(soft()).with_layer(rock(), 4.0).unwrap();
     let wave = InclinedWave::sh(covered, 0.4).unwrap();
     assert!(wave.transfer(OUTCROP, 3.0).unwrap()[0].abs() > 0.0);
     let error = wave.field(OUTCROP, &record, 0.0).err().unwrap();
@@ -124,7 +95,7 @@ fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
 /// A rigid mat, small beside the wave, turns as the ground under it does: by half of ∂u_y/∂x = −p v.
 #[test]
 fn a_mat_twists_by_half_the_slope() {
-    let profile = SoilProfile::on_half_plane(rock()).with_layer(soil(), 20.0).unwrap();
+    let profile = SoilProfile::on_half_plane(rock()).with_layer(soft(), 20.0).unwrap();
     let wave = InclinedWave::sh(profile.clone(), 0.8).unwrap();
     let slow = (0..1500).map(|i| if i < 400 { (TAU * f64::from(i) / 400.0).sin() } else { 0.0 });
     let record = Record::new(0.01, slow.collect()).unwrap();

@@ -7,40 +7,17 @@ use std::f64::consts::TAU;
 
 use basemat::motion::{FreeField, PlaneWave, Record};
 use basemat::site::{ControlPoint, InclinedControl, InclinedWave, SoilColumn, VerticalWave};
-use basemat::soil::{
-    Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Relaxation, SoilProfile,
-};
+use basemat::soil::{Elastic, Hysteretic, KelvinVoigt, Relaxation, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Result, Soil};
 
+use basemat_problems::profiles::{constant_q, one_layer, rock, soft, two_layers};
+
 const BOTH: [fn(SoilProfile, f64) -> Result<InclinedWave>; 2] = [InclinedWave::sv, InclinedWave::p];
-
-fn soil() -> Soil {
-    Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap()
-}
-
-fn rock() -> Soil {
-    Soil::from_shear_wave_speed(600.0, 0.25, 2200.0).unwrap()
-}
-
-fn damping(ratio: f64) -> GeneralizedMaxwell {
-    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()
-}
-
-/// A soft layer, a layer of rock's stiffness in between, a half-plane.
-fn profile(upper: impl Relaxation + 'static, lower: impl Relaxation + 'static) -> SoilProfile {
-    SoilProfile::on_half_plane(rock())
-        .with_base_damping(lower)
-        .with_layer(soil(), 6.0)
-        .unwrap()
-        .with_damping(upper)
-        .with_layer(Soil::from_shear_wave_speed(400.0, 0.3, 2000.0).unwrap(), 9.0)
-        .unwrap()
-}
 
 #[test]
 fn vertical_incidence_is_the_column() {
     let mut worst = 0.0_f64;
-    for profile in [profile(Elastic, Elastic), profile(damping(0.05), damping(0.02))] {
+    for profile in [two_layers(Elastic, Elastic), two_layers(constant_q(0.05), constant_q(0.02))] {
         for (make, wave) in BOTH.into_iter().zip([VerticalWave::Shear, VerticalWave::Pressure]) {
             let column = SoilColumn::new(profile.clone(), wave).unwrap();
             let inclined = make(profile.clone(), 0.0).unwrap();
@@ -196,7 +173,7 @@ fn solve(mut matrix: Vec<Vec<Complex>>) -> Vec<Complex> {
 
 /// Six waves of one layer on a half-plane: four in the layer, two that leave. Surface displacements
 /// (x, up) under surface stresses (xz, zz)/s and an incident wave at the depth of the base.
-fn one_layer(
+fn surface(
     [upper, lower]: [&Waves; 2],
     height: f64,
     s: Complex,
@@ -238,30 +215,10 @@ fn one_layer(
 
 #[test]
 fn one_layer_is_all_its_waves_at_once() {
-    let (soil, rock, height) = (soil(), rock(), 6.0);
-    let laws: [[Box<dyn Relaxation>; 2]; 3] = [
-        [Box::new(Elastic), Box::new(Elastic)],
-        [Box::new(damping(0.05)), Box::new(damping(0.01))],
-        [Box::new(Hysteretic::new(0.1).unwrap()), Box::new(Hysteretic::new(0.03).unwrap())],
-    ];
+    let height = 6.0;
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-    for (case, [upper, lower]) in laws.iter().enumerate() {
-        for stiff_on_top in [false, true] {
-            let [above, below] = if stiff_on_top { [rock, soil] } else { [soil, rock] };
-            let base = SoilProfile::on_half_plane(below);
-            let profile = match case {
-                0 => base.with_layer(above, height).unwrap(),
-                1 => base
-                    .with_base_damping(damping(0.01))
-                    .with_layer(above, height)
-                    .unwrap()
-                    .with_damping(damping(0.05)),
-                _ => base
-                    .with_base_damping(Hysteretic::new(0.03).unwrap())
-                    .with_layer(above, height)
-                    .unwrap()
-                    .with_damping(Hysteretic::new(0.1).unwrap()),
-            };
+    for [above, below] in [[soft(), rock()], [rock(), soft()]] {
+        for (profile, [upper, lower]) in one_layer(above, below, height) {
             for (shear, make) in [true, false].into_iter().zip(BOTH) {
                 for angle in [-50.0_f64, 3.0, 12.0, 25.0, 40.0, 60.0, 85.0] {
                     let found = make(profile.clone(), angle.to_radians()).unwrap();
@@ -269,10 +226,10 @@ fn one_layer_is_all_its_waves_at_once() {
                     for frequency in [0.2, 1.7, 6.0, 14.0, 33.0] {
                         let s = Complex::new(0.0, TAU * frequency);
                         let waves =
-                            [Waves::new(above, &**upper, p, s), Waves::new(below, &**lower, p, s)];
+                            [Waves::new(above, &*upper, p, s), Waves::new(below, &*lower, p, s)];
                         let free = [Complex::default(); 2];
                         let pair = [&waves[0], &waves[1]];
-                        let wanted = one_layer(pair, height, s, free, Some(shear));
+                        let wanted = surface(pair, height, s, free, Some(shear));
                         let found = found.transfer(InclinedControl::Incident, frequency).unwrap();
                         let size = wanted[0].abs().max(wanted[1].abs());
                         for (a, b) in found.iter().zip(wanted) {
@@ -292,7 +249,7 @@ fn one_layer_is_all_its_waves_at_once() {
 /// waves of this p say, −Im C = Σ |T|²/(4ρω c² q) over P and SV.
 #[test]
 fn incident_waves_say_how_much_a_surface_load_radiates() {
-    let (soil, rock, height) = (soil(), rock(), 6.0);
+    let (soil, rock, height) = (soft(), rock(), 6.0);
     let profile = SoilProfile::on_half_plane(rock).with_layer(soil, height).unwrap();
     let mut worst = 0.0_f64;
     for sine in [0.0_f64, 0.2, 0.6, 0.97] {
@@ -316,7 +273,7 @@ fn incident_waves_say_how_much_a_surface_load_radiates() {
                 let mut load = [Complex::default(); 2];
                 let sign = if index == 0 { -1.0 } else { 1.0 };
                 load[index] = s.inverse() * sign;
-                let [x, up] = one_layer([&waves[0], &waves[1]], height, s, load, None);
+                let [x, up] = surface([&waves[0], &waves[1]], height, s, load, None);
                 let compliance = if index == 0 { x } else { up };
                 worst = worst.max((radiated / -compliance.im - 1.0).abs());
             }
@@ -331,11 +288,12 @@ fn incident_waves_say_how_much_a_surface_load_radiates() {
 #[test]
 fn thin_slices_high_frequencies_and_long_waves() {
     let stiff = Soil::from_shear_wave_speed(900.0, 0.2, 2300.0).unwrap();
-    let base = |law| SoilProfile::on_half_plane(soil()).with_base_damping(law);
-    let whole = base(damping(0.02)).with_layer(stiff, 60.0).unwrap().with_damping(damping(0.01));
-    let mut cut = base(damping(0.02));
+    let base = |law| SoilProfile::on_half_plane(soft()).with_base_damping(law);
+    let whole =
+        base(constant_q(0.02)).with_layer(stiff, 60.0).unwrap().with_damping(constant_q(0.01));
+    let mut cut = base(constant_q(0.02));
     for _ in 0..40 {
-        cut = cut.with_layer(stiff, 1.5).unwrap().with_damping(damping(0.01));
+        cut = cut.with_layer(stiff, 1.5).unwrap().with_damping(constant_q(0.01));
     }
     for make in BOTH {
         for angle in [0.2_f64, 0.7, 1.3] {
@@ -350,7 +308,7 @@ fn thin_slices_high_frequencies_and_long_waves() {
                 }
             }
             // Against the bare base at the same, static moduli; layers are 46 times as stiff.
-            let bare = make(base(damping(0.02)), angle).unwrap();
+            let bare = make(base(constant_q(0.02)), angle).unwrap();
             let control = InclinedControl::Incident;
             let [a, b] = [&cut, &bare].map(|x| x.transfer(control, 1e-9).unwrap());
             for (a, b) in a.into_iter().zip(b) {
@@ -374,7 +332,7 @@ fn ricker_transform(omega: f64) -> Complex {
 /// Time series are integrals over real frequencies.
 #[test]
 fn motions_in_time_are_integrals_over_frequency() {
-    let profile = profile(damping(0.05), damping(0.02));
+    let profile = two_layers(constant_q(0.05), constant_q(0.02));
     let (dt, count) = (0.01, 1200);
     let motion: Vec<f64> = (0..count).map(|i| ricker(dt * i as f64)).collect();
     let cases = [
@@ -415,7 +373,7 @@ fn motions_in_time_are_integrals_over_frequency() {
 fn fields_run_along_the_surface() {
     let samples: Vec<f64> = (0..800).map(|i| ricker(0.01 * f64::from(i))).collect();
     let record = Record::new(0.01, samples.clone()).unwrap();
-    let wave = InclinedWave::p(profile(damping(0.05), Elastic), -0.8).unwrap();
+    let wave = InclinedWave::p(two_layers(constant_q(0.05), Elastic), -0.8).unwrap();
     let control = InclinedControl::OutcropVertical;
     let field = wave.field(control, &record, 4.0).unwrap();
     let [x, up] = wave.to_surface(control, 0.01, &samples).unwrap();
@@ -432,13 +390,13 @@ fn fields_run_along_the_surface() {
 
 #[test]
 fn bad_waves_are_refused() {
-    let elastic = profile(Elastic, Elastic);
+    let elastic = two_layers(Elastic, Elastic);
     for make in BOTH {
         for angle in [f64::NAN, f64::INFINITY, 1.6, -1.58, std::f64::consts::FRAC_PI_2] {
             let found = make(elastic.clone(), angle);
             assert!(matches!(found, Err(Error::Input { .. })), "{angle} {found:?}");
         }
-        let rigid = SoilProfile::on_rigid_base().with_layer(soil(), 3.0).unwrap();
+        let rigid = SoilProfile::on_rigid_base().with_layer(soft(), 3.0).unwrap();
         let found = make(rigid, 0.2).unwrap_err();
         assert!(matches!(found, Error::Layered(LayeredError::InclinedOverRigidBase)), "{found}");
         let wave = make(elastic.clone(), 0.3).unwrap();
@@ -460,7 +418,7 @@ fn bad_waves_are_refused() {
         }
         let record = Record::new(0.01, vec![0.0, 1.0, 0.0]).unwrap();
         assert!(wave.field(control, &record, f64::NAN).is_err());
-        let hysteretic = profile(Hysteretic::new(0.05).unwrap(), Elastic);
+        let hysteretic = two_layers(Hysteretic::new(0.05).unwrap(), Elastic);
         let found = make(hysteretic, 0.3).unwrap().to_surface(control, 0.01, &[1.0]).unwrap_err();
         assert!(matches!(found, Error::Layered(LayeredError::NotCausal { layer: 1, .. })));
     }
@@ -481,7 +439,7 @@ fn bad_waves_are_refused() {
         matches!(found, Error::Layered(LayeredError::BeyondCritical { layer: 3, .. })),
         "{found}"
     );
-    let stiffening = profile(Elastic, KelvinVoigt::with_ratio(0.05, 1.0).unwrap());
+    let stiffening = two_layers(Elastic, KelvinVoigt::with_ratio(0.05, 1.0).unwrap());
     let found = InclinedWave::sv(stiffening, 0.4).unwrap();
     assert!(found.to_surface(control, 0.01, &[1.0, 0.0]).is_err());
 }

@@ -3,14 +3,14 @@
 //! REFERENCE: the mirrored, rescaled or superposed run, and statics.
 
 use basemat::coupled::{GravityStage, State};
-use basemat::interface::{Bonded, Coulomb, Mode};
+use basemat::interface::{Bonded, Mode, PreviousContact};
 use basemat::{Error, Simulation, StepError};
 use proptest::prelude::*;
 
 use basemat_problems::scenes::{
     Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower,
 };
-use basemat_problems::wrapped::Pulled;
+use basemat_problems::wrapped::{Pulled, Wayward};
 
 const STEPS: usize = 400;
 
@@ -207,35 +207,13 @@ fn failed_step_changes_nothing() {
 /// A law that never agrees fails in the mode search, with the step's number, residual and modes.
 #[test]
 fn step_without_modes_changes_nothing() {
-    struct Restless(Coulomb);
-    impl basemat::interface::InterfaceLaw for Restless {
-        fn modes(&self) -> &[Mode] {
-            self.0.modes()
-        }
-        fn conditions(
-            &self,
-            mode: Mode,
-            start: &basemat::interface::PreviousContact,
-        ) -> [basemat::interface::Condition; 2] {
-            self.0.conditions(mode, start)
-        }
-        fn next_mode(
-            &self,
-            mode: Mode,
-            start: &basemat::interface::PreviousContact,
-            trial: &basemat::interface::ContactState,
-            tolerance: basemat::interface::Tolerance,
-        ) -> Mode {
-            // Restless once it slides.
-            let next = self.0.next_mode(mode, start, trial, tolerance);
-            if start.state.slip.abs() > 1e-5 && next == mode {
-                if mode == Mode::Stick { Mode::Open } else { Mode::Stick }
-            } else {
-                next
-            }
-        }
-    }
-    let law = Restless(friction(0.2));
+    // Restless once it slides.
+    let next = |mode: Mode, start: &PreviousContact, next: Mode| match mode {
+        _ if start.state.slip.abs() <= 1e-5 || next != mode => next,
+        Mode::Stick => Mode::Open,
+        _ => Mode::Stick,
+    };
+    let law = Wayward { law: friction(0.2), next };
     let mut simulation: Simulation =
         scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
     let mut last = simulation.state().clone();

@@ -13,7 +13,7 @@ use basemat::io::paraview;
 use basemat::results::{DeformedShape, Recorder, ShapePoint, TimeSeries};
 use basemat::structure::{FemModel, RigidBlock, ShearBuilding, Storey};
 
-use basemat_problems::scenes::{SI, block, friction, scene, tower};
+use basemat_problems::scenes::{self, SI, block, friction, scene, tower};
 
 /// A folder of its own for each test, emptied before.
 fn folder(name: &str) -> PathBuf {
@@ -49,13 +49,8 @@ fn recorded() -> (Vec<State>, TimeSeries, DeformedShape) {
     let tower = tower(SI, None);
     let shape = DeformedShape::of_model(&tower);
     let mut simulation = scene(SI, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
-    let mut histories = Recorder::new().contact(40).motion(40).start(&simulation).unwrap();
-    let mut states = vec![simulation.state().clone()];
-    let observe = |state: &State| {
-        histories.record(state);
-        states.push(state.clone());
-    };
-    simulation.run(200, observe).unwrap();
+    let recorder = Recorder::new().contact(40).motion(40);
+    let (histories, _, states) = scenes::recorded(&mut simulation, recorder, 200);
     (states, histories, shape)
 }
 

@@ -23,7 +23,7 @@ use basemat::coupled::{Probe, State};
 use basemat::results::Run;
 use basemat::results::{Recorder, TimeSeries};
 
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{self, SI, block, friction, scene};
 
 const FRICTION: f64 = 0.35;
 const STEPS: usize = 400;
@@ -48,12 +48,6 @@ struct Recorded {
 
 fn recorded(recorder: Recorder) -> Recorded {
     let mut simulation = simulation();
-    let mut histories = recorder.start(&simulation).unwrap();
-    let mut states = vec![simulation.state().clone()];
-    let observe = |state: &State| {
-        histories.record(state);
-        states.push(state.clone());
-    };
-    let run = simulation.run(STEPS, observe).unwrap();
+    let (histories, run, states) = scenes::recorded(&mut simulation, recorder, STEPS);
     Recorded { simulation, states, histories, run }
 }

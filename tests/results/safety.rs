@@ -4,10 +4,7 @@
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::GravityStage;
-use basemat::interface::{
-    Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, ThinLayer,
-    Tolerance,
-};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw, ThinLayer};
 use basemat::motion::{AtRest, STANDARD_GRAVITY, el_centro_1940};
 use basemat::results::Run;
 use basemat::results::{Quantity, Recorder, TimeSeries};
@@ -15,6 +12,7 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, Simulation, Soil};
 
 use super::simulation;
+use basemat_problems::law_from;
 use basemat_problems::scenes::{SI, block, scene, soil};
 use basemat_problems::wrapped::Pulled;
 
@@ -87,23 +85,7 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
 struct Nonsense(Coulomb);
 
 impl InterfaceLaw for Nonsense {
-    fn modes(&self) -> &[Mode] {
-        self.0.modes()
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        self.0.conditions(mode, start)
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        self.0.next_mode(mode, start, trial, tolerance)
-    }
+    law_from!(0);
 
     fn friction_coefficient(&self) -> Option<f64> {
         Some(f64::NAN)

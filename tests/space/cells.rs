@@ -1,8 +1,11 @@
 //! A ground in plan: springs and dashpots under each cell, of its own and by the midpoint rule.
 
-use basemat::bem::{ContactElement, Ground};
-use basemat::motion::FreeField;
-use basemat::{Error, Result};
+use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::coupled::{SimulationBuilder, State};
+use basemat::interface::InterfaceLaw;
+use basemat::motion::{FreeField, Record, Triaxial};
+use basemat::structure::{RigidBlock, RigidBody};
+use basemat::{Error, Result, Simulation};
 
 /// Stiffness (Pa/m) and dashpots (Pa·s/m) per area: down, along x, along y.
 #[derive(Clone, Copy)]
@@ -171,4 +174,37 @@ impl FreeField for Waves {
         }
         [u, v, up]
     }
+}
+
+/// A block of 4 m × 6 m on eight elements of the plane, and a slice of it one metre deep, shaken along x alone.
+pub(crate) fn slices(
+    law: impl Fn() -> Box<dyn InterfaceLaw>,
+    motion: &Record,
+    step: f64,
+) -> [SimulationBuilder; 2] {
+    let plane = Simulation::builder(step)
+        .structure(RigidBlock::new(4.0, 6.0, 1500.0).unwrap())
+        .ground(SpringGround::new(-2.0..2.0, 8, 3e7, 2e7).unwrap().with_dashpots(6e5, 3e5).unwrap())
+        .interface(law())
+        .motion(motion.clone());
+    let lines: Vec<f64> = (0..=8).map(|k| -2.0 + 0.5 * f64::from(k)).collect();
+    let space = Simulation::builder(step)
+        .structure(RigidBody::cuboid([4.0, 1.0, 6.0], 1500.0).unwrap())
+        .ground(Cells::between(&lines, &[-0.5, 0.5], BED))
+        .interface(law())
+        .motion(Triaxial { x: Some(motion.clone()), ..Triaxial::default() });
+    [plane, space]
+}
+
+/// Numbers that are equal in the plane and in such a slice, which moves along x and turns about y alone, but for
+/// `rounding`.
+pub(crate) fn equal_in_slices(plane: &State, space: &State, rounding: f64) -> [[f64; 2]; 4] {
+    let [u, v] = [plane.displacement(), space.displacement()];
+    assert!([v[1], v[3], v[5]].iter().all(|u| u.abs() < rounding), "{v:?}");
+    [
+        [u[0], v[0]],
+        [u[2], -v[4]],
+        [plane.base_shear, space.base_shear],
+        [plane.base_moment, space.base_moment],
+    ]
 }

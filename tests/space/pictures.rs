@@ -7,11 +7,13 @@ use basemat::coupled::{Probe, State};
 use basemat::interface::Coulomb;
 use basemat::io::paraview;
 use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial, el_centro_1940};
-use basemat::results::{Comparison, DeformedShape, Recorder, Run, TimeSeries, log_spaced};
+use basemat::results::{Comparison, DeformedShape, Recorder, TimeSeries, log_spaced};
 use basemat::structure::{
     DofCombination, PlanStorey, RigidBlock, RigidBody, StoreyBuilding, Structure, StructureGroup,
 };
 use basemat::{Error, Simulation, plot};
+
+use basemat_problems::scenes;
 
 const HEIGHT: f64 = 10.0;
 
@@ -39,30 +41,30 @@ impl FreeField for Shake {
     }
 }
 
-/// Two seconds on springs, the last one in frames.
-fn recorded(
+/// A structure on springs.
+fn on_springs(
     structure: impl Structure + 'static,
     motion: impl FreeField + 'static,
     probes: Vec<Probe>,
-) -> (TimeSeries, Run, Vec<State>) {
+) -> Simulation {
     let ground = SpringGround::under(&structure, 6, 4e7, 3e7).unwrap();
-    let mut simulation = Simulation::builder(5e-3)
+    Simulation::builder(5e-3)
         .structure(structure)
         .ground(ground.with_dashpots(8e5, 4e5).unwrap())
         .interface(Coulomb::new(0.35).unwrap())
         .motion(motion)
         .probes(probes)
         .build()
-        .unwrap();
+        .unwrap()
+}
+
+/// Two seconds of a structure that is shaken, the last one in frames.
+fn recorded(structure: impl Structure + 'static) -> (TimeSeries, Vec<State>) {
+    let mut simulation = on_springs(structure, Shake, Vec::new());
     simulation.run(200, |_| {}).unwrap();
     let recorder = Recorder::new().contact(5).motion(5);
-    let mut histories = recorder.start(&simulation).unwrap();
-    let mut states = vec![simulation.state().clone()];
-    let run = simulation.run(200, |state| {
-        histories.record(state);
-        states.push(state.clone());
-    });
-    (histories, run.unwrap(), states)
+    let (histories, _, states) = scenes::recorded(&mut simulation, recorder, 200);
+    (histories, states)
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -80,7 +82,7 @@ fn points(path: &str) -> Vec<[f64; 2]> {
 
 #[test]
 fn a_body_moves_above_its_elements() {
-    let (histories, _, _) = recorded(body(), Shake, Vec::new());
+    let (histories, _) = recorded(body());
     let shape = DeformedShape::of_block(&body(), HEIGHT).unwrap();
     let svg = plot::animation("A block that rocks", &shape, &histories, 30.0, 2.0).unwrap();
     svg.save(folder("body.svg")).unwrap();
@@ -139,7 +141,7 @@ fn towers_are_seen_from_two_sides() {
     let shape = DeformedShape::of_storeys(&own).unwrap();
     // Four corners of the mat and of each floor; outlines and columns.
     assert_eq!((shape.points().len(), shape.cells().len()), (16, 4 + 12));
-    let (histories, _, _) = recorded(own, Shake, Vec::new());
+    let (histories, _) = recorded(own);
     let picture = plot::deformed_shapes("A tower", &shape, &histories, &[1.3, 1.8], 20.0).unwrap();
     picture.save(folder("tower.svg")).unwrap();
     for text in ["x, m", "y, m", "z, m", "t = 1.30 s", "t = 1.80 s"] {
@@ -153,7 +155,7 @@ fn towers_are_seen_from_two_sides() {
     let group = group.with(other, 0.0).unwrap();
     let shape = DeformedShape::of_block(&group, 6.0).unwrap();
     assert_eq!(shape.points().len(), 2 * (4 + 32));
-    let (histories, _, _) = recorded(group, Shake, Vec::new());
+    let (histories, _) = recorded(group);
     let svg = plot::animation("Two bodies", &shape, &histories, 20.0, 2.0).unwrap();
     svg.save(folder("two.svg")).unwrap();
     #[cfg(feature = "png")]
@@ -171,7 +173,7 @@ fn array(text: &str, name: &str) -> Vec<f64> {
 
 #[test]
 fn paraview_gets_towers_in_space() {
-    let (histories, _, states) = recorded(tower(), Shake, Vec::new());
+    let (histories, states) = recorded(tower());
     let shape = DeformedShape::of_storeys(&tower()).unwrap();
     let folder = folder("paraview");
     assert_eq!(paraview::write_series(&folder, "tower", &shape, &histories), Ok(2 * 41));
@@ -264,15 +266,7 @@ fn floors_along_y_are_those_along_x() {
         ];
         let mut motion = Triaxial::default();
         *[&mut motion.x, &mut motion.y][axis] = Some(record.clone());
-        let ground = SpringGround::under(&own, 6, 4e7, 3e7).unwrap();
-        let mut simulation = Simulation::builder(5e-3)
-            .structure(own)
-            .ground(ground.with_dashpots(8e5, 4e5).unwrap())
-            .interface(Coulomb::new(0.35).unwrap())
-            .motion(motion)
-            .probes(probes)
-            .build()
-            .unwrap();
+        let mut simulation = on_springs(own, motion, probes);
         let mut histories = Recorder::new().start(&simulation).unwrap();
         let run = simulation.run(600, |state| histories.record(state)).unwrap();
         (histories, run)
@@ -326,7 +320,7 @@ fn npz(archive: &[u8], name: &str) -> Vec<f64> {
 
 #[test]
 fn frames_have_the_motion_of_the_ground_along_y() {
-    let (histories, _, states) = recorded(body(), Shake, Vec::new());
+    let (histories, states) = recorded(body());
     let shown: Vec<&State> = states.iter().step_by(5).collect();
     let across: Vec<f64> = shown.iter().map(|state| state.free_field_across).collect();
     assert!(across.iter().any(|u| u.abs() > 1e-3));
@@ -340,7 +334,7 @@ fn frames_have_the_motion_of_the_ground_along_y() {
 #[cfg(feature = "npz")]
 #[test]
 fn archives_have_what_moves_along_y() {
-    let (histories, _, states) = recorded(body(), Shake, Vec::new());
+    let (histories, states) = recorded(body());
     let shown: Vec<&State> = states.iter().step_by(5).collect();
     let across: Vec<f64> = shown.iter().map(|state| state.free_field_across).collect();
     let mut archive = Vec::new();

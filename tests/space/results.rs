@@ -13,6 +13,8 @@ use basemat::results::{
 use basemat::structure::{RigidBlock, RigidBody};
 use basemat::{Error, Simulation, Soil, plot};
 
+use basemat_problems::scenes::recorded;
+
 use super::cells::Waves;
 
 const SIDES: [f64; 3] = [8.0, 6.0, 10.0];
@@ -47,14 +49,7 @@ fn rocked(law: impl InterfaceLaw + 'static) -> (Simulation, TimeSeries, Run, Vec
         })
         .build()
         .unwrap();
-    let mut histories = Recorder::new().contact(10).start(&simulation).unwrap();
-    let mut states = vec![simulation.state().clone()];
-    let run = simulation
-        .run(400, |state| {
-            histories.record(state);
-            states.push(state.clone());
-        })
-        .unwrap();
+    let (histories, run, states) = recorded(&mut simulation, Recorder::new().contact(10), 400);
     (simulation, histories, run, states)
 }
 

@@ -9,6 +9,8 @@ use basemat::results::{Criterion, Quantity, Recorder, Run, Serviceability, TimeS
 use basemat::structure::{RigidBlock, RigidBody, StructureGroup};
 use basemat::{Error, PlanError, Simulation, Soil};
 
+use basemat_problems::scenes::recorded;
+
 use super::cells::{BED, Cells, Waves};
 
 /// Sides of two bodies, and the middles of their bases.
@@ -64,14 +66,7 @@ fn rocked(quarters: usize) -> (Simulation, TimeSeries, Run, Vec<State>) {
         })
         .build()
         .unwrap();
-    let mut histories = Recorder::new().contact(1).start(&simulation).unwrap();
-    let mut states = vec![simulation.state().clone()];
-    let run = simulation
-        .run(300, |state| {
-            histories.record(state);
-            states.push(state.clone());
-        })
-        .unwrap();
+    let (histories, run, states) = recorded(&mut simulation, Recorder::new().contact(1), 300);
     assert!(run.energy_error < 1e-9);
     (simulation, histories, run, states)
 }

@@ -14,7 +14,7 @@ use crate::coupled::diagnosis::{mechanism, supports};
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
-use crate::geometry::{Patch, SPACE};
+use crate::geometry::Patch;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     FaceNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
@@ -24,7 +24,7 @@ use crate::structure::{
 /// Passes that refine the influence vectors.
 const REFINEMENTS: usize = 3;
 
-/// What a structure is made of, before coordinates are chosen.
+/// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
     pub(crate) linear: bool,
     pub(crate) mass: SparseMatrix,
@@ -85,14 +85,12 @@ impl Assembled {
         [&self.mass, &self.damping, &self.stiffness]
     }
 
-    /// Period on a fixed base, s: Rayleigh's quotient of the deflection under the weight to the right, in plan the longer
-    /// one of that and the one along y. `held` is the
-    /// factored stiffness with springs at the base; of the work that the weight does, theirs is left out (1 % off). NaN for a
-    /// structure without mass.
+    /// Period on a fixed base, s: Rayleigh's quotient of the deflection under the weight along x, in plan the longer of
+    /// that and the one along y. `held` is the factored stiffness with springs at the base; of the work that the weight
+    /// does, theirs is left out (1 % off). NaN for a structure without mass.
     pub(crate) fn period_on_fixed_base(&self, held: &mut SparseFactor) -> f64 {
-        let away = if self.base.layout().components() == SPACE { Some(2) } else { None };
-        let periods = [Some(0), away].into_iter().flatten().map(|k| self.period(k, held));
-        periods.fold(f64::NAN, f64::max)
+        let directions: &[usize] = if self.base.layout().is_plan() { &[0, 2] } else { &[0] };
+        directions.iter().map(|&k| self.period(k, held)).fold(f64::NAN, f64::max)
     }
 
     fn period(&self, direction: usize, held: &mut SparseFactor) -> f64 {
@@ -111,7 +109,7 @@ impl Assembled {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
     }
 
-    /// What a search for mechanisms looks at; `structure` knows the names of its degrees of freedom.
+    /// The structure at rest, for a search for mechanisms; `structure` knows the names of its degrees of freedom.
     pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
         let stiffness = self.stiffness_at_rest();
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }

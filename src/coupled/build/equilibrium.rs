@@ -20,8 +20,8 @@ const EQUILIBRIUM: f64 = 1e-7;
 const STIFFEST_CONDITION: f64 = 1e10;
 /// Proximal iterations at most.
 const ITERATIONS: usize = 500;
-/// After so many iterations, a very stiff structure may be as far as rounding lets it go: up to this
-/// change, if the condition explains it.
+/// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding lets a
+/// very stiff structure get no further.
 const LATE: usize = 100;
 const LATE_CHANGE: f64 = 1e-8;
 /// Most out-of-balance force of a steady drift, relative to the load.
@@ -34,12 +34,12 @@ const SOFTEST: f64 = 1e-9;
 /// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
 /// that are stiffer than itself.
 const SLOW: f64 = 0.2;
-/// Factor by which they are stiffened at most, to hold what leans (P–Δ) without the ground.
+/// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
 const STIFFENED: f64 = 1e4;
-/// Pull, relative to the load, that may not fall for rounding alone.
+/// Pull of the springs, relative to the load, below which rounding may keep it from falling.
 const ROUNDING: f64 = 1e-6;
-/// After so many iterations that is asked of the condition: a pull of the springs turns what hardly presses from one
-/// contact mode to another and back, if that changes a large shear.
+/// Iterations after which the condition must explain such a pull: the springs may turn an element that hardly presses
+/// from one contact mode to another and back, if that changes a large shear.
 const LONG: usize = 20;
 
 /// A static state: what weight and loads at t = 0 leave, contact conditions included.
@@ -57,12 +57,12 @@ pub(crate) struct StaticState {
     /// f(u) of a nonlinear structure, and its energies where it knows them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction that was taken in place of a greater one where something slid, if any was.
+    /// Friction coefficient taken in place of a greater one where an element slides, if any was.
     pub(crate) stand_in: Option<f64>,
 }
 
 impl StaticState {
-    /// No weight: everything touches, nothing presses.
+    /// State without weight: all elements touch and none is pressed.
     pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
         let elements = layout.elements();
         Self {
@@ -244,9 +244,10 @@ impl Standing<'_> {
         Err(failure(condition, iterations, change))
     }
 
-    /// The same with springs stiff enough, `most` at most, that what leans does not fall without the ground, and
-    /// their stiffness. Each iteration finds the least energy then; without, it may be one on the verge of a fall, on a
-    /// corner. Where that does not help (Lagrange multipliers), or rounding is the cause, springs are as they were.
+    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground, and
+    /// their stiffness. Each iteration then finds the least energy; with softer springs it may find a structure on the
+    /// verge of a fall, on a corner. Where stiffer springs do not help (Lagrange multipliers), or rounding is the
+    /// cause, they stay as they were.
     fn held(
         &self,
         mut found: Compliance,

@@ -28,7 +28,7 @@ const RATIO: f64 = 4.0;
 /// of the tolerance: their part of the responses is its square.
 const NEW: f64 = 1e-2;
 const NEW_BY_ROOT: f64 = 10.0;
-/// The same, in the end.
+/// Least fraction of a direction that must be new, in the end.
 const LEAST_NEW: f64 = 1e-7;
 /// The next round changes this much less than the last, at best.
 const FASTEST: f64 = 0.1;
@@ -52,7 +52,7 @@ pub(super) struct Reduction<'a> {
     held: &'a SparseFactor,
     /// Steps of the run.
     steps: usize,
-    /// None of them zero.
+    /// Rows of the probes, none of them zero.
     rows: Rows,
     /// Displacements that the modes must contain.
     motions: Vec<f64>,

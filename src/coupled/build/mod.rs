@@ -74,9 +74,8 @@ impl SimulationBuilder {
         self
     }
 
-    /// The ground. Contact is where its elements are: a part of the base beyond them is not in contact, and
-    /// elements beyond the base are an error. Neither happens with
-    /// [`ElasticGround::under`](crate::bem::ElasticGround::under).
+    /// The ground. Contact is where its elements are: a part of the base beyond them is not in contact, and elements
+    /// beyond the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));
@@ -118,10 +117,10 @@ impl SimulationBuilder {
         self
     }
 
-    /// Gravity g (m/s²), which gives the structure its weight;
-    /// [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY) unless given. The run starts from the
-    /// static state: weight first, then the loads at t = 0 with the interface law. Zero: there is no
-    /// static state, the base starts unpressed, and uplift and sliding have nothing to hold against.
+    /// Gravity g (m/s²), which gives the structure its weight; [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY)
+    /// unless given. The run starts from the static state: weight first, then the loads at t = 0 with the interface
+    /// law. With zero there is no static state: the base starts without pressure, so nothing resists uplift and
+    /// sliding.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
         self.given.gravity = gravity;
@@ -188,7 +187,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// In which coordinates a linear structure is stepped; [`Coordinates::Auto`] unless given.
+    /// Coordinates in which a linear structure is stepped; [`Coordinates::Auto`] unless given.
     #[must_use]
     pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
         self.given.coordinates = coordinates;
@@ -236,8 +235,8 @@ impl SimulationBuilder {
         self.built(None)
     }
 
-    /// As [`SimulationBuilder::build`], with an observer of the ground's convolution weights: those of the expected
-    /// steps, or those that the build itself needs.
+    /// Builds as [`SimulationBuilder::build`] does, with an observer of the ground's convolution weights: those of the
+    /// expected steps, or those that the build itself needs.
     ///
     /// # Errors
     /// [`crate::Error::Stopped`] by the observer; as for [`SimulationBuilder::build`].
@@ -269,21 +268,8 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let uncovered = scene.base.uncovered(&scene.elements);
         let period = assembled.period_on_fixed_base(&mut held);
-        let axis = |axis: usize| scene.elements.is_plan().then_some(['x', 'y'][axis]);
-        let uncovered: Vec<_> =
-            uncovered.into_iter().map(|(k, along, reach)| (k, axis(along), reach)).collect();
-        let mut warnings = Warning::of_scene(&ground.soils(), &uncovered, period);
-        if given.motion.moves_across() && !scene.elements.is_plan() {
-            warnings.push(Warning::MotionAcross);
-        }
-        if let Some(taken) = scene.static_state.stand_in {
-            Warning::count_friction(&mut warnings, taken);
-        }
-        let sample = ground.sampled_cells();
-        warnings
-            .extend(sample.map(|[checked, cells]| Warning::SampledPassivity { checked, cells }));
+        let warnings = Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.

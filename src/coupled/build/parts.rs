@@ -1,4 +1,4 @@
-//! What a simulation is made of, each part checked by itself.
+//! Parts of a simulation, each checked by itself.
 
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ words! { GravityStage, "gravity stage", {
     Unloaded = "unloaded",
 } }
 
-/// What a builder is given beside structure and ground.
+/// Settings and parts given to a builder beside structure and ground.
 pub(crate) struct Given {
     pub(crate) time_step: f64,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
@@ -94,7 +94,7 @@ pub(crate) struct Given {
 }
 
 impl Given {
-    /// Nothing but the time step.
+    /// Settings with this time step, all others default.
     pub(super) fn new(time_step: f64) -> Self {
         Self {
             time_step,
@@ -330,7 +330,7 @@ fn safety_friction(
 
 // In which coordinates a linear structure is stepped.
 
-/// In which coordinates a linear structure is stepped. Results are the same to rounding but for
+/// Coordinates in which a linear structure is stepped. Results are the same to rounding but for
 /// [`Coordinates::Reduced`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -8,7 +8,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
 use crate::error::{Error, Result, all_finite, finite};
-use crate::geometry::{PLANE, SPACE};
+use crate::geometry::PLANE;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
 };
@@ -22,7 +22,7 @@ const INCREMENTS: usize = 10;
 /// Passes in which laws that remember settle.
 const PASSES: usize = 10;
 
-/// Of the step that a stage is to the laws, s.
+/// Length of the step that a gravity stage is to the laws, s.
 const TIME_STEP: f64 = 1.0;
 
 /// The state under weight and the loads at t = 0, which the structure's internal variables follow;
@@ -214,7 +214,7 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             let [down, along] = layout.places(e);
             contact.gap = -moved[down];
             contact.slip = moved[along];
-            if layout.components() == SPACE {
+            if layout.is_plan() {
                 contact.slip_across = moved[layout.place(PLANE, e)];
             }
             if contact.gap < -closed {

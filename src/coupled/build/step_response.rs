@@ -34,7 +34,7 @@ pub(super) struct StepResponses {
     outputs: usize,
     /// Outputs from this one on are accelerations.
     accelerations: usize,
-    /// What probes read at these steps: loads × probes.
+    /// Values of the probes at these steps: loads × probes.
     read: Vec<f64>,
     probes: usize,
 }
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(of(1.0).difference(&of(1.0), 1e-6), ROUNDING);
         assert!((of(1.0).difference(&of(2.0), 1e-6) - 1.0).abs() < 1e-12);
     }
-    /// The same by single steps.
+    /// REFERENCE: single steps.
     #[test]
     fn powers_of_a_step_are_many_steps() {
         let c = Newmark::new(0.6, 0.3025).unwrap().coefficients(0.01);

@@ -10,14 +10,13 @@ use crate::coupled::scene::base::Base;
 use crate::coupled::scene::operators::{Factor, Model, Operators};
 use crate::coupled::scene::transformation::ModalBasis;
 use crate::error::{Error, Result};
-use crate::geometry::SPACE;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot, generalised_modes, largest};
 use crate::structure::{Structure, Tangent};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
 const STEPS: usize = 4_000;
 
-/// What [`Coordinates::Modes`] asks for.
+/// Needs of [`Coordinates::Modes`].
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
 
@@ -99,7 +98,7 @@ enum Chosen {
     Modes(ModalBasis),
 }
 
-/// What to say of `error`, that the effective stiffness has no factors.
+/// Cause of `error`, that the effective stiffness has no factors.
 fn cause(
     assembled: &Assembled,
     structure: &dyn Structure,
@@ -164,7 +163,7 @@ pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     for matrix in matrices {
         parts.couple(matrix);
     }
-    let is_plan = assembled.base.layout().components() == SPACE;
+    let is_plan = assembled.base.layout().is_plan();
     let most = RIGID_MOTIONS[usize::from(is_plan)] * parts.sets().len();
     if rigid > most || smallest.fold(top, f64::min) < SMALLEST * top {
         return None;

@@ -48,7 +48,7 @@ impl AtRest<'_> {
         self.motion(FREE)
     }
 
-    /// What to say of `error`, that the structure has no equilibrium or no factors.
+    /// Cause of `error`, that the structure has no equilibrium or no factors.
     pub(crate) fn behind(&self, error: Error) -> Error {
         self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
     }
@@ -90,7 +90,7 @@ fn place(structure: &dyn Structure, dofs: &[usize]) -> String {
 pub(super) struct Regular {
     matrix: Triplets,
     spring: f64,
-    /// What keeps mechanisms regular, on the diagonal.
+    /// Terms on the diagonal that keep mechanisms regular.
     added: Vec<f64>,
     /// Degrees of freedom without any entry.
     absent: Vec<usize>,
@@ -230,9 +230,9 @@ pub(crate) fn check_signs(
     }
 }
 
-/// Which degrees of freedom are Lagrange multipliers: forces that enter others' equations and whose own
-/// equation is a constraint. Zeros are exact: a multiplier with the least mass m, on a coupling
-/// c with a mass M, grows at the rate √(c / √(m M)).
+/// Marks of the degrees of freedom that are Lagrange multipliers: forces that enter others' equations and whose own
+/// equation is a constraint. Zeros are exact: a multiplier with the least mass m, on a coupling c with a mass M, grows
+/// at the rate √(c / √(m M)).
 fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool> {
     let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
     for (row, column, value) in others.into_iter().flat_map(SparseMatrix::entries) {

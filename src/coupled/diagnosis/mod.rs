@@ -15,7 +15,7 @@ use crate::coupled::scene::operators::Operators;
 use crate::coupled::scene::{Scene, operators};
 use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
-use crate::geometry::far_ends;
+use crate::geometry::{Edge, axis_name, middle, span};
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
 };
@@ -60,8 +60,7 @@ fn resultants(
     load: &[f64],
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    let axes = base.layout().components() - 1;
-    let is_plan = axes > 1;
+    let is_plan = base.layout().is_plan();
     let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
@@ -69,7 +68,7 @@ fn resultants(
         let horizontal = if away == 0.0 { along } else { along.hypot(away) };
         let normal = -upward;
         let nodes = part.nodes(base);
-        let bounds = [0, 1].map(|axis| far_ends(nodes.iter().map(|n| [[n.x, n.y][axis]; 2])));
+        let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         let (ends, across) = (bounds[0], is_plan.then_some(bounds[1]));
         let laws = || part.elements().iter().map(|&e| law_of(laws, e));
         let little = 1e-6 * normal.abs().max(1.0);
@@ -99,7 +98,7 @@ fn resultants(
         if !coheres && let Some(slides) = slides() {
             return Some(slides);
         }
-        let middles = bounds.map(|[least, most]| 0.5 * (least + most));
+        let middles = bounds.map(middle);
         let half_widths = bounds.map(|[least, most]| 0.5 * (most - least));
         let mut moments = [0.0; 2];
         let turns = held.turns(nodes.iter().copied(), middles);
@@ -117,9 +116,8 @@ fn resultants(
             (part_of(0), 0)
         };
         let [moment, eccentricity] = [moments[axis], eccentricities[axis]];
-        let name = |axis: usize| is_plan.then_some(['x', 'y'][axis]);
         if ratio >= 1.0 && opens {
-            let axis = name(axis);
+            let axis = axis_name(is_plan, axis);
             let error = StabilityError::Overturning {
                 ends,
                 across,
@@ -134,9 +132,11 @@ fn resultants(
         let all_middles = part.elements().iter().map(|&e| base.middle(e));
         let passed = [0, 1].map(|axis| middles[axis] + eccentricities[axis]);
         let slack = half_widths.map(|half| 1e-9 * half);
-        let beyond = (0..axes).find_map(|axis| beyond(all_middles.clone(), axis, passed, slack));
+        let mut axes = base.layout().axes();
+        let beyond = axes.find_map(|axis| beyond(all_middles.clone(), axis, passed, slack));
         if let Some((axis, reach)) = beyond.filter(|_| opens) {
-            let (elements, resultant, axis) = (part.elements().len(), passed[axis], name(axis));
+            let (elements, resultant) = (part.elements().len(), passed[axis]);
+            let axis = axis_name(is_plan, axis);
             let error = StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
             return broken(pulls, error);
         }
@@ -165,15 +165,12 @@ fn resultants(
     })
 }
 
-/// Of all edges of a convex outline that the resultant at this distance from `middle` moves to, the largest part of the
-/// way to one of them, and the axis which that faces more.
+/// Largest part of the way from `middle` to an edge of a convex outline that a resultant at this `distance` has gone,
+/// and the axis that this edge faces more.
 fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
-    let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-    let parts = edges.map(|(a, b)| {
-        let n = [b[1] - a[1], a[0] - b[0]];
-        let reach = n[0] * (a[0] - middle[0]) + n[1] * (a[1] - middle[1]);
-        let way = n[0] * distance[0] + n[1] * distance[1];
-        (way / reach, usize::from(n[1].abs() > n[0].abs()))
+    let parts = Edge::all(outline).map(|edge| {
+        let faces_y = edge.normal[1].abs() > edge.normal[0].abs();
+        (edge.outward(distance) / edge.reach(middle), usize::from(faces_y))
     });
     parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
 }
@@ -186,7 +183,7 @@ fn beyond(
     passed: [f64; 2],
     slack: [f64; 2],
 ) -> Option<(usize, [f64; 2])> {
-    let reach = far_ends(middles.map(|middle| [middle[axis]; 2]));
+    let reach = span(middles.map(|middle| middle[axis]));
     let is_beyond = passed[axis] < reach[0] - slack[axis] || passed[axis] > reach[1] + slack[axis];
     is_beyond.then_some((axis, reach))
 }
@@ -281,16 +278,15 @@ const SINGULAR: f64 = 1e18;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Conditioning {
-    /// Of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
-    /// One for a structure that is stepped in its modes: they do not meet.
+    /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state. One for a
+    /// structure that is stepped in its modes, which are not coupled.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub effective_stiffness: f64,
-    /// Of the ground's instantaneous operator G¹. Nothing here divides by it: a rigid ground has
-    /// none.
+    /// Condition of the ground's step compliance G¹. It has no limit: no step solves with G¹ alone.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub ground: f64,
-    /// Of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its
-    /// normal part alone where there is no friction, with the compliance of a thin layer added.
+    /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its normal part
+    /// alone where there is no friction, with the compliance of a thin layer added.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub delassus: f64,
 }

@@ -22,13 +22,13 @@ pub struct SlipEvent {
     pub end: f64,
     /// Change of the mean slip, m; positive to the right.
     pub slip: f64,
-    /// In plan: that along y, m; zero in the plane.
+    /// In plan: slip along y, m; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub slip_across: f64,
 }
 
 impl SlipEvent {
-    /// How far it went, m.
+    /// Distance that the base slipped, m.
     pub(crate) fn size(&self) -> f64 {
         resultant(self.slip, self.slip_across).abs()
     }
@@ -49,7 +49,7 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Before the first step, with memory for so many events.
+    /// Sliding before the first step, with memory for this many events.
     pub(super) fn with_capacity(events: usize) -> Self {
         Self { events: Vec::with_capacity(events), ..Self::default() }
     }
@@ -100,9 +100,9 @@ impl Sliding {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct ElementEnvelope {
-    /// Where it is.
+    /// The element.
     pub element: ContactElement,
-    /// Its front and back end along y, m; 0 and 1 in the plane.
+    /// Front and back end of the element along y, m; 0 and 1 in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub depth: [f64; 2],
     /// Pressure at the start, Pa.
@@ -143,7 +143,7 @@ pub(super) fn tension(
     (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, time })
 }
 
-/// Of every element, at the start.
+/// Envelopes of all elements at the start of a run.
 pub(super) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
     let envelope = |((element, depth), contact): ((&ContactElement, &[f64; 2]), &ContactState)| {
         let peak = |value| Peak { value, time: state.time };
@@ -163,7 +163,7 @@ pub(super) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
     elements.iter().zip(elements.depths()).zip(&state.contact).map(envelope).collect()
 }
 
-/// Of every element, after a step of length `step`.
+/// Extends the envelopes by a step of length `step`.
 pub(super) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
     let modes = state.modes.iter();
     for ((envelope, contact), mode) in envelopes.iter_mut().zip(&state.contact).zip(modes) {

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use crate::bem::ContactElement;
 use crate::coupled::{Foundation, State};
-use crate::geometry::far_ends;
+use crate::geometry::{Edge, far_ends, middle, span};
 use crate::interface::{ContactState, Mode};
 
 /// Components of an edge's normal that are equal but for rounding.
@@ -28,7 +28,7 @@ impl<'a> Base<'a> {
         self.foundation.map(|k| &self.state.foundations[k])
     }
 
-    /// The whole base's number, or that of the foundation.
+    /// Value of the whole base, or that of the foundation.
     pub(super) fn pick(&self, whole: f64, own: fn(&Foundation) -> f64) -> f64 {
         self.own().map_or(whole, own)
     }
@@ -74,7 +74,7 @@ impl<'a> Base<'a> {
         self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
     }
 
-    /// Left and right, front and back end: of its elements in the plane, of its outline in plan.
+    /// Left and right, front and back ends (m): those of the elements in the plane, of the outline in plan.
     pub(super) fn ends(&self) -> [[f64; 2]; 2] {
         let context = &self.state.context;
         if !context.elements.is_plan() {
@@ -83,7 +83,7 @@ impl<'a> Base<'a> {
         }
         let own = self.foundation.map_or(0..context.outlines.len(), |k| k..k + 1);
         let corners = || context.outlines[own.clone()].iter().flatten();
-        [0, 1].map(|axis| far_ends(corners().map(|corner| [corner[axis]; 2])))
+        [0, 1].map(|axis| span(corners().map(|corner| corner[axis])))
     }
 
     /// The least factor of safety of its foundations, by friction coefficients and contact; NaN where
@@ -118,7 +118,7 @@ pub(super) fn open_area(base: &Base<'_>) -> f64 {
     open.fold(0.0, |sum, (area, _)| sum + area)
 }
 
-/// Elements of a foundation, with what they carry.
+/// Elements of a foundation with their tractions.
 #[derive(Clone, Copy)]
 pub(super) struct Footing<'a> {
     pub(super) elements: &'a [ContactElement],
@@ -172,38 +172,32 @@ pub(super) fn against_overturning(footing: Footing<'_>, axis: usize) -> f64 {
         return f64::INFINITY;
     }
     let ends = |axis: usize| {
-        let of_elements = (0..elements.len()).map(move |e| footing.ends(e, axis));
-        let corners = outline.iter().map(|corner| [corner[axis]; 2]);
-        if outline.is_empty() { far_ends(of_elements) } else { far_ends(corners) }
+        if outline.is_empty() {
+            return far_ends((0..elements.len()).map(|e| footing.ends(e, axis)));
+        }
+        span(outline.iter().map(|corner| corner[axis]))
     };
     // Resultant, and its moment about the middle along one axis.
-    let pressed = |axis: usize, middle: f64| {
+    let pressed = |axis: usize, center: f64| {
         let each = footing.areas().enumerate().map(|(e, (area, state))| {
-            let (force, [low, high]) = (area * state.pressure, footing.ends(e, axis));
-            [force, force * (0.5 * (low + high) - middle)]
+            let force = area * state.pressure;
+            [force, force * (middle(footing.ends(e, axis)) - center)]
         });
         each.fold([0.0; 2], |[sum, moment], [force, own]| [sum + force, moment + own])
     };
-    let [low, high] = ends(axis);
     if outline.is_empty() {
-        let [normal, moment] = pressed(axis, 0.5 * (low + high));
+        let [low, high] = ends(axis);
+        let [normal, moment] = pressed(axis, middle([low, high]));
         return ratio(normal, normal * 0.5 * (high - low), moment.abs());
     }
-    let middle = [0, 1].map(|axis| 0.5 * ends(axis).into_iter().sum::<f64>());
-    let moments = [0, 1].map(|axis| pressed(axis, middle[axis]));
-    let normal = moments[0][0];
-    let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-    let outward = edges.map(|(a, b)| (a, [b[1] - a[1], a[0] - b[0]]));
-    let facing = outward.filter(|(_, n)| n[axis].abs() >= ALIKE * n[1 - axis].abs());
-    facing
-        .map(|(corner, n)| {
-            let along = |v: [f64; 2]| v[0] * n[0] + v[1] * n[1];
-            let reach = along([0, 1].map(|axis| corner[axis] - middle[axis]));
-            let moment = along(moments.map(|own| own[1]));
-            ratio(normal, normal * reach, moment.max(0.0))
-        })
-        .reduce(f64::min)
-        .unwrap_or(f64::INFINITY)
+    let center = [0, 1].map(|axis| middle(ends(axis)));
+    let [[normal, along], [_, across]] = [0, 1].map(|axis| pressed(axis, center[axis]));
+    let faces = |edge: &Edge| edge.normal[axis].abs() >= ALIKE * edge.normal[1 - axis].abs();
+    let factor = |edge: Edge| {
+        let moment = edge.outward([along, across]);
+        ratio(normal, normal * edge.reach(center), moment.max(0.0))
+    };
+    Edge::all(outline).filter(faces).map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
 }
 
 /// Resistance over demand: NaN without any pressure, infinite without demand, zero when the base is

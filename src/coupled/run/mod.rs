@@ -79,9 +79,9 @@ pub struct Run {
     pub envelope: Vec<ElementEnvelope>,
     /// Changes of contact mode; each is in [`State::transitions`] of its step.
     pub mode_changes: usize,
-    /// Those by which an element opened.
+    /// Changes by which an element opened.
     pub debondings: usize,
-    /// Those by which one closed again.
+    /// Changes by which an element closed again.
     pub rebondings: usize,
     /// The energy balance at the end.
     pub energy_balance: EnergyBalance,
@@ -97,7 +97,7 @@ pub struct Run {
     /// Wall time, observers included; zero where there is no clock (WebAssembly).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
     pub wall: Duration,
-    /// Whether it is of a ground in plan: forces and energies are those of the whole body.
+    /// Whether the ground is one in plan: forces and energies are then those of the whole body.
     pub in_plan: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
@@ -118,7 +118,7 @@ pub(crate) fn clock() -> Option<Instant> {
 }
 
 impl Run {
-    /// Before its first step, at `state`.
+    /// Run before its first step, at `state`.
     pub(crate) fn start(probes: &[Probe], state: &State, resolution: Resolution) -> Self {
         let time = state.time;
         let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {

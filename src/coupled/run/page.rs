@@ -6,7 +6,7 @@ use super::peak::resultant;
 use super::quantity::Place;
 use super::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::coupled::Peak;
-use crate::geometry::far_ends;
+use crate::geometry::{middle, span};
 use crate::text::column::{number, of_body, printed};
 use crate::text::table::Table;
 
@@ -145,15 +145,13 @@ impl Run {
     /// its width; the least of all foundations and both sides.
     fn lever(&self, axis: usize) -> f64 {
         let of = |own: &Summary| {
-            let [low, high] = [own.ends, own.depth][axis];
+            let ends = [own.ends, own.depth][axis];
             let elements = self.envelope.get(own.elements.clone()).unwrap_or_default();
-            let middle = |own: &ElementEnvelope| {
-                let [low, high] = [[own.element.left, own.element.right], own.depth][axis];
-                [0.5 * (low + high); 2]
+            let of_element = |own: &ElementEnvelope| {
+                middle([[own.element.left, own.element.right], own.depth][axis])
             };
-            let [first, last] = far_ends(elements.iter().map(middle));
-            let center = 0.5 * (low + high);
-            (center - first).min(last - center) / (0.5 * (high - low))
+            let ([first, last], center) = (span(elements.iter().map(of_element)), middle(ends));
+            (center - first).min(last - center) / (0.5 * (ends[1] - ends[0]))
         };
         self.foundations.iter().map(of).fold(f64::INFINITY, f64::min)
     }

@@ -15,7 +15,7 @@ pub struct Peak {
     /// The value, with its sign.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub value: f64,
-    /// When, s.
+    /// Time at which it occurs, s.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub time: f64,
 }
@@ -46,7 +46,7 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Of one value.
+    /// Peak of a single value.
     pub(crate) fn of(value: f64, time: f64) -> Self {
         let peak = Peak { value, time };
         Self { lowest: peak, highest: peak }
@@ -61,12 +61,12 @@ impl Extremes {
         }
     }
 
-    /// The one of larger magnitude, with its sign.
+    /// The peak of larger magnitude, with its sign.
     pub fn largest(&self) -> Peak {
         if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
     }
 
-    /// Its value without its sign.
+    /// Largest magnitude, without its sign.
     pub fn magnitude(&self) -> f64 {
         self.largest().magnitude()
     }
@@ -80,7 +80,7 @@ impl Extremes {
 pub struct ProbeExtremes {
     /// Name of the probe.
     pub name: String,
-    /// Its unit.
+    /// Unit of the values.
     pub unit: String,
     /// The values, and when.
     pub extremes: Extremes,

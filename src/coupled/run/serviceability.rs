@@ -31,7 +31,7 @@ words! { Criterion, "criterion", {
 } }
 
 impl Criterion {
-    /// Its name.
+    /// Name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Slip => "slip",
@@ -41,7 +41,7 @@ impl Criterion {
         }
     }
 
-    /// Its SI unit; none of a fraction.
+    /// SI unit; empty for a fraction.
     pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Slip | Self::Gap => "m",
@@ -172,7 +172,7 @@ impl Serviceability {
 pub struct ServiceCheck {
     /// The limited response.
     pub criterion: Criterion,
-    /// Its limit, in the criterion's unit.
+    /// Limit, in the criterion's unit.
     pub limit: f64,
     /// The value of the run furthest from zero, with its sign.
     pub largest: Peak,

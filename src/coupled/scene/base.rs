@@ -6,7 +6,7 @@ use super::faces::{Faces, hull, mats};
 use super::line::{check_order, check_overlap, chord_rotation, mean_weights};
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
 use crate::error::{Error, Result};
-use crate::geometry::{ContactLayout, Patch, far_ends};
+use crate::geometry::{ContactLayout, Patch, axis_name, far_ends};
 use crate::linalg::dot;
 use crate::structure::{
     DofCombination, FaceNode, Structure, base_nodes, check_base_nodes, foundation_nodes,
@@ -153,7 +153,7 @@ impl Base {
         Ok(Self::from_rows(rows, foundations, nodes, elements))
     }
 
-    /// The same base of the coordinates that are stepped.
+    /// This base in the coordinates that are stepped.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
         for rotation in foundations.iter_mut().flat_map(|footing| &mut footing.rotations) {
@@ -181,22 +181,23 @@ impl Base {
     }
 
     /// The foundations that reach beyond the ground's elements by more than their longest side there, along which axis
-    /// (x 0, y 1), and how far (m).
-    pub(crate) fn uncovered(&self, ground: &Patch) -> Vec<(usize, usize, f64)> {
-        let axes = if ground.is_plan() { 0..2 } else { 0..1 };
+    /// in plan, and how far (m).
+    pub(crate) fn uncovered(&self, ground: &Patch) -> Vec<(usize, Option<char>, f64)> {
         let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
             let sides = own.map(|e| (ground.middle(e)[axis], ground.sides(e)[axis]));
             let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
             let ends = sides.map(|(middle, side)| [middle - 0.5 * side, middle + 0.5 * side]);
             let [first, last] = far_ends(ends);
-            let places = nodes.iter().map(|node| [node.x, node.y][axis]);
+            let places = nodes.iter().map(|node| node.place()[axis]);
             let beyond = places.map(|place| (first - place).max(place - last));
             Some(beyond.fold(0.0, f64::max)).filter(|reach| *reach > longest)
         };
+        let name = |axis| axis_name(ground.is_plan(), axis);
         let each = self.foundations().enumerate();
         each.flat_map(|(k, (nodes, own))| {
-            let found = axes.clone().map(move |axis| (axis, reach(nodes, own.clone(), axis)));
-            found.filter_map(move |(axis, reach)| Some((k, axis, reach?)))
+            let axes = ground.layout().axes();
+            let found = axes.map(move |axis| (axis, reach(nodes, own.clone(), axis)));
+            found.filter_map(move |(axis, reach)| Some((k, name(axis), reach?)))
         })
         .collect()
     }

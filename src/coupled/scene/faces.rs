@@ -42,7 +42,7 @@ impl<'a> Faces<'a> {
     }
 
     fn corners(&self, piece: &[usize]) -> Vec<Point> {
-        piece.iter().map(|&node| [self.nodes[node].x, self.nodes[node].y]).collect()
+        piece.iter().map(|&node| self.nodes[node].place()).collect()
     }
 
     fn has_area(&self, triangle: &[usize]) -> bool {
@@ -97,7 +97,7 @@ impl<'a> Faces<'a> {
 
 /// The faces of each mat, by their corners: those that touch are of one.
 pub(super) fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
-    let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
+    let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
     let checked = faces.iter().map(corners).enumerate();
     let checked: Result<Vec<_>> =
         checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
@@ -110,7 +110,7 @@ pub(super) fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
 
 /// The corners of the convex hull of some nodes, counter-clockwise.
 pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> {
-    let mut sorted: Vec<Point> = nodes.map(|node| [node.x, node.y]).collect();
+    let mut sorted: Vec<Point> = nodes.map(FaceNode::place).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut hull: Vec<Point> = Vec::new();
     // From left to right below, and back above.

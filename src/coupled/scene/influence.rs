@@ -7,7 +7,7 @@
 
 use super::base::Base;
 use super::transformation::Terms;
-use crate::geometry::{ContactLayout, SPACE};
+use crate::geometry::ContactLayout;
 use crate::linalg::matrix::spread;
 use crate::structure::FaceNode;
 
@@ -60,7 +60,7 @@ impl Influence {
         &self.parts
     }
 
-    /// The same vectors in other coordinates.
+    /// These vectors in other coordinates.
     pub(crate) fn converted(&self, convert: impl Fn(&Terms) -> Terms) -> Self {
         let mut parts = self.parts.clone();
         for vector in parts.iter_mut().flat_map(|part| &mut part.vectors) {
@@ -99,7 +99,7 @@ impl Influence {
         (0..self.directions).map(|direction| self.of(direction, dofs)).collect()
     }
 
-    /// That of one direction: right 0, [`UP`], away 2.
+    /// Influence vector of all parts for one direction: right 0, [`UP`], away 2.
     pub(crate) fn of(&self, direction: usize, dofs: usize) -> Vec<f64> {
         let mut vector = vec![0.0; dofs];
         let unit = std::array::from_fn(|k| if k == direction { 1.0 } else { 0.0 });
@@ -109,7 +109,7 @@ impl Influence {
 }
 
 impl Part {
-    /// Its contact elements.
+    /// Contact elements of the part.
     pub(crate) fn elements(&self) -> &[usize] {
         &self.elements
     }
@@ -156,7 +156,7 @@ impl Part {
             let [down, along, across] = layout.places(e);
             displacement[down] += up;
             displacement[along] -= right;
-            if layout.components() == SPACE {
+            if layout.is_plan() {
                 displacement[across] -= away;
             }
         }

@@ -16,7 +16,7 @@ use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
-use crate::geometry::{ContactLayout, Patch, far_ends};
+use crate::geometry::{ContactLayout, Patch, far_ends, middle, span};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
@@ -86,7 +86,6 @@ fn foundation_arms(
     center: [f64; 2],
     arms: &[[f64; 2]],
 ) -> Vec<[f64; 2]> {
-    let middle = |[least, most]: [f64; 2]| 0.5 * (least + most);
     let of_elements = |own: Range<usize>, axis: usize| {
         middle(far_ends(own.map(|e| {
             let half = 0.5 * elements.sides(e)[axis];
@@ -94,7 +93,7 @@ fn foundation_arms(
         })))
     };
     let of_outline = |corners: &[[f64; 2]], axis: usize| {
-        middle(far_ends(corners.iter().map(|corner| [corner[axis]; 2]))) - center[axis]
+        middle(span(corners.iter().map(|corner| corner[axis]))) - center[axis]
     };
     let both = base.foundations().zip(base.outlines());
     both.map(|((_, own), corners)| match corners {
@@ -206,7 +205,7 @@ impl Scene {
         }
     }
 
-    /// What the nonlinear force sees of a motion.
+    /// Displacement in a motion that the nonlinear force depends on.
     pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
         let mut seen = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);

@@ -27,7 +27,7 @@ pub(crate) struct Operators {
 /// K_eff⁻¹.
 pub(crate) enum Factor {
     Sparse(Box<SparseFactor>),
-    /// In modes: the reciprocals.
+    /// Reciprocals of the diagonal, in modal coordinates.
     Diagonal(Vec<f64>),
 }
 
@@ -200,7 +200,7 @@ impl Model {
         }
     }
 
-    /// The same structure with coordinates of modes.
+    /// This structure in modal coordinates.
     pub(crate) fn in_modes(self, assembled: &Assembled, modes: ModalBasis) -> Self {
         let convert = |vector: &Terms| modes.translation(vector, &assembled.mass);
         let influence = Arc::new(assembled.influence.converted(convert));

@@ -1,4 +1,5 @@
-//! From a structure's degrees of freedom to the coordinates that are stepped, and back; vibration modes.
+//! Transformations from a structure's degrees of freedom to the coordinates that are stepped, and back; vibration
+//! modes.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -23,7 +24,7 @@ pub(super) fn accumulate(row: &mut Terms, terms: &DofCombination, factor: f64) {
     }
 }
 
-/// Which coordinates are stepped: chosen once, while building.
+/// Coordinates that are stepped, chosen once while building.
 #[derive(Debug, Clone)]
 pub(crate) enum Transformation {
     /// The degrees of freedom themselves.

@@ -6,7 +6,8 @@ pub use newmark::{DissipativeMidpoint, HhtAlpha, Newmark};
 
 use crate::error::{Error, Result, finite};
 
-/// Where in the step the equation of motion is written, and how the step ends.
+/// Coefficients of a time scheme: the place in the step where the equation of motion is written, and the motion at its
+/// end.
 ///
 /// Each array holds the coefficients of (Δu, v₀, a₀): the displacement increment of the step and
 /// the velocity and acceleration at its start. The equation of motion

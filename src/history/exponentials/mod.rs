@@ -120,7 +120,7 @@ impl ExponentialHistory {
         Self::with_horizon(kernel, tolerance, Self::HORIZON)
     }
 
-    /// The same, with a `tolerance` that holds up to `horizon` steps.
+    /// History with a `tolerance` that holds up to `horizon` steps.
     ///
     /// # Errors
     /// As for [`ExponentialHistory::new`].
@@ -132,7 +132,7 @@ impl ExponentialHistory {
         Self::within(kernel, tolerance, horizon, MEMORY)
     }
 
-    /// The same in at most `memory` bytes, what its making takes included.
+    /// History in at most `memory` bytes, those for its making included.
     pub(crate) fn within(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
@@ -182,7 +182,7 @@ impl ExponentialHistory {
         })
     }
 
-    /// What stands for the coefficients: exact lags, exponentials, and how good they are.
+    /// Fit of the coefficients: exact lags, exponentials, and their errors.
     pub fn fit(&self) -> ExponentialFit {
         ExponentialFit {
             window: self.window(),
@@ -217,7 +217,7 @@ impl ExponentialHistory {
         self.kernel.classes().layout().len()
     }
 
-    /// Where input `m` is kept.
+    /// Place of input `m`.
     fn slot(&self, m: usize) -> std::ops::Range<usize> {
         let size = self.size();
         let slot = m % (2 * self.window());
@@ -326,7 +326,7 @@ impl ConvolutionHistory for ExponentialHistory {
         self.steps
     }
 
-    /// Nothing needs to be reserved.
+    /// Does nothing: memory does not grow.
     fn reserve(&mut self, _steps: usize) -> Result<()> {
         Ok(())
     }

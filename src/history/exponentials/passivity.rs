@@ -63,7 +63,7 @@ pub(super) fn margin(
     found
 }
 
-/// The same at one frequency.
+/// Least margin at one frequency.
 fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
     let window = lags.length();
@@ -219,7 +219,7 @@ impl ConvolutionWeights for Cut<'_> {
 /// passivity).
 #[derive(Debug, Clone)]
 pub(super) struct Lags {
-    /// Of each kind, class by class; the coupling only as long as it is not zero.
+    /// Coefficients of each kind, class by class; of the coupling only while it is not zero.
     pub(super) kinds: [Vec<Vec<f64>>; KINDS],
 }
 
@@ -259,7 +259,7 @@ mod tests {
         PatchKernel::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap().elements(), 0.2).unwrap()
     }
 
-    /// With a tail that is `factor` times what it should be.
+    /// Tail that is `factor` times what it should be.
     fn tail(kernel: &PatchKernel, window: usize, factor: f64) -> Tail {
         let tail = kernel.exponentials(window, 1_000_000, 1e-9).unwrap();
         let mut products = tail.products().to_vec();

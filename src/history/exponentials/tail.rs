@@ -128,8 +128,8 @@ pub(super) struct Tail {
     data: ExponentialSum,
     /// e^(−rate), pole by pole.
     decay: Vec<f64>,
-    /// Of normal and tangential components, per function: Σ decay^age · moment, for the poles that
-    /// have this function.
+    /// States of normal and tangential components, per function: Σ decay^age · moment, for the poles that have this
+    /// function.
     states: [Vec<Vec<f64>>; PLANE],
     moments: Vec<f64>,
     amplitudes: Vec<f64>,
@@ -282,7 +282,7 @@ impl Tail {
     }
 }
 
-/// All that is held decays, and moments come in.
+/// A step of the states: they decay, and moments are added.
 struct Advance<'a> {
     states: &'a mut [Vec<f64>],
     decay: &'a [f64],

@@ -25,7 +25,7 @@ use crate::history::pair_classes::{KINDS, PairClasses};
 /// Cells of the lattice per element, at most: gaps between strips are transformed too.
 const EMPTY: usize = 2;
 
-/// Where the elements are, and the transforms along the surface.
+/// Places of the elements, and the transforms along the surface.
 pub(super) struct Lattice {
     /// Place of each element among the cells, row by row of S along x.
     cells: Vec<usize>,
@@ -40,9 +40,9 @@ pub(super) struct Lattice {
     across: [Arc<dyn Fft<f64>>; 2],
     /// Rows of cells.
     real: Vec<f64>,
-    /// Of one row.
+    /// Spectrum of one row.
     spectrum: Vec<Complex<f64>>,
-    /// Of all, columns of S along y.
+    /// Spectra of all rows, columns of S along y.
     spectra: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
 }

@@ -1,4 +1,4 @@
-//! What the inputs of a leaf give to its next output: one product per wavenumber, input and pair of components.
+//! Next output of a leaf from its inputs: one product per wavenumber, input and pair of components.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -52,7 +52,7 @@ fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
     }
 }
 
-/// The same with coupling, which is i times a real number and of either sign.
+/// Adds products with coupling, which is i times a real number and of either sign.
 #[inline(always)]
 fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     let waves = coefficients[0].len();
@@ -72,7 +72,7 @@ fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     }
 }
 
-/// That of cells in plan.
+/// Leaf of cells in plan.
 pub(super) struct PlanLeaf<'a> {
     pub(super) sum: &'a mut [f64],
     pub(super) inputs: &'a [f64],

@@ -55,7 +55,7 @@ impl Work {
     }
 }
 
-/// Which components of the tractions move which.
+/// Components of the tractions, and those of the displacements that they move.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Part {
     /// Pressure moves down.
@@ -269,7 +269,7 @@ impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
 
 // Rows whose places are used again.
 
-/// Where in its row a step is, and how many steps a row holds before its places are used again.
+/// Places of steps in a row, which holds this many steps before places are used again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ring(pub(super) usize);
 
@@ -314,7 +314,7 @@ impl Ring {
 pub(super) struct WaveNumbers {
     /// All.
     pub(super) all: usize,
-    /// Those with spectra, which come first.
+    /// Wavenumbers with spectra, which come first.
     pub(super) own: usize,
     /// The first that has an image.
     pub(super) first: usize,

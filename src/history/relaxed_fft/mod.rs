@@ -83,13 +83,13 @@ pub struct RelaxedFftHistory {
     pending: bool,
     /// Tractions with missing entries.
     padded: Vec<f64>,
-    /// What is kept of one input.
+    /// Numbers kept of one input.
     input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
     /// All coefficients together that may be left out, of all.
     forgotten: Option<f64>,
-    /// Where memory ends, once that is known.
+    /// Last lag of the memory, once known.
     end: Option<LastLag>,
     /// Largest traction so far, Pa, where memory may end.
     largest: f64,
@@ -100,7 +100,7 @@ short_debug! {
 }
 
 impl RelaxedFftHistory {
-    /// Whether it transforms along the surface, unless told otherwise.
+    /// Whether a history transforms along the surface, unless told otherwise.
     pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
         let classes = kernel.classes();
         let many = classes.elements().len() >= WAVES_FROM;
@@ -126,23 +126,23 @@ impl RelaxedFftHistory {
         }
     }
 
-    /// With (or without) the transform along the surface wherever elements are equal and on a
-    /// lattice; without this call, where it was measured to pay. To be called before the first step.
+    /// Sets whether to transform along the surface wherever elements are equal and on a lattice; without this call,
+    /// where it was measured to pay. To be called before the first step.
     #[must_use]
     pub fn with_surface_transform(mut self, wanted: bool) -> Self {
         self.along_surface = Some(wanted);
         self
     }
 
-    /// With leaves of `steps` (rounded up to a power of two, from 4 to 1024) instead of the length
-    /// that was measured to be best. To be called before the first step.
+    /// Sets leaves of `steps` (rounded up to a power of two, from 4 to 1024) instead of the length that was measured to
+    /// be best. To be called before the first step.
     #[must_use]
     pub fn with_leaf(mut self, steps: usize) -> Self {
         self.leaf = Some(steps.clamp(4, 1024).next_power_of_two());
         self
     }
 
-    /// With a memory that ends in plan where all later coefficients together are less than `tolerance` of all.
+    /// Ends the memory in plan where all later coefficients together are less than `tolerance` of all.
     pub(super) fn forgetting(mut self, tolerance: f64) -> Self {
         self.forgotten = Some(tolerance);
         self
@@ -237,7 +237,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         Ok(())
     }
 
-    /// What memory that has ended leaves out of two displacements.
+    /// Part of two displacements that a memory which has ended leaves out.
     fn increment_error_bound(&self) -> f64 {
         self.end.map_or(0.0, |end| 2.0 * end.rest * self.largest)
     }

@@ -42,7 +42,7 @@ pub(super) struct WaveLevel {
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
-/// Which components of the tractions move which.
+/// Components of the tractions, and those of the displacements that they move.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Part {
     /// Pressures move down, shears along.

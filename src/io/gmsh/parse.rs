@@ -247,7 +247,7 @@ fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 struct Fields<R: Read> {
     source: Lines<R>,
     text: String,
-    /// Where the next field begins in `text`.
+    /// Start of the next field in `text`.
     at: usize,
     /// Number of the line in `text`, from 1.
     line: usize,

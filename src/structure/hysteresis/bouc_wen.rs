@@ -51,8 +51,8 @@ impl BoucWen {
         Ok(Self { stiffness, yield_force, hardening, curve, deformation, z, dissipated })
     }
 
-    /// The same spring with another exponent n (the larger, the sharper it yields) and β: with
-    /// ½ it unloads straight, above ½ along a curve that bulges.
+    /// Sets the exponent n (the larger, the sharper the spring yields) and β: with ½ it unloads straight, above ½ along
+    /// a curve that bulges.
     ///
     /// # Errors
     /// [`Error::Input`] unless 1 ≤ n ≤ 10 and ½ ≤ β ≤ 1.
@@ -331,7 +331,7 @@ impl LeadRubber {
         Ok(Self { slider: Slider::new(stiffness, series, strength) })
     }
 
-    /// The same bearings with another ratio of the first stiffness to that after yield.
+    /// Sets the ratio of the initial stiffness to that after yield.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is finite and above 1.

@@ -273,7 +273,7 @@ impl FrictionPendulum {
         Ok(Self { slider: Slider::new(climb, series, limit), radius })
     }
 
-    /// The same bearings with another displacement at which sliding begins, m.
+    /// Sets the displacement at which sliding begins, m.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is positive.

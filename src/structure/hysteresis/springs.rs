@@ -165,7 +165,7 @@ impl WithSprings {
         Self { structure: Box::new(structure), springs: Springs::default() }
     }
 
-    /// The same with one more spring, which sees the deformation `row`.
+    /// Adds a spring, whose deformation is `row`.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have, [`Error::Input`](crate::Error::Input) for a

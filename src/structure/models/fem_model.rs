@@ -261,7 +261,7 @@ impl FemModel {
         motion
     }
 
-    /// The same by any numbering.
+    /// Writes a rigid motion of the mesh by any numbering.
     pub(super) fn fill_rigid_motion(
         &self,
         direction: Direction,

@@ -1,7 +1,7 @@
 //! Several structures on one ground.
 
 use crate::error::{CheckpointError, Error, Result, finite};
-use crate::geometry::far_ends;
+use crate::geometry::{Edge, span};
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
@@ -190,7 +190,7 @@ impl Member {
         row.map_dofs(|k| if own(k) { k.saturating_add(self.first_dof) } else { usize::MAX })
     }
 
-    /// Its faces in the group.
+    /// Faces of the member in the group.
     fn faces(&self) -> Vec<Vec<FaceNode>> {
         let mut faces = self.structure.contact_faces();
         for node in faces.iter_mut().flatten() {
@@ -205,17 +205,14 @@ impl Member {
 
 /// Whether there is a gap between two convex polygons: a direction in which one ends before the other begins.
 fn are_apart(one: &[FaceNode], other: &[FaceNode]) -> bool {
-    let separates = |a: &FaceNode, b: &FaceNode| {
-        let [dx, dy] = [b.y - a.y, a.x - b.x];
-        let range = |face: &[FaceNode]| far_ends(face.iter().map(|p| [dx * p.x + dy * p.y; 2]));
-        let ([low, high], [least, most]) = (range(one), range(other));
+    let [one, other] =
+        [one, other].map(|face| face.iter().map(FaceNode::place).collect::<Vec<_>>());
+    let separates = |edge: Edge| {
+        let range = |corners: &[[f64; 2]]| span(corners.iter().map(|p| edge.outward(*p)));
+        let ([low, high], [least, most]) = (range(&one), range(&other));
         high < least || most < low
     };
-    let edges = |face: &[FaceNode]| {
-        let next = face.iter().cycle().skip(1);
-        face.iter().zip(next).any(|(a, b)| separates(a, b))
-    };
-    edges(one) || edges(other)
+    Edge::all(&one).chain(Edge::all(&other)).any(separates)
 }
 
 impl Structure for StructureGroup {
@@ -265,7 +262,7 @@ impl Structure for StructureGroup {
         self.write(matrix, Structure::damping)
     }
 
-    /// Those that none of the members describes by numbers of the group.
+    /// Descriptions by the members; degrees of freedom that a member does not describe have their numbers in the group.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let mut texts = Vec::new();
         for (k, member) in self.members.iter().enumerate() {
@@ -280,7 +277,7 @@ impl Structure for StructureGroup {
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// If that of a member is.
+    /// Whether the damping of a member is active.
     fn has_active_damping(&self) -> bool {
         self.members.iter().any(|member| member.structure.has_active_damping())
     }

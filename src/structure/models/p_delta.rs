@@ -172,7 +172,7 @@ impl HeldStructure {
         }
     }
 
-    /// Whether it stands under `factor` times its axial forces: its stiffness is positive definite.
+    /// Whether the structure stands under `factor` times its axial forces, with a positive definite stiffness.
     fn stands(&self, factor: f64) -> Result<bool> {
         if self.free.is_empty() {
             return Ok(true);

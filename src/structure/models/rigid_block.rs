@@ -249,7 +249,7 @@ impl MatrixModel {
         Ok(Self { damping, active: false, ..self })
     }
 
-    /// The same with a matrix that need be neither symmetric nor positive semi-definite: that of
+    /// The same structure with a damping matrix that need be neither symmetric nor positive semi-definite: that of
     /// gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
     /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
     ///

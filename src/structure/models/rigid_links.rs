@@ -21,7 +21,7 @@ pub(super) struct RigidLinks {
 const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
 
 impl RigidLinks {
-    /// Nothing linked yet.
+    /// Links without any nodes so far.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
         let (nodes, dofs) = (mesh.nodes().len(), numbering.dofs());
         let rows = (0..dofs).map(|dof| vec![(dof, 1.0)]).collect();

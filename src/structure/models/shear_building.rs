@@ -290,8 +290,8 @@ impl ShearBuilding {
         self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
     }
 
-    /// On a held base K is a chain of storeys, positive definite if every link of it, k − W/h, is
-    /// positive.
+    /// Error unless the columns of a storey carry the weight above: on a fixed base K is a chain of storeys, positive
+    /// definite if every link of it, k − W/h, is positive.
     pub(super) fn carries_its_weight(&self, storey: usize) -> Result<()> {
         let Storey { height, stiffness, .. } = self.storeys[storey];
         let stiffness = self.tangents[storey].unwrap_or(stiffness);

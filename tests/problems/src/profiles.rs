@@ -1,7 +1,7 @@
-//! Profiles of the tables: P1, a layer on rock; P3, the same layer on a rigid base.
+//! Profiles of the tables (P1, a layer on rock; P3, the same layer on a rigid base) and of inclined waves.
 
 use basemat::Soil;
-use basemat::soil::{GeneralizedMaxwell, Relaxation, SoilProfile};
+use basemat::soil::{Elastic, GeneralizedMaxwell, Hysteretic, Relaxation, SoilProfile};
 
 /// Long-term modulus, moduli and frequencies of the law of `gmb.json` for 5 % or 1 %.
 pub fn gmb_numbers(percent: u32) -> (f64, Vec<f64>, Vec<f64>) {
@@ -38,4 +38,56 @@ pub fn p1(
 
 pub fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
     SoilProfile::on_rigid_base().with_layer(layer(), 2.0).unwrap().with_damping(damping)
+}
+
+/// Soft soil, shear waves of 150 m/s.
+pub fn soft() -> Soil {
+    Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap()
+}
+
+/// Rock, shear waves of 600 m/s.
+pub fn rock() -> Soil {
+    Soil::from_shear_wave_speed(600.0, 0.25, 2200.0).unwrap()
+}
+
+/// Damping of this ratio from 0.1 to 30 Hz, modulus of 1 Hz.
+pub fn constant_q(ratio: f64) -> GeneralizedMaxwell {
+    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()
+}
+
+/// A soft layer of 6 m, one of 9 m between, rock.
+pub fn two_layers(
+    upper: impl Relaxation + 'static,
+    lower: impl Relaxation + 'static,
+) -> SoilProfile {
+    SoilProfile::on_half_plane(rock())
+        .with_base_damping(lower)
+        .with_layer(soft(), 6.0)
+        .unwrap()
+        .with_damping(upper)
+        .with_layer(Soil::from_shear_wave_speed(400.0, 0.3, 2000.0).unwrap(), 9.0)
+        .unwrap()
+}
+
+/// A layer and the half-plane under it with the laws of both: elastic, damped and hysteretic.
+pub fn one_layer(
+    above: Soil,
+    below: Soil,
+    height: f64,
+) -> [(SoilProfile, [Box<dyn Relaxation>; 2]); 3] {
+    fn of<L: Relaxation + Clone + 'static>(
+        [above, below]: [Soil; 2],
+        height: f64,
+        [upper, lower]: [L; 2],
+    ) -> (SoilProfile, [Box<dyn Relaxation>; 2]) {
+        let base = SoilProfile::on_half_plane(below).with_base_damping(lower.clone());
+        let profile = base.with_layer(above, height).unwrap().with_damping(upper.clone());
+        (profile, [Box::new(upper), Box::new(lower)])
+    }
+    let soils = [above, below];
+    [
+        of(soils, height, [Elastic; 2]),
+        of(soils, height, [0.05, 0.01].map(constant_q)),
+        of(soils, height, [0.1, 0.03].map(|ratio| Hysteretic::new(ratio).unwrap())),
+    ]
 }

@@ -5,6 +5,7 @@ use basemat::coupled::{SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::FreeFieldFn;
+use basemat::results::{Recorder, Run, TimeSeries};
 use basemat::structure::{
     FemModel, NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets,
 };
@@ -108,6 +109,22 @@ pub fn states(simulation: &mut Simulation, steps: usize) -> Vec<State> {
         states.push(simulation.step().unwrap().clone());
     }
     states
+}
+
+/// A run of so many steps: its time series, and its states with the one before.
+pub fn recorded(
+    simulation: &mut Simulation,
+    recorder: Recorder,
+    steps: usize,
+) -> (TimeSeries, Run, Vec<State>) {
+    let mut series = recorder.start(simulation).unwrap();
+    let mut states = vec![simulation.state().clone()];
+    let observe = |state: &State| {
+        series.record(state);
+        states.push(state.clone());
+    };
+    let run = simulation.run(steps, observe).unwrap();
+    (series, run, states)
 }
 
 /// A rigid block with a spring that hardens and loses energy in no way: f = k θ³ on the rotation

@@ -1,5 +1,8 @@
-//! Wrappers of a structure: one that forwards the least, one that pulls it.
+//! Wrappers of a structure: one that forwards the least, one that pulls it; and of a law: one with another rule for modes.
 
+use basemat::interface::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+};
 use basemat::structure::{DofCombination, Structure, Triplets};
 
 /// What every structure must say, as a field says it.
@@ -52,5 +55,60 @@ impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F
             load[unknown] += weight * (self.force)(time);
         }
         Ok(())
+    }
+}
+
+/// Methods that every interface law needs, as a field has them.
+#[macro_export]
+macro_rules! law_from {
+    ($field:tt) => {
+        fn modes(&self) -> &[basemat::interface::Mode] {
+            self.$field.modes()
+        }
+
+        fn conditions(
+            &self,
+            mode: basemat::interface::Mode,
+            start: &basemat::interface::PreviousContact,
+        ) -> [basemat::interface::Condition; 2] {
+            self.$field.conditions(mode, start)
+        }
+
+        fn next_mode(
+            &self,
+            mode: basemat::interface::Mode,
+            start: &basemat::interface::PreviousContact,
+            trial: &basemat::interface::ContactState,
+            tolerance: basemat::interface::Tolerance,
+        ) -> basemat::interface::Mode {
+            self.$field.next_mode(mode, start, trial, tolerance)
+        }
+    };
+}
+
+/// Coulomb's law with a rule for the next mode that is not its own.
+pub struct Wayward<F> {
+    pub law: Coulomb,
+    /// The next mode, by the present one, the contact before and the mode that the law asks for.
+    pub next: F,
+}
+
+impl<F: Fn(Mode, &PreviousContact, Mode) -> Mode + Send + Sync> InterfaceLaw for Wayward<F> {
+    fn modes(&self) -> &[Mode] {
+        self.law.modes()
+    }
+
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
+        self.law.conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &PreviousContact,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        (self.next)(mode, start, self.law.next_mode(mode, start, trial, tolerance))
     }
 }
