@@ -35,21 +35,23 @@ impl ElasticSource {
     /// Step coefficients of cells in plan.
     pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
         let stages = self.stages(time_step).unwrap_or_default();
-        let (sizes, file) = ([time_step, self.tolerance, self.limit], self.file.clone());
-        LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)
+        let (profile, file) = (self.profile.clone(), self.file.clone());
+        LatticeKernel::in_plan(profile, plan, stages, self.sizes(time_step), file)
     }
 
-    /// Step coefficients by convolution quadrature.
+    /// Step coefficients of strips by convolution quadrature.
     pub(super) fn layered(
         &self,
         elements: &[ContactElement],
         time_step: f64,
         stages: Stages,
     ) -> Result<LayeredKernel> {
-        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
-            .with_stages(stages)
-            .with_tolerance(self.tolerance)?
-            .with_time_limit(self.limit)
+        let (profile, file) = (self.profile.clone(), self.file.clone());
+        LayeredKernel::made(profile, elements.to_vec(), stages, self.sizes(time_step), file)
+    }
+
+    fn sizes(&self, time_step: f64) -> [f64; 3] {
+        [time_step, self.tolerance, self.limit]
     }
 }
 
@@ -67,11 +69,7 @@ impl WeightsSource for ElasticSource {
                 Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
             }
             (stages, _) => {
-                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
-                Ok(Arc::new(match &self.file {
-                    Some(file) => kernel.with_file(file),
-                    None => kernel,
-                }))
+                Ok(Arc::new(self.layered(elements, time_step, stages.unwrap_or_default())?))
             }
         }
     }

@@ -253,7 +253,8 @@ pub(super) fn all_kinds(
     }
 }
 
-const OTHER_KINDS: Error = Error::Scene {
+/// Error of coefficients that a kernel does not have.
+pub(crate) const OTHER_KINDS: Error = Error::Scene {
     quantity: "coefficients of a kernel",
     needed: "`coefficients` are those of strips, `coefficients_in_plan` those of mats in plan",
 };

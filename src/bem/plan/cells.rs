@@ -3,8 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::faces::Face;
-use super::mats::{apart, mat_by_mat, owners};
+use super::faces::{Face, apart, mat_by_mat, owners};
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, finite, memory, positive};
 use crate::geometry::{ContactElement, Lattice};
