@@ -4,7 +4,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::level::{Level, Ring, Tables, WaveNumbers};
+use super::level::{Level, Part, Ring, Tables, WaveNumbers};
+use crate::error::Result;
 use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
 use crate::history::pair_classes::KINDS as STRIP_KINDS;
@@ -40,17 +41,6 @@ pub(super) struct WaveLevel {
     /// stand for i times them. That of a strip's coupling is empty where
     /// it has died out within smaller blocks.
     spectra: Vec<Vec<Complex<f64>>>,
-}
-
-/// Which components of the tractions move which.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Part {
-    /// Pressures move down, shears along.
-    Even,
-    /// Each moves the other.
-    Coupling,
-    /// All of it.
-    All,
 }
 
 impl WaveLevel {
@@ -300,6 +290,20 @@ pub(crate) struct Levels<L, N> {
 impl<L, N> Default for Levels<L, N> {
     fn default() -> Self {
         Self { levels: Vec::new(), near: None }
+    }
+}
+
+impl<L, N: Default> Levels<L, N> {
+    /// The `wanted` smallest levels and the coefficients of a leaf: `make` makes the levels from one number to the one before
+    /// another, and the coefficients unless they are there.
+    pub(super) fn take(
+        &mut self,
+        wanted: usize,
+        make: impl FnOnce([usize; 2], &mut Option<Arc<N>>) -> Result<Vec<Arc<L>>>,
+    ) -> Result<(Vec<Arc<L>>, Arc<N>)> {
+        let more = make([self.levels.len(), wanted], &mut self.near)?;
+        self.levels.extend(more);
+        Ok((self.levels[..wanted].to_vec(), self.near.clone().unwrap_or_default()))
     }
 }
 
