@@ -39,7 +39,7 @@ use std::sync::Arc;
 
 pub use crate::geometry::ContactElement;
 
-use crate::error::{CheckpointError, Observer, Result};
+use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::{ContactLayout, PLANE, Patch, SPACE};
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
@@ -193,6 +193,12 @@ pub trait Ground: Any + Send {
         }
     }
 }
+
+/// Error of a ground before its time step is known.
+const NOT_PREPARED: Error = Error::Scene {
+    quantity: "ground",
+    needed: "`prepare` must be called with the time step first",
+};
 
 /// The elements of a ground, checked.
 pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {

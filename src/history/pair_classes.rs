@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Mul;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require};
 use crate::geometry::{
     ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
 };
@@ -102,13 +102,8 @@ impl PairClasses {
         check_order(&elements)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
-        if shortest < SHORTEST * span {
-            return Err(Error::Input {
-                quantity: "length of the shortest contact element over that of the patch",
-                value: shortest / span,
-                needed: "at least 1e-8",
-            });
-        }
+        let quantity = "length of the shortest contact element over that of the patch";
+        require(quantity, shortest / span, shortest >= SHORTEST * span, "at least 1e-8")?;
         let mut numbers = HashMap::new();
         let mut representatives = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::bem::{ContactElement, Strip};
-use crate::error::{Error, MemoryError, Result, finite, memory, positive};
+use crate::error::{Error, MemoryError, Result, finite, memory, positive, require};
 use crate::geometry::{ContactLayout, PLANE, check_order};
 
 /// A polygonal boundary of the soil, with the elements on which the structure stands.
@@ -85,13 +85,9 @@ impl Boundary {
                 bound: segments.len(),
             })?;
             let rise = (segment.to[1] - segment.from[1]).abs();
-            if rise > 1e-9 * segment.length() {
-                return Err(Error::Input {
-                    quantity: "rise of a contact element",
-                    value: rise,
-                    needed: "none: contact elements are horizontal",
-                });
-            }
+            let flat = rise <= 1e-9 * segment.length();
+            let needed = "none: contact elements are horizontal";
+            require("rise of a contact element", rise, flat, needed)?;
             elements.push(ContactElement { left: segment.from[0], right: segment.to[0] });
         }
         check_order(&elements)?;
@@ -194,13 +190,9 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     for (q, source) in segments.iter().enumerate() {
         for (p, receiver) in segments.iter().enumerate() {
             let distance = source.distance(receiver.center());
-            if p != q && distance < 1e-6 * source.length().min(receiver.length()) {
-                return Err(Error::Input {
-                    quantity: "distance of a boundary element from the midpoint of another",
-                    value: distance,
-                    needed: "at least 1e-6 of the shorter",
-                });
-            }
+            let apart = p == q || distance >= 1e-6 * source.length().min(receiver.length());
+            let quantity = "distance of a boundary element from the midpoint of another";
+            require(quantity, distance, apart, "at least 1e-6 of the shorter")?;
         }
     }
     Ok(())

@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
-use crate::error::{Error, Result, positive, same_length};
+use crate::error::{Error, Result, positive, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::soil::Soil;
 
@@ -97,13 +97,8 @@ impl ConvolutionQuadrature {
         let reach = views.iter().map(View::reach).fold(0.0, f64::max);
         let rho = positive("boundary over wave travel in a step", reach)?
             / (soil.shear_wave_speed() * time_step);
-        if rho.is_nan() || rho >= LARGEST_RHO {
-            return Err(Error::Input {
-                quantity: "steps that an S wave needs across the boundary",
-                value: rho,
-                needed: "below 1e5",
-            });
-        }
+        let quantity = "steps that an S wave needs across the boundary";
+        require(quantity, rho, rho < LARGEST_RHO, "below 1e5")?;
         let late = views.iter().map(|view| log_terms(soil, view, reach)).collect();
         let lags = first_lag(method, rho).next_power_of_two();
         let segments = segments.to_vec();

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::convolution::{Prepared, component};
 use super::laplace::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
-use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
+use crate::bem::{ContactElement, Ground, NOT_PREPARED, StaticKernel, Strip};
 use crate::error::{Error, Observer, Result, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::history::RESERVED_STEPS;
@@ -351,11 +351,6 @@ impl Ground for FullPlaneGround {
         }
     }
 }
-
-const NOT_PREPARED: Error = Error::Scene {
-    quantity: "full-plane ground",
-    needed: "`prepare` must be called with the time step first",
-};
 
 const TWO_MOTIONS: Error = Error::Scene {
     quantity: "ground motion",

@@ -12,21 +12,14 @@ use super::convolution::BoundaryHistory;
 use super::stability_symbol::Symbol;
 use super::stability_zeros::{passivity, smallest_zero};
 use super::{Boundary, BoundaryCondition, BoundaryKernel};
-use crate::error::{Error, Result, positive, same_length};
+use crate::error::{Error, Result, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Growth that can be looked for.
 pub(super) fn check_growth(smallest: f64) -> Result<()> {
-    positive("growth looked for", smallest)?;
-    if (1e-7..=0.5).contains(&smallest) {
-        return Ok(());
-    }
-    Err(Error::Input {
-        quantity: "growth looked for",
-        value: smallest,
-        needed: "between 1e-7 and 0.5 per step",
-    })
+    let fits = (1e-7..=0.5).contains(&smallest);
+    require("growth looked for", smallest, fits, "between 1e-7 and 0.5 per step").map(drop)
 }
 
 /// Assessment of a boundary equation that is to be marched.

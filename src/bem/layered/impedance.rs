@@ -12,7 +12,7 @@ use realfft::num_complex::Complex64;
 use super::passivity::assembled;
 use super::static_compliance;
 use super::wavenumber::{Compliances, Wavenumbers, Workspace, unresolved};
-use crate::error::{Error, Observer, Result, Watch, not_negative};
+use crate::error::{Error, Observer, Result, Watch, not_negative, require};
 use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
@@ -139,13 +139,8 @@ fn all(
     profile.check()?;
     let mut lists = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
-        if *frequency == 0.0 && matches!(profile.base(), Base::HalfPlane { .. }) {
-            return Err(Error::Input {
-                quantity: "frequency of an impedance on a half-plane",
-                value: *frequency,
-                needed: "above zero",
-            });
-        }
+        let exists = *frequency != 0.0 || matches!(profile.base(), Base::Rigid);
+        require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
         lists.push(points(profile, strip.classes.span(), *frequency)?);
     }
     let found = stiffnesses(&lists, &[0, 1, 2], watch, |s| strip.stiffness(s))?;

@@ -24,7 +24,9 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::coefficients::{BLOCKS, Block, FIRST};
-use crate::error::{Error, KernelFileError, LayeredError, Result, Watch, same_length, write_file};
+use crate::error::{
+    Error, KernelFileError, LayeredError, Result, Watch, require, same_length, write_file,
+};
 use crate::text::check_sum::CheckSum;
 
 /// Between two looks whether another thread has ended.
@@ -148,9 +150,7 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
     for others in &values[1..] {
         same_length("coefficients of a kind", others.len(), lags)?;
     }
-    if first_lag == 0 {
-        return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
-    }
+    require("lag", first_lag as f64, first_lag > 0, "at least 1")?;
     last_block(first_lag.saturating_add(lags))?;
     let mut done = 0;
     while done < lags {
@@ -168,13 +168,7 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
 /// Number of the block with lag `lag`.
 pub(crate) fn last_block(lag: usize) -> Result<usize> {
     let most = FIRST << (BLOCKS - 1);
-    if lag > most {
-        return Err(Error::Input {
-            quantity: "lag of a layered ground",
-            value: lag as f64,
-            needed: "at most 2147483648",
-        });
-    }
+    require("lag of a layered ground", lag as f64, lag <= most, "at most 2147483648")?;
     Ok(Block::place(lag).0)
 }
 

@@ -7,7 +7,7 @@ use super::cost::Cost;
 use super::runge_kutta::Stages;
 use super::wavenumber::Wavenumbers;
 use super::weights::QuadratureWeights;
-use crate::error::{Error, Observer, Result, positive};
+use crate::error::{Observer, Result, positive, require};
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, KINDS, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
@@ -38,7 +38,7 @@ use crate::soil::SoilProfile;
 ///
 /// # Errors
 /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
-/// [`Error::Memory`] beyond the [limit](crate::memory_limit), before anything is computed;
+/// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed;
 /// [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) beyond the
 /// [limit](LayeredKernel::with_time_limit); [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
 /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
@@ -58,7 +58,7 @@ impl LayeredKernel {
     /// seconds, with two stages.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal)
+    /// [`Error::Input`](crate::Error::Input) for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal)
     /// for damping that exists in the frequency domain only; as for [`PairClasses::new`].
     pub fn new(
         profile: SoilProfile,
@@ -114,7 +114,7 @@ impl LayeredKernel {
     /// block, and better before.
     ///
     /// # Errors
-    /// [`Error::Input`] for a tolerance outside this range.
+    /// [`Error::Input`](crate::Error::Input) for a tolerance outside this range.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
         let stages = self.weights.quadrature.stages;
         Ok(self.remade(stages, check_tolerance(tolerance)?))
@@ -144,7 +144,7 @@ impl LayeredKernel {
     /// ```
     ///
     /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) then also return
-    /// [`LayeredError::File`](crate::LayeredError::File) and [`Error::Write`].
+    /// [`LayeredError::File`](crate::LayeredError::File) and [`Error::Write`](crate::Error::Write).
     #[must_use]
     pub fn with_file(mut self, path: impl Into<PathBuf>) -> Self {
         self.weights.kept.file = Some(path.into());
@@ -159,7 +159,7 @@ impl LayeredKernel {
     /// ([`LayeredError::TooCostly`](crate::LayeredError::TooCostly)) before anything of it is computed.
     ///
     /// # Errors
-    /// [`Error::Input`] for a number that is negative or NaN.
+    /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
     pub fn with_time_limit(mut self, seconds: f64) -> Result<Self> {
         self.weights.limit = check_limit(seconds)?;
         Ok(self)
@@ -200,24 +200,11 @@ impl ConvolutionWeights for LayeredKernel {
 
 /// Error unless `tolerance` can be reached and is worth the name.
 pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
-    if (1e-13..=1e-4).contains(&tolerance) {
-        return Ok(tolerance);
-    }
-    Err(Error::Input {
-        quantity: "tolerance of a layered ground",
-        value: tolerance,
-        needed: "from 1e-13 to 1e-4",
-    })
+    let fits = (1e-13..=1e-4).contains(&tolerance);
+    require("tolerance of a layered ground", tolerance, fits, "from 1e-13 to 1e-4")
 }
 
 /// Error unless `seconds` can be a limit.
 pub(crate) fn check_limit(seconds: f64) -> Result<f64> {
-    if seconds >= 0.0 {
-        return Ok(seconds);
-    }
-    Err(Error::Input {
-        quantity: "time limit of a layered ground",
-        value: seconds,
-        needed: "not negative",
-    })
+    require("time limit of a layered ground", seconds, seconds >= 0.0, "not negative")
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::faces::{Face, apart, mat_by_mat, owners};
 use super::unions::Unions;
-use crate::error::{Error, PlanError, Result, finite, memory, positive};
+use crate::error::{Error, PlanError, Result, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
 use crate::structure::{FaceNode, Structure};
@@ -331,13 +331,12 @@ impl Plan {
 
 /// Error for less than two cells along a side, or more than memory allows.
 fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
-    if cells < 2 {
-        return Err(Error::Input {
-            quantity: "number of cells along the shorter side of a mat",
-            value: cells as f64,
-            needed: "at least 2",
-        });
-    }
+    require(
+        "number of cells along the shorter side of a mat",
+        cells as f64,
+        cells > 1,
+        "at least 2",
+    )?;
     check_memory(counts)
 }
 

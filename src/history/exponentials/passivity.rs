@@ -262,12 +262,12 @@ mod tests {
     /// With a tail that is `factor` times what it should be.
     fn tail(kernel: &PatchKernel, window: usize, factor: f64) -> Tail {
         let tail = kernel.exponentials(window, 1_000_000, 1e-9).unwrap();
-        let mut products = tail.products().to_vec();
+        let mut products = tail.products.clone();
         for weight in products.iter_mut().flat_map(|p| p.normal.iter_mut().chain(&mut p.tangential))
         {
             *weight *= factor;
         }
-        let (rates, functions) = (tail.rates().to_vec(), tail.functions().to_vec());
+        let (rates, functions) = (tail.rates, tail.functions);
         let tail = ExponentialSum::new(rates, functions, products).unwrap();
         Tail::new(tail, kernel.classes().elements()).unwrap()
     }
