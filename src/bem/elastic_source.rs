@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::layered::{LayeredKernel, Stages, static_compliance};
+use super::layered::{LIMIT, LayeredKernel, Stages, TOLERANCE, static_compliance};
 use super::plan::{self, LatticeKernel, Plan};
 use super::{PatchKernel, StaticKernel, WeightsSource};
 use crate::error::Result;
@@ -24,6 +24,13 @@ pub(super) struct ElasticSource {
 }
 
 impl ElasticSource {
+    /// Source of `profile` under strips, or under the cells of a plan, with default accuracy.
+    pub(super) fn new(profile: SoilProfile, plan: Option<Plan>) -> Result<Self> {
+        profile.check()?;
+        let (tolerance, limit) = (TOLERANCE, LIMIT);
+        Ok(Self { profile, plan, stages: None, tolerance, file: None, limit })
+    }
+
     /// The stages for steps of `time_step` seconds; `None` for the closed form.
     pub(super) fn stages(&self, time_step: f64) -> Option<Stages> {
         let by_rule = || Stages::for_profile(&self.profile, time_step);

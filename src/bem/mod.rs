@@ -134,13 +134,13 @@ pub trait Ground: Any + Send {
         Vec::new()
     }
 
-    /// How many cells stand for how many where their passivity is checked by a sample; `None` (the default) if it is not.
+    /// Numbers of cells in the sample whose passivity is checked, and of all; `None` (the default) if all are checked.
     /// A run warns: [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
     fn sampled_cells(&self) -> Option<[usize; 2]> {
         None
     }
 
-    /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
+    /// History that the ground keeps, and why; `None` (the default) if there is nothing to choose.
     fn history_choice(&self) -> Option<HistoryChoice> {
         None
     }

@@ -28,7 +28,7 @@ pub struct SpringGround {
     depths: Option<Vec<[f64; 2]>>,
     /// Down, along x and in plan along y, Pa/m.
     stiffness: [f64; SPACE],
-    /// The same, Pa·s/m.
+    /// Down, along x and in plan along y, Pa·s/m.
     dashpot: [f64; SPACE],
     theta: f64,
     time_step: f64,
@@ -49,7 +49,7 @@ impl SpringGround {
         Self::on_strips(&[Strip::uniform(range, count)?], normal_stiffness, tangential_stiffness)
     }
 
-    /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements. Under a structure
+    /// Bed under each foundation of `structure`, as wide as that is, of `count` equal elements. Under a structure
     /// with [faces](Structure::contact_faces) it is a bed [in plan](SpringGround::in_plan), with `count` cells along
     /// the shorter side of them all, and the tangential stiffness in both directions.
     ///
@@ -69,7 +69,7 @@ impl SpringGround {
         Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
     }
 
-    /// The same under several strips, from left to right.
+    /// Bed under several strips, from left to right.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no strips, [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order,

@@ -140,8 +140,8 @@ impl WeightsGround {
         Ok(Self { depths: None, ..Self::in_plan(source, elements, Default::default(), None) })
     }
 
-    /// The same for elements in plan, whose source knows where they are: `depths` are front and back ends along y (m), and
-    /// parts of their areas inside the outline.
+    /// Ground of `source` under elements in plan: `depths` are front and back ends along y (m), and parts of their areas
+    /// inside the outline.
     pub(super) fn in_plan(
         source: impl WeightsSource,
         elements: Vec<ContactElement>,
@@ -272,7 +272,7 @@ impl Ground for WeightsGround {
         history.map_or(0.0, |history| history.any().increment_error_bound())
     }
 
-    /// Which history was chosen for how many steps, and what it says.
+    /// The choice of the history, its number of steps, and the state of the history.
     fn save(&self) -> Result<Vec<f64>> {
         let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
         let mut values = SavedChoice::new(prepared.choice()).numbers().to_vec();

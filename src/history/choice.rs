@@ -114,9 +114,9 @@ impl fmt::Display for ChoiceReason {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct HistoryChoice {
-    /// Which one; never [`HistoryMethod::Auto`].
+    /// Method; never [`HistoryMethod::Auto`].
     pub kind: HistoryMethod,
-    /// Why.
+    /// Reason of the choice.
     pub reason: ChoiceReason,
     /// Steps that were expected; `None` if nothing was known.
     pub steps: Option<usize>,

@@ -58,7 +58,7 @@ impl ChosenHistory {
         Ok(Self { kernel: Arc::clone(kernel), options, choice, announced, room, kept })
     }
 
-    /// Which one, and why.
+    /// Method chosen, and why.
     pub(crate) fn choice(&self) -> HistoryChoice {
         self.choice
     }
@@ -141,7 +141,7 @@ impl ChosenHistory {
         Ok(())
     }
 
-    /// The same as it is once it has given way before `steps` steps, without what came before;
+    /// The exponentials that this history gives way to before `steps` steps, without earlier tractions;
     /// `None` if it would not have.
     pub(crate) fn succeeded(&self, steps: usize) -> Result<Option<Self>> {
         let most = self.most();

@@ -20,7 +20,7 @@ pub trait ConvolutionHistory: Send {
     /// If a kernel cannot be evaluated.
     fn reserve(&mut self, steps: usize) -> Result<()>;
 
-    /// The same, with an observer; of what is quick there is nothing to hear (the default).
+    /// [`reserve`](ConvolutionHistory::reserve) with an observer, which hears nothing of quick work (the default).
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for
@@ -133,7 +133,7 @@ pub trait ConvolutionWeights: Send + Sync {
         Ok(())
     }
 
-    /// The same, with an observer; of a closed form there is nothing to hear (the default).
+    /// [`prepare`](ConvolutionWeights::prepare) with an observer, which hears nothing of a closed form (the default).
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].
@@ -158,7 +158,7 @@ pub trait ConvolutionWeights: Send + Sync {
         values: [&mut [f64]; KINDS],
     ) -> Result<()>;
 
-    /// The same for cells of a lattice in plan, for kinds zz, xx, yy, xy, zx and zy, integrals over the receiver in
+    /// Coefficients of cells of a lattice in plan, for kinds zz, xx, yy, xy, zx and zy, integrals over the receiver in
     /// m³/Pa: zx is down due to shear along x with the receiver to the right of the source, zy down due to shear along
     /// y with the receiver behind it, xy along one due to shear along the other with both.
     ///
@@ -188,7 +188,7 @@ pub trait ConvolutionWeights: Send + Sync {
         None
     }
 
-    /// What errors of late coefficients may sum up to, of the sum of all; zero (the default) if these are exact. A memory
+    /// Errors of late coefficients, summed, relative to the sum of all coefficients; zero (the default) if these are exact. A memory
     /// that [forgets](super::HistoryOptions) takes no less for nothing.
     fn late_error(&self) -> f64 {
         0.0

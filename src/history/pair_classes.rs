@@ -26,7 +26,7 @@ pub(crate) struct Action {
     pub(crate) odd: Option<f64>,
 }
 
-/// What the kinds of coefficients stand for.
+/// Actions of the kinds of coefficients.
 pub(crate) const ACTIONS: [Action; 4] = [
     Action { kind: 0, displacement: 0, traction: 0, odd: None },
     Action { kind: 1, displacement: 1, traction: 1, odd: None },
@@ -34,7 +34,7 @@ pub(crate) const ACTIONS: [Action; 4] = [
     Action { kind: 2, displacement: 1, traction: 0, odd: Some(-1.0) },
 ];
 
-/// What a traction's component of a pair's source does to a component of its receiver's displacement.
+/// Action of a component of the source's traction on a component of the receiver's displacement.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
     /// Kind of coefficient.
@@ -48,7 +48,7 @@ pub(crate) struct Term {
 /// Where a pair of elements finds its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// Which class of pairs it belongs to.
+    /// Class of pairs that the pair belongs to.
     pub class: usize,
     /// 1/length of the receiver, 1/m: class coefficients are integrals over it, not means.
     pub scale: f64,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
-use super::site_warning::SiteWarning;
+use super::SiteWarning;
 use super::soil_column::{ControlPoint, Inside, SoilColumn, VerticalWave};
 use super::transform::SiteMotion;
 use crate::error::{Error, LayeredError, Result, SiteError, positive, require};

@@ -100,7 +100,7 @@ impl Boundary {
         &self.segments
     }
 
-    /// Which of them are in contact.
+    /// Indices of the elements in contact.
     pub fn contact(&self) -> &[usize] {
         &self.contact
     }
@@ -249,8 +249,8 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
 pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
 
-/// Which pairs of midpoint and element are translations of each other; for horizontal elements
-/// also those that are mirror images.
+/// Classes of pairs of midpoint and element that are translations of each other; for horizontal elements
+/// also mirror images.
 #[derive(Debug, Clone)]
 pub(super) struct PairClasses {
     /// One (receiver, source) per class.

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! where the second sum, the trapezoidal rule's alias, is known: L is chosen so that all lags
-//! beyond it are late ones in the closed form of [`super::laplace_late`]. So λ need not be small
+//! beyond it are late ones in the closed form of [`super::laplace_element`]. So λ need not be small
 //! (λ^L = 1/100 here instead of the usual √ε^…), at most two digits are lost to rounding, and the
 //! number of frequencies, L/2 + 1 by symmetry, depends on how long waves cross the boundary and
 //! not on how long the march is.

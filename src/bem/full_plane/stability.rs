@@ -45,7 +45,7 @@ pub struct Stability {
     /// If modes grow in the traction-free problem, C is not the transform of a causal march, and
     /// the figure says little.
     pub passivity: Option<f64>,
-    /// The same of s L C at the transform's s = δ(ζ)/Δt, for kernels that know it.
+    /// Smallest eigenvalue of the Hermitian part of s L C, relative likewise, at the transform's s = δ(ζ)/Δt, for kernels that know it.
     pub passivity_of_rate: Option<f64>,
     /// Angle of ζ where [`Stability::passivity`] is worst, rad.
     pub passivity_angle: Option<f64>,
@@ -98,7 +98,7 @@ impl Stability {
         Self::of(&Symbol::new(kernel, conditions)?, smallest_growth)
     }
 
-    /// As [`Stability::assess`], of a symbol that is there.
+    /// Stability of a symbol that is known.
     pub(super) fn of(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
         let found = smallest_zero(symbol, smallest_growth)?;
         let passivity = passivity(symbol)?;
@@ -224,7 +224,7 @@ impl fmt::Display for GroundStability {
 
 // Boundary-value problems in time: tractions or displacements given on any polygon.
 
-/// Which of the two is given for a component of an element.
+/// Quantity that is given for a component of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Given {
     /// The traction, Pa: constant over the step.

@@ -75,7 +75,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Im μ/|μ| below which a layer counts as undamped.
 const LOSSLESS: f64 = 1e-6;
 /// Points of the extrapolation.
-pub(in crate::bem) const PER_FREQUENCY: usize = 8;
+const PER_FREQUENCY: usize = 8;
 /// Their distance over ω, and over the inverse of the time that waves take.
 const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between 8 and 7 points.
@@ -110,25 +110,19 @@ pub fn rigid_strip_impedances(
     frequencies: &[f64],
     contact: StripContact,
 ) -> Result<Vec<StripImpedance>> {
-    all(profile, elements, frequencies, contact, &mut Watch::nobody())
+    strip_impedances(profile, elements, frequencies, contact, &mut Watch::nobody())
 }
 
-/// [`rigid_strip_impedances`] with an observer; parts are points of the Laplace plane, eight to a frequency.
-///
-/// # Errors
-/// [`Error::Stopped`]; as for [`rigid_strip_impedances`].
-pub(crate) fn rigid_strip_impedances_observed(
-    profile: &SoilProfile,
-    elements: &[ContactElement],
+/// Watch of impedances at `frequencies`: parts are points of the Laplace plane, eight to a frequency.
+pub(in crate::bem) fn impedance_watch<'a>(
     frequencies: &[f64],
-    contact: StripContact,
-    observer: &mut Observer<'_>,
-) -> Result<Vec<StripImpedance>> {
-    let mut watch = Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer);
-    all(profile, elements, frequencies, contact, &mut watch)
+    observer: &'a mut Observer<'_>,
+) -> Watch<'a> {
+    Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer)
 }
 
-fn all(
+/// [`rigid_strip_impedances`] with a watch.
+pub(in crate::bem) fn strip_impedances(
     profile: &SoilProfile,
     elements: &[ContactElement],
     frequencies: &[f64],
@@ -198,7 +192,7 @@ pub(in crate::bem) fn stiffnesses<const N: usize>(
     Ok(found)
 }
 
-/// One of them.
+/// K(iω) at one frequency from its samples.
 fn extrapolated<const N: usize>(
     samples: &[[Complex; N]],
     judged: &[usize],

@@ -67,7 +67,7 @@ impl KeptBlocks {
         self.blocks[number].get().is_some()
     }
 
-    /// Those of the blocks of `wanted` from the first on that is not there.
+    /// Blocks of `wanted` from the first missing one on.
     pub(crate) fn missing(&self, wanted: Range<usize>) -> Range<usize> {
         wanted.start + wanted.clone().take_while(|number| self.has(*number)).count()..wanted.end
     }
@@ -102,7 +102,7 @@ impl KeptBlocks {
         write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
     }
 
-    /// What is in `place`, made now if nothing is; what was stopped leaves nothing.
+    /// Content of `place`, made now if there is none; making that is stopped leaves none.
     pub(crate) fn once<'a, T>(
         &self,
         place: &'a OnceLock<Result<T>>,

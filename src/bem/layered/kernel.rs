@@ -152,11 +152,11 @@ impl LayeredKernel {
     }
 
     /// With at most so many `seconds` of a processor for coefficients, by [`LayeredKernel::cost`] and not by
-    /// the clock, so that what is refused is the same everywhere; 600 unless called, and no limit if it is
+    /// the clock, so that the limit is the same everywhere; 600 unless called, and no limit if it is
     /// infinite.
     ///
-    /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) refuse more
-    /// ([`LayeredError::TooCostly`](crate::LayeredError::TooCostly)) before anything of it is computed.
+    /// Beyond it, `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
+    /// [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) before anything is computed.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
@@ -165,7 +165,7 @@ impl LayeredKernel {
         Ok(self)
     }
 
-    /// What the coefficients up to lag `lags` cost, to a factor of about two, files left out. It takes
+    /// Cost of the coefficients up to lag `lags`, to a factor of about two, files left out. The estimate takes
     /// some hundredths of that itself.
     ///
     /// # Errors

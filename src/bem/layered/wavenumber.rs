@@ -114,14 +114,14 @@ pub(super) struct Scratch {
 pub(crate) struct Counts {
     /// Panels that are summed.
     pub(crate) panels: f64,
-    /// Those that are halved below the narrowest.
+    /// Panels that are halved below the narrowest.
     pub(crate) halved: f64,
     /// Integrals, and those whose K is for the thickness of the top layer's sake.
     pub(crate) integrals: f64,
     pub(crate) deep: f64,
     /// Evaluations of C.
     pub(crate) evaluations: f64,
-    /// Those in halves.
+    /// Evaluations of C in halves.
     pub(crate) halves: f64,
     /// Layers that evaluations go through after the first.
     pub(crate) layers: f64,
@@ -142,7 +142,7 @@ impl Counts {
     }
 }
 
-/// What a panel gives: C at its points, or the moments of its halves.
+/// Result of a panel: C at its points, or the moments of its halves.
 pub(super) enum Found<'a> {
     Samples(&'a [Surface; POINTS]),
     Moments(&'a [[f64; 6]; DEGREES]),
@@ -266,7 +266,7 @@ impl Wavenumbers {
         Ok(counts)
     }
 
-    /// The same at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
+    /// Compliances at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
     /// top layer of `compliance` beyond.
     pub(super) fn at_rest(
         &self,

@@ -6,7 +6,7 @@
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
 use super::sectors::{MOTIONS, Sectors};
-use crate::bem::layered::{Compliances, PER_FREQUENCY, StripContact, points, stiffnesses};
+use crate::bem::layered::{Compliances, StripContact, impedance_watch, points, stiffnesses};
 use crate::error::{Observer, PlanError, Result, Watch};
 use crate::geometry::SERIES;
 use crate::linalg::Complex;
@@ -91,8 +91,7 @@ pub fn impedances_in_plan_observed(
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<PlanImpedance>> {
-    let mut watch = Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer);
-    all(profile, plan, frequencies, contact, &mut watch)
+    all(profile, plan, frequencies, contact, &mut impedance_watch(frequencies, observer))
 }
 
 fn all(

@@ -120,7 +120,7 @@ impl ExponentialHistory {
         Self::with_horizon(kernel, tolerance, Self::HORIZON)
     }
 
-    /// The same, with a `tolerance` that holds up to `horizon` steps.
+    /// History of `kernel` with a `tolerance` that holds up to `horizon` steps.
     ///
     /// # Errors
     /// As for [`ExponentialHistory::new`].
@@ -132,7 +132,7 @@ impl ExponentialHistory {
         Self::within(kernel, tolerance, horizon, MEMORY)
     }
 
-    /// The same in at most `memory` bytes, what its making takes included.
+    /// [`ExponentialHistory::with_horizon`] in at most `memory` bytes, those of its making included.
     pub(crate) fn within(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
@@ -182,7 +182,7 @@ impl ExponentialHistory {
         })
     }
 
-    /// What stands for the coefficients: exact lags, exponentials, and how good they are.
+    /// Fit of the coefficients: exact lags, exponentials, and how good they are.
     pub fn fit(&self) -> ExponentialFit {
         ExponentialFit {
             window: self.window(),

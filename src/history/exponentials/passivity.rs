@@ -63,7 +63,7 @@ pub(super) fn margin(
     found
 }
 
-/// The same at one frequency.
+/// Least eigenvalue at one frequency.
 fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
     let window = lags.length();

@@ -83,7 +83,7 @@ pub struct RelaxedFftHistory {
     pending: bool,
     /// Tractions with missing entries.
     padded: Vec<f64>,
-    /// What is kept of one input.
+    /// One input as blocks keep it.
     input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
@@ -237,7 +237,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         Ok(())
     }
 
-    /// What memory that has ended leaves out of two displacements.
+    /// Displacements of two steps by the lags that a memory leaves out once it has ended.
     fn increment_error_bound(&self) -> f64 {
         self.end.map_or(0.0, |end| 2.0 * end.rest * self.largest)
     }

@@ -41,7 +41,7 @@ impl Pairs {
         Self::with_coupling(kernel, leaf, DIRECT_COUPLING)
     }
 
-    /// The same for rows of which places are used again: nothing may reach beyond a leaf but blocks.
+    /// Blocks for rows whose places are used again: nothing may reach beyond a leaf but blocks.
     pub(super) fn bounded(kernel: &dyn ConvolutionWeights, leaf: usize) -> Result<Self> {
         Self::with_coupling(kernel, leaf, 0)
     }
