@@ -138,11 +138,8 @@ pub(super) struct PairInfluence<'a> {
 }
 
 impl PairInfluence<'_> {
-    /// The coefficients of one lag; zero for lag 0 and before the pressure wave arrives.
+    /// The coefficients of one lag, from 1 on; zero before the pressure wave arrives.
     fn at(&self, lag: usize) -> Influence {
-        if lag == 0 {
-            return Influence::default();
-        }
         let (step, far) = (self.kernel.step, self.overlap.farthest());
         let (begin, end) = ((lag - 1) as f64 * step, lag as f64 * step);
         if begin >= LATE * self.kernel.branches.arrival * far {

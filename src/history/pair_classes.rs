@@ -13,27 +13,6 @@ use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 /// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const KINDS: usize = 3;
 
-/// A component of the receiver's displacement due to a component of the source's traction.
-pub(crate) struct Action {
-    /// Kind of coefficient that tells how much.
-    pub(crate) kind: usize,
-    /// Component of the displacement.
-    pub(crate) displacement: usize,
-    /// Component of the traction.
-    pub(crate) traction: usize,
-    /// Sign of an action that changes it with the side on which the receiver lies, for a receiver to
-    /// the right; `None` for the others.
-    pub(crate) odd: Option<f64>,
-}
-
-/// Actions of the kinds of coefficients.
-pub(crate) const ACTIONS: [Action; 4] = [
-    Action { kind: 0, displacement: 0, traction: 0, odd: None },
-    Action { kind: 1, displacement: 1, traction: 1, odd: None },
-    Action { kind: 2, displacement: 0, traction: 1, odd: Some(1.0) },
-    Action { kind: 2, displacement: 1, traction: 0, odd: Some(-1.0) },
-];
-
 /// Action of a component of the source's traction on a component of the receiver's displacement.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
@@ -55,13 +34,6 @@ pub struct Pair {
     /// Sign of the coupling between normal and tangential components: +1 for a receiver to the
     /// right of the source, −1 to the left, 0 for an element on itself.
     pub sign: f64,
-}
-
-impl Pair {
-    /// Factor of an action's coefficient.
-    pub(crate) fn factor(&self, action: &Action) -> f64 {
-        action.odd.map_or(1.0, |sign| sign * self.sign)
-    }
 }
 
 /// Shortest element over the length of the patch: shorter ones could not be told apart by class.
@@ -198,11 +170,16 @@ impl PairClasses {
         let count = self.elements.len();
         let mut terms = [Term::default(); 9];
         for (place, pair) in self.pairs.iter().enumerate() {
-            for (term, action) in terms.iter_mut().zip(&ACTIONS) {
-                let components = [action.displacement, action.traction];
-                *term = Term { kind: action.kind, components, factor: pair.factor(action) };
+            let own = [
+                (0, [0, 0], 1.0),
+                (1, [1, 1], 1.0),
+                (2, [0, 1], pair.sign),
+                (2, [1, 0], -pair.sign),
+            ];
+            for (term, (kind, components, factor)) in terms.iter_mut().zip(own) {
+                *term = Term { kind, components, factor };
             }
-            put([place / count, place % count], pair, &terms[..ACTIONS.len()]);
+            put([place / count, place % count], pair, &terms[..own.len()]);
         }
         let Some((lattice, cells)) = &self.plan else { return };
         let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);

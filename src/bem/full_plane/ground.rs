@@ -313,10 +313,10 @@ impl Ground for FullPlaneGround {
         let elements = self.elements();
         let size = ContactLayout::new(PLANE, elements.len()).square();
         same_length("static compliance", matrix.len(), size)?;
-        let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
         if self.boundary.is_flat() {
-            return StaticKernel::new(self.soil, datum)?.compliance(elements, matrix);
+            return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }
+        let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
         static_compliance(self.soil, &self.boundary, datum, matrix)
     }
 

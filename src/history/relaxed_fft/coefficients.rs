@@ -8,7 +8,7 @@ use super::level::{Class, Tables};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
-use crate::linalg::{Simd, WithSimd, add_row, add_rows, vectorized};
+use crate::linalg::{Simd, WithSimd, add_row, add_rows};
 
 /// Pairs of a patch and its coefficients over short delays.
 pub(super) struct Coefficients {
@@ -56,29 +56,16 @@ impl Coefficients {
             table.push(values[..end].to_vec());
         }
     }
-
-    /// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to
-    /// `coupled` of them.
-    pub(super) fn scatter(
-        &self,
-        rows: &mut [f64],
-        stride: usize,
-        now: usize,
-        ahead: usize,
-        coupled: usize,
-    ) {
-        vectorized(Scatter { coefficients: self, rows, stride, now, ahead, coupled });
-    }
 }
 
-/// [`Coefficients::scatter`].
-struct Scatter<'a> {
-    coefficients: &'a Coefficients,
-    rows: &'a mut [f64],
-    stride: usize,
-    now: usize,
-    ahead: usize,
-    coupled: usize,
+/// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to `coupled` of them.
+pub(super) struct Scatter<'a> {
+    pub(super) coefficients: &'a Coefficients,
+    pub(super) rows: &'a mut [f64],
+    pub(super) stride: usize,
+    pub(super) now: usize,
+    pub(super) ahead: usize,
+    pub(super) coupled: usize,
 }
 
 impl WithSimd for Scatter<'_> {

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::coefficients::{Blocks, Coefficients, LEAF, PARTS};
+use super::coefficients::{Blocks, Coefficients, LEAF, PARTS, Scatter};
 use super::level::{Block, Class, Level, Part, Ring, Tables, Work, widened};
 use super::wave_level::{Levels, SharedSpectra};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::KINDS;
+use crate::linalg::vectorized;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
 /// it up to here; further on blocks are faster.
@@ -193,8 +194,8 @@ impl Blocks for Pairs {
         let coefficients = &self.coefficients;
         let ahead = self.leaf - 1 - last % self.leaf;
         let coupled = if coefficients.couples_far { ahead } else { coefficients.coupling_direct };
-        let ring = self.ring;
-        coefficients.scatter(&mut self.rows, self.stride, ring.place(last), ahead, coupled);
+        let (ring, rows, stride) = (self.ring, &mut self.rows[..], self.stride);
+        vectorized(Scatter { coefficients, rows, stride, now: ring.place(last), ahead, coupled });
         if !now.is_multiple_of(self.leaf) {
             return;
         }

@@ -1,6 +1,5 @@
 //! Blocks of one size over the wavenumbers of a lattice, and spectra that grounds share.
 
-use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -373,8 +372,4 @@ impl SharedSpectra {
     }
 }
 
-impl fmt::Debug for SharedSpectra {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("SharedSpectra").finish_non_exhaustive()
-    }
-}
+short_debug! { SharedSpectra; self; }
