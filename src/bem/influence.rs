@@ -152,7 +152,8 @@ impl PairInfluence<'_> {
     /// Overwrites the slices with lags `first`, `first + 1`, … of zz, xx and zx.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) unless the slices have one length; [`Error::Input`](crate::Error::Input) if `first` is 0.
+    /// [`Error::Size`](crate::Error::Size) unless the slices have one length; [`Error::Input`](crate::Error::Input)
+    /// if `first` is 0.
     pub(super) fn fill(&self, first: usize, values: [&mut [f64]; KINDS]) -> Result<()> {
         let [zz, xx, zx] = values;
         require("first lag", first as f64, first > 0, "at least 1")?;

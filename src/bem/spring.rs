@@ -72,8 +72,8 @@ impl SpringGround {
     /// Bed under several strips, from left to right.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no strips, [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order,
-    /// and as for [`SpringGround::new`].
+    /// [`Error::Size`](crate::Error::Size) for no strips, [`Error::Input`](crate::Error::Input) for strips that
+    /// overlap or are out of order, and as for [`SpringGround::new`].
     pub fn on_strips(
         strips: &[Strip],
         normal_stiffness: f64,
@@ -98,8 +98,9 @@ impl SpringGround {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero; [`Error::Memory`](crate::Error::Memory) for more elements than matrices
-    /// between them allow; as for [`Plan::without_overhang`].
+    /// [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero;
+    /// [`Error::Memory`](crate::Error::Memory) for more elements than matrices between them allow; as for
+    /// [`Plan::without_overhang`].
     pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
         let (elements, depths) = plan.without_overhang()?.sides();
         check_count(elements.len(), SPACE)?;

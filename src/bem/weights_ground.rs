@@ -133,15 +133,15 @@ impl WeightsGround {
     /// The ground of `source` under `elements`, from left to right.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for elements that overlap, are out of order
-    /// or have no length.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for elements that
+    /// overlap, are out of order or have no length.
     pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         Ok(Self { depths: None, ..Self::in_plan(source, elements, Default::default(), None) })
     }
 
-    /// Ground of `source` under elements in plan: `depths` are front and back ends along y (m), and parts of their areas
-    /// inside the outline.
+    /// Ground of `source` under elements in plan: `depths` are front and back ends along y (m), and parts of their
+    /// areas inside the outline.
     pub(super) fn in_plan(
         source: impl WeightsSource,
         elements: Vec<ContactElement>,

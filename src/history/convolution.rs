@@ -188,8 +188,8 @@ pub trait ConvolutionWeights: Send + Sync {
         None
     }
 
-    /// Errors of late coefficients, summed, relative to the sum of all coefficients; zero (the default) if these are exact. A memory
-    /// that [forgets](super::HistoryOptions) takes no less for nothing.
+    /// Errors of late coefficients, summed, relative to the sum of all coefficients; zero (the default) if these are
+    /// exact. A memory that [forgets](super::HistoryOptions) takes no less for nothing.
     fn late_error(&self) -> f64 {
         0.0
     }

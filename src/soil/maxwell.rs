@@ -52,8 +52,8 @@ impl GeneralizedMaxwell {
     /// Body with the long-term modulus ratio m, the shares yᵢ and the relaxation rates ωᵢ (1/s).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless m and all ωᵢ are positive and no yᵢ is negative; [`Error::Size`](crate::Error::Size) for
-    /// lists of different lengths.
+    /// [`Error::Input`](crate::Error::Input) unless m and all ωᵢ are positive and no yᵢ is negative;
+    /// [`Error::Size`](crate::Error::Size) for lists of different lengths.
     pub fn new(long_term: f64, shares: Vec<f64>, rates: Vec<f64>) -> Result<Self> {
         positive("long-term modulus ratio of a layer", long_term)?;
         same_length("rates of a generalised Maxwell body", rates.len(), shares.len())?;
@@ -78,8 +78,9 @@ impl GeneralizedMaxwell {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1, frequencies that are not positive or a band that does not
-    /// increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body has.
+    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1, frequencies that are not positive or
+    /// a band that does not increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body
+    /// has.
     pub fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> Result<Self> {
         damping_ratio("damping ratio of a layer", ratio)?;
         positive("lowest frequency of the damping band", band[0])?;

@@ -124,8 +124,8 @@ impl Boundary {
         })
     }
 
-    /// Factor of the coefficients `h`, and displacements of all elements by the coefficients `g` of unit tractions on the
-    /// contact elements: 2Q columns of 2E.
+    /// Factor of the coefficients `h`, and displacements of all elements by the coefficients `g` of unit tractions on
+    /// the contact elements: 2Q columns of 2E.
     ///
     /// # Errors
     /// [`Error::Singular`].

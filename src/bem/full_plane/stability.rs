@@ -45,7 +45,8 @@ pub struct Stability {
     /// If modes grow in the traction-free problem, C is not the transform of a causal march, and
     /// the figure says little.
     pub passivity: Option<f64>,
-    /// Smallest eigenvalue of the Hermitian part of s L C, relative likewise, at the transform's s = δ(ζ)/Δt, for kernels that know it.
+    /// Smallest eigenvalue of the Hermitian part of s L C, relative likewise, at the transform's s = δ(ζ)/Δt, for
+    /// kernels that know it.
     pub passivity_of_rate: Option<f64>,
     /// Angle of ζ where [`Stability::passivity`] is worst, rad.
     pub passivity_angle: Option<f64>,

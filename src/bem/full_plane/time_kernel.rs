@@ -47,8 +47,8 @@ impl TimeKernel {
     /// Kernel for a soil, elements and steps of `time_step` seconds.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for an element without length, one that
-    /// passes through the midpoint of another, or a bad time step.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for an element
+    /// without length, one that passes through the midpoint of another, or a bad time step.
     pub fn new(soil: Soil, segments: &[Segment], time_step: f64) -> Result<Self> {
         check_segments(segments)?;
         positive("time step", time_step)?;

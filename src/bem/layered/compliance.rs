@@ -10,9 +10,9 @@
 //! below it gives would drown in their rounding.
 //!
 //! Waves polarised across the wavenumber have the impedance Z = σ/u alone: μβ in a half-space, and through a layer of
-//! thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom Z ← z₀ (1 − R)/(1 + R). With
-//! E = 1 − e^(−2βh) that is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps its digits in thin layers; a rigid base is
-//! Z = ∞.
+//! thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom Z ← z₀ (1 − R)/(1 + R).
+//! With E = 1 − e^(−2βh) that is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps its digits in thin layers; a rigid
+//! base is Z = ∞.
 //!
 //! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
 //! |s|/(c k) → 0; all differences are formed as products.

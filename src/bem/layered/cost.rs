@@ -206,8 +206,8 @@ impl<I: Priced<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         .into())
     }
 
-    /// Calls `look` with the Laplace variables of some samples of each eigenvalue, and of the gate if that is `open`, and
-    /// the number of samples that each stands for.
+    /// Calls `look` with the Laplace variables of some samples of each eigenvalue, and of the gate if that is `open`,
+    /// and the number of samples that each stands for.
     pub(in crate::bem) fn look(
         &self,
         Outlook(nodes): &Outlook,

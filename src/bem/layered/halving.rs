@@ -50,8 +50,8 @@ pub(crate) fn median(mut sizes: [f64; POINTS]) -> f64 {
     *sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp).1
 }
 
-/// Size of the last two Legendre coefficients of functions given by `samples` at Gauss points, the largest of all; `None` if
-/// one is not a number.
+/// Size of the last two Legendre coefficients of functions given by `samples` at Gauss points, the largest of all;
+/// `None` if one is not a number.
 pub(crate) fn last_coefficients<const N: usize>(
     samples: impl Iterator<Item = [Complex; N]>,
     rule: &Rule,

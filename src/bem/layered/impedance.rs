@@ -101,9 +101,9 @@ const SETTLED: f64 = 1e-3;
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`] for a frequency that is negative or not finite, or 0 on a half-plane, whose static
-/// stiffness is 0; [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which guided waves
-/// begin; [`Error::Singular`] if the elements cannot be told apart; as for [`PairClasses::new`].
+/// [`Error::Input`] for a frequency that is negative or not finite, or 0 on a half-plane, whose static stiffness is
+/// 0; [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which guided
+/// waves begin; [`Error::Singular`] if the elements cannot be told apart; as for [`PairClasses::new`].
 pub fn rigid_strip_impedances(
     profile: &SoilProfile,
     elements: &[ContactElement],
@@ -166,8 +166,8 @@ pub(in crate::bem) fn points(
     Ok((1..=PER_FREQUENCY).map(|j| Complex::new(step * j as f64, omega)).collect())
 }
 
-/// K(iω) from its samples `at` the [`points`] of each frequency. Entries `judged` must agree between all samples and all but
-/// the last; `watch` hears of each sample.
+/// K(iω) from its samples `at` the [`points`] of each frequency. Entries `judged` must agree between all samples and
+/// all but the last; `watch` hears of each sample.
 ///
 /// # Errors
 /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they do not; as for `at`.

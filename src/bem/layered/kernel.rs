@@ -32,9 +32,9 @@ use crate::soil::SoilProfile;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
-/// [`prepare`](ConvolutionWeights::prepare) computes the blocks of lags up to the one that it is given, after a check of
-/// passivity: the least eigenvalue of Herm[(1−z) Ĝ(z)] on |z| = 0.99. With an observer, parts are samples of the mobility,
-/// as many as are expected.
+/// [`prepare`](ConvolutionWeights::prepare) computes the blocks of lags up to the one that it is given, after a check
+/// of passivity: the least eigenvalue of Herm[(1−z) Ĝ(z)] on |z| = 0.99. With an observer, parts are samples of the
+/// mobility, as many as are expected.
 ///
 /// # Errors
 /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
@@ -58,8 +58,9 @@ impl LayeredKernel {
     /// seconds, with two stages.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal)
-    /// for damping that exists in the frequency domain only; as for [`PairClasses::new`].
+    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that exists in the frequency domain
+    /// only; as for [`PairClasses::new`].
     pub fn new(
         profile: SoilProfile,
         elements: Vec<ContactElement>,

@@ -61,8 +61,8 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         })
     }
 
-    /// Fingerprint of the weights, after the gate; an error if the gate is not passed, or if what is missing of the blocks
-    /// of `wanted` costs too much. `outlook` are the samples of these.
+    /// Fingerprint of the weights, after the gate; an error if the gate is not passed, or if what is missing of the
+    /// blocks of `wanted` costs too much. `outlook` are the samples of these.
     fn admit(
         &self,
         wanted: Range<usize>,

@@ -162,8 +162,8 @@ pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -
     Ok(())
 }
 
-/// The cells of each mat after those of the one before: mats in the order of their first cells, and the cells of each in
-/// the order in which they come. Cells that touch, corners too, are of one mat.
+/// The cells of each mat after those of the one before: mats in the order of their first cells, and the cells of each
+/// in the order in which they come. Cells that touch, corners too, are of one mat.
 pub(super) fn mat_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let places: HashMap<_, _> = cells.iter().enumerate().map(|(k, cell)| (*cell, k)).collect();
     let mut mats = vec![usize::MAX; cells.len()];

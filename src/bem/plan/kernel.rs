@@ -53,8 +53,8 @@ impl LatticeKernel {
     /// coefficients from a file if it is given and has them, and at most `limit` seconds of a processor for others.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal);
-    /// as for [`Integrals::sketch`].
+    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal); as for [`Integrals::sketch`].
     pub(in crate::bem) fn in_plan(
         profile: SoilProfile,
         plan: &Plan,
@@ -101,8 +101,9 @@ fn scattered(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
 }
 
 /// Nanoseconds of one thread for an evaluation of the surface compliance, for each layer in it after the first, for a
-/// product of a kernel and a form, for a direction of the forms at a wavenumber and for a product there, for a multiply–add
-/// of the gate's factorisation, for an entry of its matrix, and for a class at a point of a circle. Measured.
+/// product of a kernel and a form, for a direction of the forms at a wavenumber and for a product there, for a
+/// multiply–add of the gate's factorisation, for an entry of its matrix, and for a class at a point of a circle.
+/// Measured.
 const EVALUATION: f64 = 200.0;
 const LAYER: f64 = 200.0;
 const PRODUCT: f64 = 0.2;

@@ -17,8 +17,8 @@ pub(super) struct Level {
     pub(super) size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Of each kind: spectra of all classes, over 2b, b + 1 real parts, then as many imaginary ones, each; none where the
-    /// coupling has died out within smaller blocks.
+    /// Of each kind: spectra of all classes, over 2b, b + 1 real parts, then as many imaginary ones, each; none where
+    /// the coupling has died out within smaller blocks.
     spectra: [Vec<f64>; KINDS],
 }
 
@@ -360,12 +360,12 @@ impl WaveNumbers {
 
 // Coefficients over short delays.
 //
-// Index d of a coefficient is the number of steps from the traction to the first step that sees it as history: lag d + 1
-// of the kernel.
+// Index d of a coefficient is the number of steps from the traction to the first step that sees it as history: lag d
+// + 1 of the kernel.
 
 /// Coefficients d = 0 … of one class, kind by kind.
 pub(super) type Class = [Vec<f64>; KINDS];
 
-/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1, the first of them zero; the
-/// coupling as long as it is not zero.
+/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1, the first of them zero;
+/// the coupling as long as it is not zero.
 pub(crate) type Tables = [Vec<Vec<f64>>; KINDS];

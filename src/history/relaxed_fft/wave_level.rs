@@ -293,8 +293,8 @@ impl<L, N> Default for Levels<L, N> {
 }
 
 impl<L, N: Default> Levels<L, N> {
-    /// The `wanted` smallest levels and the coefficients of a leaf: `make` makes the levels from one number to the one before
-    /// another, and the coefficients unless they are there.
+    /// The `wanted` smallest levels and the coefficients of a leaf: `make` makes the levels from one number to the
+    /// one before another, and the coefficients unless they are there.
     pub(super) fn take(
         &mut self,
         wanted: usize,
