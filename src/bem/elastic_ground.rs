@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::elastic_source::ElasticSource;
 use super::layered::{
-    Cost, LIMIT, Stages, StripContact, StripImpedance, TOLERANCE, check_limit, check_tolerance,
-    rigid_strip_impedances, rigid_strip_impedances_observed,
+    Cost, Stages, StripContact, StripImpedance, check_limit, check_tolerance, impedance_watch,
+    rigid_strip_impedances, strip_impedances,
 };
 use super::plan::{Plan, gate_sample};
 use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
@@ -95,11 +95,7 @@ impl ElasticGround {
     pub fn new(profile: impl Into<SoilProfile>, strips: impl AsRef<[Strip]>) -> Result<Self> {
         let elements: Vec<_> = strips.as_ref().iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
-        let profile = profile.into();
-        profile.check()?;
-        let (tolerance, limit) = (TOLERANCE, LIMIT);
-        let (plan, stages, file) = (None, None, None);
-        let source = ElasticSource { profile, plan, stages, tolerance, file, limit };
+        let source = ElasticSource::new(profile.into(), None)?;
         let ground = WeightsGround::new(source.clone(), elements)?;
         Ok(Self { source, used: None, ground })
     }
@@ -127,13 +123,10 @@ impl ElasticGround {
     /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
     /// more cells than matrices between them allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
-        let profile = profile.into();
-        profile.check()?;
         let (elements, depths) = plan.sides();
         check_count(elements.len(), SPACE)?;
         let (unions, inside) = (plan.unions(), plan.fractions_inside());
-        let (tolerance, limit, plan) = (TOLERANCE, LIMIT, Some(plan));
-        let source = ElasticSource { profile, plan, stages: None, tolerance, file: None, limit };
+        let source = ElasticSource::new(profile.into(), Some(plan))?;
         let ground = WeightsGround::in_plan(source.clone(), elements, (depths, inside), unions);
         Ok(Self { source, used: None, ground })
     }
@@ -216,7 +209,7 @@ impl ElasticGround {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
-    /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
+    /// Cost of the step coefficients for `steps` steps of `time_step` seconds, before the first of them, to a
     /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
     /// ```
@@ -228,7 +221,7 @@ impl ElasticGround {
     /// let ground = ElasticGround::new(profile, Strip::graded(-3.0..3.0, 8)?)?;
     /// let [short, long] = [ground.cost(0.005, 2_000)?, ground.cost(0.005, 20_000)?];
     /// println!("{short}");
-    /// // What one block of steps has learnt serves the next.
+    /// // Panels of one block of steps serve the next.
     /// assert!(short.seconds < long.seconds && long.seconds < 10.0 * short.seconds);
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -279,7 +272,7 @@ impl ElasticGround {
         rigid_strip_impedances(self.profile(), self.strips()?, frequencies, contact)
     }
 
-    /// The same, with an observer.
+    /// [`ElasticGround::impedances`] with an observer; parts are points of the Laplace plane, eight to a frequency.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`rigid_strip_impedances`].
@@ -289,8 +282,8 @@ impl ElasticGround {
         contact: StripContact,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        let (profile, elements) = (self.profile(), self.strips()?);
-        rigid_strip_impedances_observed(profile, elements, frequencies, contact, observer)
+        let mut watch = impedance_watch(frequencies, observer);
+        strip_impedances(self.profile(), self.strips()?, frequencies, contact, &mut watch)
     }
 
     /// The elements, if they are strips.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::layered::{LayeredKernel, Stages, static_compliance};
+use super::layered::{LIMIT, LayeredKernel, Stages, TOLERANCE, static_compliance};
 use super::plan::{self, LatticeKernel, Plan};
 use super::{PatchKernel, StaticKernel, WeightsSource};
 use crate::error::Result;
@@ -24,6 +24,13 @@ pub(super) struct ElasticSource {
 }
 
 impl ElasticSource {
+    /// Source of `profile` under strips, or under the cells of a plan, with default accuracy.
+    pub(super) fn new(profile: SoilProfile, plan: Option<Plan>) -> Result<Self> {
+        profile.check()?;
+        let (tolerance, limit) = (TOLERANCE, LIMIT);
+        Ok(Self { profile, plan, stages: None, tolerance, file: None, limit })
+    }
+
     /// The stages for steps of `time_step` seconds; `None` for the closed form.
     pub(super) fn stages(&self, time_step: f64) -> Option<Stages> {
         let by_rule = || Stages::for_profile(&self.profile, time_step);
@@ -35,21 +42,23 @@ impl ElasticSource {
     /// Step coefficients of cells in plan.
     pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
         let stages = self.stages(time_step).unwrap_or_default();
-        let (sizes, file) = ([time_step, self.tolerance, self.limit], self.file.clone());
-        LatticeKernel::new(self.profile.clone(), plan, sizes, stages, file)
+        let (profile, file) = (self.profile.clone(), self.file.clone());
+        LatticeKernel::in_plan(profile, plan, stages, self.sizes(time_step), file)
     }
 
-    /// Step coefficients by convolution quadrature.
+    /// Step coefficients of strips by convolution quadrature.
     pub(super) fn layered(
         &self,
         elements: &[ContactElement],
         time_step: f64,
         stages: Stages,
     ) -> Result<LayeredKernel> {
-        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
-            .with_stages(stages)
-            .with_tolerance(self.tolerance)?
-            .with_time_limit(self.limit)
+        let (profile, file) = (self.profile.clone(), self.file.clone());
+        LayeredKernel::made(profile, elements.to_vec(), stages, self.sizes(time_step), file)
+    }
+
+    fn sizes(&self, time_step: f64) -> [f64; 3] {
+        [time_step, self.tolerance, self.limit]
     }
 }
 
@@ -67,11 +76,7 @@ impl WeightsSource for ElasticSource {
                 Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
             }
             (stages, _) => {
-                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
-                Ok(Arc::new(match &self.file {
-                    Some(file) => kernel.with_file(file),
-                    None => kernel,
-                }))
+                Ok(Arc::new(self.layered(elements, time_step, stages.unwrap_or_default())?))
             }
         }
     }

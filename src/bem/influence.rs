@@ -19,7 +19,7 @@
 //! | `M_k` | (1/l) ∫ w x^(2k) dx |
 
 use super::strip::Overlap;
-use crate::error::{Error, Result, positive};
+use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::rayleigh::{Rayleigh, TERMS, late_coefficients};
 use crate::geometry::ContactElement;
@@ -52,11 +52,11 @@ pub struct Influence {
 /// ```
 #[derive(Debug, Clone)]
 pub struct InfluenceKernel {
-    branches: Branches,
-    /// `c_k` of zz and xx.
-    late: [[f64; TERMS]; 2],
+    pub(super) branches: Branches,
+    /// `c_k` of zz and xx: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt behind the Rayleigh wave.
+    pub(super) late: [[f64; TERMS]; 2],
     /// `c_S` Δt, m.
-    step: f64,
+    pub(super) step: f64,
     /// μ, Pa.
     modulus: f64,
 }
@@ -68,7 +68,7 @@ impl InfluenceKernel {
     /// Kernel for a soil and a time step in seconds.
     ///
     /// # Errors
-    /// [`Error::Input`] unless the time step is finite and above zero.
+    /// [`Error::Input`](crate::Error::Input) unless the time step is finite and above zero.
     pub fn new(soil: Soil, time_step: f64) -> Result<Self> {
         positive("time step", time_step)?;
         let step = positive("shear wave travel in a step", soil.shear_wave_speed() * time_step)?;
@@ -77,10 +77,15 @@ impl InfluenceKernel {
         Ok(Self { branches: Branches::new(rayleigh), late, step, modulus: soil.shear_modulus() })
     }
 
+    /// 1/(πμ), 1/Pa.
+    pub(super) fn unit(&self) -> f64 {
+        1.0 / (std::f64::consts::PI * self.modulus)
+    }
+
     /// Everything about a pair of elements that does not depend on the lag.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both elements have finite ends, the left one first.
+    /// [`Error::Input`](crate::Error::Input) unless both elements have finite ends, the left one first.
     pub(super) fn pair(
         &self,
         receiver: ContactElement,
@@ -111,42 +116,15 @@ impl InfluenceKernel {
     /// the traction acts during the first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad element or lag 0.
+    /// [`Error::Input`](crate::Error::Input) for a bad element or lag 0.
     pub fn coefficients(
         &self,
         receiver: ContactElement,
         source: ContactElement,
         lag: usize,
     ) -> Result<Influence> {
-        if lag == 0 {
-            return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
-        }
+        require("lag", lag as f64, lag > 0, "at least 1")?;
         Ok(self.pair(receiver, source)?.at(lag))
-    }
-}
-
-/// Series of the kernel behind the Rayleigh wave: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LateSeries<'a> {
-    /// `c_k` of zz and xx.
-    pub(super) terms: &'a [[f64; TERMS]; 2],
-    /// `c_S` Δt, m.
-    pub(super) step: f64,
-    /// 1/(πμ), 1/Pa.
-    pub(super) unit: f64,
-    /// `τ_R`, below which nothing of this holds.
-    pub(super) arrival: f64,
-}
-
-impl InfluenceKernel {
-    /// The series that [`PairInfluence::at`] sums at late lags.
-    pub(super) fn late_series(&self) -> LateSeries<'_> {
-        LateSeries {
-            terms: &self.late,
-            step: self.step,
-            unit: 1.0 / (std::f64::consts::PI * self.modulus),
-            arrival: self.branches.arrival,
-        }
     }
 }
 
@@ -160,11 +138,8 @@ pub(super) struct PairInfluence<'a> {
 }
 
 impl PairInfluence<'_> {
-    /// The coefficients of one lag; zero for lag 0 and before the pressure wave arrives.
+    /// The coefficients of one lag, from 1 on; zero before the pressure wave arrives.
     fn at(&self, lag: usize) -> Influence {
-        if lag == 0 {
-            return Influence::default();
-        }
         let (step, far) = (self.kernel.step, self.overlap.farthest());
         let (begin, end) = ((lag - 1) as f64 * step, lag as f64 * step);
         if begin >= LATE * self.kernel.branches.arrival * far {
@@ -177,14 +152,13 @@ impl PairInfluence<'_> {
     /// Overwrites the slices with lags `first`, `first + 1`, … of zz, xx and zx.
     ///
     /// # Errors
-    /// [`Error::Size`] unless the slices have one length; [`Error::Input`] if `first` is 0.
+    /// [`Error::Size`](crate::Error::Size) unless the slices have one length; [`Error::Input`](crate::Error::Input)
+    /// if `first` is 0.
     pub(super) fn fill(&self, first: usize, values: [&mut [f64]; KINDS]) -> Result<()> {
         let [zz, xx, zx] = values;
-        if first == 0 {
-            return Err(Error::Input { quantity: "first lag", value: 0.0, needed: "at least 1" });
-        }
-        crate::error::same_length("xx coefficients", xx.len(), zz.len())?;
-        crate::error::same_length("zx coefficients", zx.len(), zz.len())?;
+        require("first lag", first as f64, first > 0, "at least 1")?;
+        same_length("xx coefficients", xx.len(), zz.len())?;
+        same_length("zx coefficients", zx.len(), zz.len())?;
         for (i, ((zz, xx), zx)) in zz.iter_mut().zip(xx).zip(zx).enumerate() {
             let influence = self.at(first.saturating_add(i));
             (*zz, *xx, *zx) = (influence.zz, influence.xx, influence.zx);
@@ -235,7 +209,7 @@ impl PairInfluence<'_> {
             series += power;
             power *= ratio;
         }
-        let unit = 1.0 / (std::f64::consts::PI * kernel.modulus);
+        let unit = kernel.unit();
         Influence { zz: sum[0] * unit, xx: sum[1] * unit, zx: 0.0 }
     }
 

@@ -20,12 +20,11 @@
 //! | W | lags of the window: the exponentials begin at lag W + 1 |
 //! | `β_ij` | Legendre coefficients of Φ(s(ξ−η)) over the patch |
 
-use super::PatchKernel;
-use super::influence::LateSeries;
+use super::{InfluenceKernel, PatchKernel};
 use crate::error::Result;
 use crate::fundamental::rayleigh::TERMS;
 use crate::geometry::ContactElement;
-use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, TailProduct};
+use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, PairClasses, TailProduct};
 use crate::linalg::gauss;
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
@@ -42,8 +41,8 @@ const DROPPED_ENERGY: f64 = 1e-4;
 impl LateWeights for PatchKernel {
     /// Until the Rayleigh wave has crossed the patch three times.
     fn window(&self) -> usize {
-        let series = self.late_series();
-        let lags = (CROSSINGS * series.arrival * self.classes().span() / series.step).ceil();
+        let InfluenceKernel { branches, step, .. } = &self.kernel;
+        let lags = (CROSSINGS * branches.arrival * self.classes().span() / step).ceil();
         // Float to integer casts saturate.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let lags = lags as usize;
@@ -56,22 +55,22 @@ impl LateWeights for PatchKernel {
         horizon: usize,
         tolerance: f64,
     ) -> Result<ExponentialSum> {
-        let basis = Basis::new(self.classes().elements(), DEGREES);
-        tail(&self.late_series(), basis, [window as f64, horizon as f64], tolerance)
+        tail(&self.kernel, self.classes(), [window as f64, horizon as f64], tolerance)
     }
 }
 
 /// Poles for lags from `window` + 1 to `horizon`.
 fn tail(
-    series: &LateSeries<'_>,
-    mut basis: Basis,
+    kernel: &InfluenceKernel,
+    classes: &PairClasses,
     [window, horizon]: [f64; 2],
     tolerance: f64,
 ) -> Result<ExponentialSum> {
     // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the Rayleigh wave
     // included.
     let h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
-    let LateSeries { terms, step, unit, .. } = *series;
+    let InfluenceKernel { late: terms, step, .. } = kernel;
+    let (unit, half) = (kernel.unit(), 0.5 * classes.span());
     let begin = window * step;
     let fastest = (1.5 * (5.0 - tolerance.ln()) / begin).ln();
     let slowest = (DROPPED * tolerance / (horizon * step)).ln();
@@ -82,7 +81,7 @@ fn tail(
         .map(|k| {
             let s = (fastest - k as f64 * h).exp();
             let weight = -unit * h * (-s * step).exp_m1() * (-s * begin).exp();
-            let mut pole = Pole::new(terms, &differences, s, s * basis.half, weight);
+            let mut pole = Pole::new(terms, &differences, s, s * half, weight);
             // Largest share of this pole in the coefficient at its own time.
             let share = if s * begin > 1.0 { s * begin * (1.0 - s * begin).exp() } else { 1.0 };
             let energy = h * (-s * begin).exp() / (s * step);
@@ -95,7 +94,6 @@ fn tail(
         poles[k - 1].degrees = poles[k - 1].degrees.max(poles[k].degrees);
     }
     let degrees = poles.first().map_or(1, |pole| pole.degrees);
-    basis.truncate(degrees);
     let having = |degree| poles.iter().take_while(|pole| pole.degrees > degree).count();
     let mut products = Vec::new();
     for i in 0..degrees {
@@ -108,7 +106,7 @@ fn tail(
         }
     }
     let rates = poles.iter().map(|pole| pole.s * step).collect();
-    ExponentialSum::new(rates, basis.into_means(), products)
+    ExponentialSum::new(rates, means(classes.elements(), degrees), products)
 }
 
 /// A rate and the Legendre coefficients of Φ that go with it.
@@ -170,15 +168,6 @@ impl Pole {
     }
 }
 
-/// Legendre polynomials of degree 0, 1, … on [−1, 1] stretched over a patch.
-#[derive(Debug, Clone)]
-struct Basis {
-    /// Half of the patch's length, m.
-    half: f64,
-    /// Per degree: its means over the elements.
-    means: Vec<Vec<f64>>,
-}
-
 /// Overwrites `values` with the Legendre polynomials of degree 0, 1, … at `x`.
 fn legendre(x: f64, values: &mut [f64]) {
     for degree in 0..values.len() {
@@ -190,35 +179,25 @@ fn legendre(x: f64, values: &mut [f64]) {
     }
 }
 
-impl Basis {
-    fn new(elements: &[ContactElement], degrees: usize) -> Self {
-        let (first, last) = (elements[0].left, elements[elements.len() - 1].right);
-        let (half, middle) = (0.5 * (last - first), 0.5 * (first + last));
-        let mut means = vec![vec![0.0; elements.len()]; degrees];
-        let mut values = vec![0.0; degrees];
-        // A Gauss rule over each element is exact, and does not cancel on short ones.
-        let rule = gauss::largest();
-        for (e, element) in elements.iter().enumerate() {
-            for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-                let x = element.center() - middle + 0.5 * element.length() * node;
-                legendre(x / half, &mut values);
-                for (mean, value) in means.iter_mut().zip(&values) {
-                    mean[e] += 0.5 * weight * value;
-                }
+/// Means over the elements of the Legendre polynomials of degree 0, 1, … below `degrees`, on [−1, 1] stretched over the
+/// patch.
+fn means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
+    let (first, last) = (elements[0].left, elements[elements.len() - 1].right);
+    let (half, middle) = (0.5 * (last - first), 0.5 * (first + last));
+    let mut means = vec![vec![0.0; elements.len()]; degrees];
+    let mut values = vec![0.0; degrees];
+    // A Gauss rule over each element is exact, and does not cancel on short ones.
+    let rule = gauss::largest();
+    for (e, element) in elements.iter().enumerate() {
+        for (node, weight) in rule.points() {
+            let x = element.center() - middle + 0.5 * element.length() * node;
+            legendre(x / half, &mut values);
+            for (mean, value) in means.iter_mut().zip(&values) {
+                mean[e] += 0.5 * weight * value;
             }
         }
-        Self { half, means }
     }
-
-    /// Forgets the polynomials from `degrees` on.
-    fn truncate(&mut self, degrees: usize) {
-        self.means.truncate(degrees);
-    }
-
-    /// Per polynomial: its means over the elements.
-    fn into_means(self) -> Vec<Vec<f64>> {
-        self.means
-    }
+    means
 }
 
 /// Legendre coefficients of (x−y)^(2k) in x and y, `DEGREES` × `DEGREES` for each k. Of the

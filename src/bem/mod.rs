@@ -39,7 +39,7 @@ use std::sync::Arc;
 
 pub use crate::geometry::ContactElement;
 
-use crate::error::{CheckpointError, Observer, Result};
+use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::{ContactLayout, PLANE, Patch, SPACE};
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
@@ -134,13 +134,13 @@ pub trait Ground: Any + Send {
         Vec::new()
     }
 
-    /// How many cells stand for how many where their passivity is checked by a sample; `None` (the default) if it is not.
+    /// Numbers of cells in the sample whose passivity is checked, and of all; `None` (the default) if all are checked.
     /// A run warns: [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
     fn sampled_cells(&self) -> Option<[usize; 2]> {
         None
     }
 
-    /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
+    /// History that the ground keeps, and why; `None` (the default) if there is nothing to choose.
     fn history_choice(&self) -> Option<HistoryChoice> {
         None
     }
@@ -193,6 +193,12 @@ pub trait Ground: Any + Send {
         }
     }
 }
+
+/// Error of a ground before its time step is known.
+const NOT_PREPARED: Error = Error::Scene {
+    quantity: "ground",
+    needed: "`prepare` must be called with the time step first",
+};
 
 /// The elements of a ground, checked.
 pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {

@@ -11,7 +11,7 @@ use crate::history::{
 /// Lags of a class of which spectra are made in the time of a sample of layered ground.
 const SPECTRA: usize = 8192;
 
-/// Kernel and history for one time step.
+/// A kernel and the history made of it.
 pub(super) struct Prepared {
     pub(super) kernel: Arc<dyn ConvolutionWeights>,
     /// Left open until the number of steps is known or the first step is made.
@@ -133,7 +133,7 @@ impl Prepared {
         outcome
     }
 
-    /// What was chosen.
+    /// Choice of the history; `None` before one is made, and for one of the user's own.
     pub(super) fn choice(&self) -> Option<HistoryChoice> {
         match &self.history {
             Some(Kept::Chosen(history)) => Some(history.choice()),

@@ -1,7 +1,6 @@
 //! Coefficients that the grounds of many simulations share.
 
 use std::any::{Any, TypeId};
-use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 
@@ -57,7 +56,7 @@ struct Store {
 #[derive(Debug, Default)]
 struct Kernels {
     kept: Vec<Entry>,
-    /// What threads are making now, and what others wait for.
+    /// Kernels that threads are making now, and those that others wait for.
     being_made: Vec<(Arc<Key>, ThreadId)>,
     waiting: Vec<(Arc<Key>, ThreadId)>,
 }
@@ -76,14 +75,7 @@ struct Entry {
     kernel: Arc<dyn ConvolutionWeights>,
 }
 
-impl fmt::Debug for Entry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Entry")
-            .field("identity", &self.key.identity)
-            .field("time_step", &self.key.time_step)
-            .finish_non_exhaustive()
-    }
-}
+short_debug! { Entry; self; identity: self.key.identity, time_step: self.key.time_step }
 
 impl Kernels {
     fn maker(&self, key: &Key) -> Option<ThreadId> {

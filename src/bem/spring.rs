@@ -1,8 +1,8 @@
 //! Winkler's spring bed: a ground without memory.
 
 use super::plan::Plan;
-use super::{Grading, Ground, Strip};
-use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
+use super::{Grading, Ground, NOT_PREPARED, Strip};
+use crate::error::{CheckpointError, Result, not_negative, positive, require, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE, SPACE, check_count, check_order};
 use crate::structure::Structure;
 
@@ -28,7 +28,7 @@ pub struct SpringGround {
     depths: Option<Vec<[f64; 2]>>,
     /// Down, along x and in plan along y, Pa/m.
     stiffness: [f64; SPACE],
-    /// The same, Pa·s/m.
+    /// Down, along x and in plan along y, Pa·s/m.
     dashpot: [f64; SPACE],
     theta: f64,
     time_step: f64,
@@ -39,7 +39,7 @@ impl SpringGround {
     /// Bed of `count` equal elements over `range` (m) with normal and tangential stiffness (Pa/m).
     ///
     /// # Errors
-    /// [`Error::Input`] for an empty range, no elements, or a stiffness not finite and above zero.
+    /// [`Error::Input`](crate::Error::Input) for an empty range, no elements, or a stiffness not finite and above zero.
     pub fn new(
         range: std::ops::Range<f64>,
         count: usize,
@@ -49,7 +49,7 @@ impl SpringGround {
         Self::on_strips(&[Strip::uniform(range, count)?], normal_stiffness, tangential_stiffness)
     }
 
-    /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements. Under a structure
+    /// Bed under each foundation of `structure`, as wide as that is, of `count` equal elements. Under a structure
     /// with [faces](Structure::contact_faces) it is a bed [in plan](SpringGround::in_plan), with `count` cells along
     /// the shorter side of them all, and the tangential stiffness in both directions.
     ///
@@ -69,11 +69,11 @@ impl SpringGround {
         Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
     }
 
-    /// The same under several strips, from left to right.
+    /// Bed under several strips, from left to right.
     ///
     /// # Errors
-    /// [`Error::Size`] for no strips, [`Error::Input`] for strips that overlap or are out of order,
-    /// and as for [`SpringGround::new`].
+    /// [`Error::Size`](crate::Error::Size) for no strips, [`Error::Input`](crate::Error::Input) for strips that
+    /// overlap or are out of order, and as for [`SpringGround::new`].
     pub fn on_strips(
         strips: &[Strip],
         normal_stiffness: f64,
@@ -98,8 +98,9 @@ impl SpringGround {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] for a stiffness not finite and above zero; [`Error::Memory`] for more elements than matrices
-    /// between them allow; as for [`Plan::without_overhang`].
+    /// [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero;
+    /// [`Error::Memory`](crate::Error::Memory) for more elements than matrices between them allow; as for
+    /// [`Plan::without_overhang`].
     pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
         let (elements, depths) = plan.without_overhang()?.sides();
         check_count(elements.len(), SPACE)?;
@@ -129,7 +130,7 @@ impl SpringGround {
     /// With dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite and not below zero.
+    /// [`Error::Input`](crate::Error::Input) unless both are finite and not below zero.
     pub fn with_dashpots(mut self, normal: f64, tangential: f64) -> Result<Self> {
         let normal = not_negative("normal dashpot of the spring bed", normal)?;
         let tangential = not_negative("tangential dashpot of the spring bed", tangential)?;
@@ -140,24 +141,15 @@ impl SpringGround {
     /// With another θ, from ½ to 1.
     ///
     /// # Errors
-    /// [`Error::Input`] outside this range.
+    /// [`Error::Input`](crate::Error::Input) outside this range.
     pub fn with_theta(mut self, theta: f64) -> Result<Self> {
-        if !(0.5..=1.0).contains(&theta) {
-            return Err(Error::Input { quantity: "theta", value: theta, needed: "from 0.5 to 1" });
-        }
-        self.theta = theta;
+        self.theta = require("theta", theta, (0.5..=1.0).contains(&theta), "from 0.5 to 1")?;
         Ok(self)
     }
 
     /// Error before `prepare`: without a time step there is no impedance.
     fn check_prepared(&self) -> Result<()> {
-        if self.time_step > 0.0 {
-            return Ok(());
-        }
-        Err(Error::Scene {
-            quantity: "spring bed",
-            needed: "`prepare` must be called with the time step first",
-        })
+        if self.time_step > 0.0 { Ok(()) } else { Err(NOT_PREPARED) }
     }
 
     /// θ k + c/Δt of a component.

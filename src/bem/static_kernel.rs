@@ -1,6 +1,5 @@
 //! Static influence coefficients of boundary elements, alone and in patches, on an elastic half-plane.
 
-use super::influence::LateSeries;
 use super::strip::Overlap;
 use super::{Influence, InfluenceKernel};
 use crate::error::{Result, positive, same_length};
@@ -113,7 +112,7 @@ impl StaticKernel {
 /// Its coupling ends when the Rayleigh wave has crossed a pair.
 #[derive(Debug, Clone)]
 pub struct PatchKernel {
-    kernel: InfluenceKernel,
+    pub(super) kernel: InfluenceKernel,
     classes: PairClasses,
     spectra: SharedSpectra,
 }
@@ -127,11 +126,6 @@ impl PatchKernel {
         let classes = PairClasses::new(elements)?;
         let kernel = InfluenceKernel::new(soil, time_step)?;
         Ok(Self { kernel, classes, spectra: SharedSpectra::default() })
-    }
-
-    /// Series of all coefficients behind the Rayleigh wave.
-    pub(super) fn late_series(&self) -> LateSeries<'_> {
-        self.kernel.late_series()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, finite, positive, require};
 use crate::fundamental::branch::Weight;
 use crate::geometry::{ContactElement, PLANE, check_count};
 use crate::structure::{Structure, foundation_nodes};
@@ -56,10 +56,7 @@ impl Strip {
         finite("left end of the strip", range.start)?;
         finite("right end of the strip", range.end)?;
         positive("length of the strip", range.end - range.start)?;
-        if count == 0 {
-            let (quantity, value) = ("number of contact elements", 0.0);
-            return Err(Error::Input { quantity, value, needed: "1 or more" });
-        }
+        require("number of contact elements", count as f64, count > 0, "1 or more")?;
         check_count(count, PLANE)?;
         let middle = 0.5 * (range.start + range.end);
         let half = 0.5 * (range.end - range.start);
@@ -180,16 +177,8 @@ pub(crate) struct Overlap {
 fn checked(element: ContactElement) -> Result<ContactElement> {
     finite("left end of an element", element.left)?;
     finite("right end of an element", element.right)?;
-    let length = element.length();
-    if length.is_finite() && length > 0.0 {
-        Ok(element)
-    } else {
-        Err(Error::Input {
-            quantity: "length of an element",
-            value: length,
-            needed: "finite and above zero",
-        })
-    }
+    positive("length of an element", element.length())?;
+    Ok(element)
 }
 
 impl Overlap {

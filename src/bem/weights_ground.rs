@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::plan::Unions;
 use super::prepared::{Kept, Prepared};
-use super::{Ground, SharedKernels, WeightsSource};
-use crate::error::{CheckpointError, Error, Observer, Result};
+use super::{Ground, NOT_PREPARED, SharedKernels, WeightsSource};
+use crate::error::{CheckpointError, Observer, Result};
 use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
@@ -133,15 +133,15 @@ impl WeightsGround {
     /// The ground of `source` under `elements`, from left to right.
     ///
     /// # Errors
-    /// [`Error::Size`] for no elements, [`Error::Input`] for elements that overlap, are out of order
-    /// or have no length.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for elements that
+    /// overlap, are out of order or have no length.
     pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         Ok(Self { depths: None, ..Self::in_plan(source, elements, Default::default(), None) })
     }
 
-    /// The same for elements in plan, whose source knows where they are: `depths` are front and back ends along y (m), and
-    /// parts of their areas inside the outline.
+    /// Ground of `source` under elements in plan: `depths` are front and back ends along y (m), and parts of their
+    /// areas inside the outline.
     pub(super) fn in_plan(
         source: impl WeightsSource,
         elements: Vec<ContactElement>,
@@ -163,7 +163,7 @@ impl WeightsGround {
     /// With other options of its history, or another method alone.
     ///
     /// # Errors
-    /// [`Error::Input`] for a tolerance not from 1e-12 to 1e-2.
+    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
     pub fn with_history(mut self, options: impl Into<HistoryOptions>) -> Result<Self> {
         (self.options, self.own_history) = (options.into().checked()?, None);
         Ok(self)
@@ -272,7 +272,7 @@ impl Ground for WeightsGround {
         history.map_or(0.0, |history| history.any().increment_error_bound())
     }
 
-    /// Which history was chosen for how many steps, and what it says.
+    /// The choice of the history, its number of steps, and the state of the history.
     fn save(&self) -> Result<Vec<f64>> {
         let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
         let mut values = SavedChoice::new(prepared.choice()).numbers().to_vec();
@@ -318,8 +318,3 @@ impl Ground for WeightsGround {
         }
     }
 }
-
-const NOT_PREPARED: Error = Error::Scene {
-    quantity: "ground",
-    needed: "`prepare` must be called with the time step first",
-};

@@ -10,6 +10,7 @@ use super::state::{Context, Foundation, Origin, State, Transition};
 use super::step::{Forcing, Increment};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
+use crate::geometry::Footing;
 use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 
 impl State {
@@ -32,7 +33,10 @@ impl State {
             })
             .collect();
         let start = PreviousContacts::new(&scene.laws, &start)?;
-        let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
+        let (base, patch) = (&scene.base, &scene.elements);
+        let foundations = base.foundations().map(|(_, elements)| Foundation::new(elements));
+        let shapes = base.foundations().zip(base.outlines());
+        let footings = shapes.map(|((_, own), outline)| Footing::new(patch, own, outline));
         let mut state = Self {
             step: 0,
             time: 0.0,
@@ -41,7 +45,7 @@ impl State {
                 probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
                 elements: scene.elements.clone(),
                 friction: scene.safety_friction.clone(),
-                outlines: scene.base.outlines().map(<[_]>::to_vec).collect(),
+                footings: footings.collect(),
                 arms: scene.foundation_arms.clone(),
             }),
             motion: Motion::new(model),

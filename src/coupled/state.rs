@@ -7,7 +7,7 @@ use super::energy_balance::EnergyBalance;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
-use crate::geometry::Patch;
+use crate::geometry::{Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
 
 /// A change of contact mode.
@@ -110,8 +110,8 @@ pub(crate) struct Context {
     pub(crate) elements: Patch,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
-    /// Corners of the convex outline of each foundation, counter-clockwise; none in the plane.
-    pub(crate) outlines: Vec<Vec<[f64; 2]>>,
+    /// Shape of each foundation.
+    pub(crate) footings: Vec<Footing>,
     /// Middle of each foundation from the point of the base moment, m.
     pub(crate) arms: Vec<[f64; 2]>,
 }

@@ -89,40 +89,34 @@ pub(crate) fn write_file(path: &std::path::Path, content: impl AsRef<[u8]>) -> R
         .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
 }
 
+/// `value` if what is `needed` of it `holds`.
+pub(crate) fn require(
+    quantity: &'static str,
+    value: f64,
+    holds: bool,
+    needed: &'static str,
+) -> Result<f64> {
+    if holds { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
+}
+
 /// `value` if it is finite and above zero.
 pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(Error::Input { quantity, value, needed: "finite and above zero" })
-    }
+    require(quantity, value, value.is_finite() && value > 0.0, "finite and above zero")
 }
 
 /// `value` if it is finite and not below zero.
 pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(value)
-    } else {
-        Err(Error::Input { quantity, value, needed: "finite and not below zero" })
-    }
+    require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
 }
 
 /// `value` if it is a damping ratio: that of critical damping is 1, and 5 % are 0.05.
 pub(crate) fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
-    if (0.0..1.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(Error::Input { quantity, value, needed: "from 0 to below 1 (0.05 is 5 %)" })
-    }
+    require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
 }
 
 /// `value` if it is finite.
 pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(Error::Input { quantity, value, needed: "finite" })
-    }
+    require(quantity, value, value.is_finite(), "finite")
 }
 
 /// The first of `values` that is not finite, with its place.

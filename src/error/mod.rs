@@ -22,8 +22,8 @@ pub use input_file::{MatrixFileError, MeshFileError};
 pub use layered::{KernelFileError, LayeredError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use memory::{
-    all_finite, damping_ratio, finite, names, not_finite, not_negative, positive, same_length,
-    write_file,
+    all_finite, damping_ratio, finite, names, not_finite, not_negative, positive, require,
+    same_length, write_file,
 };
 pub use part::{LawError, ReducedError};
 pub use plan::PlanError;

@@ -12,7 +12,7 @@
 //! and the ramp take their time derivatives and integrals. Once both waves have passed, the
 //! differences are formed without their common growth in time.
 
-use crate::error::{Error, Result, finite};
+use crate::error::{Result, finite, positive};
 use crate::fundamental::{FundamentalSolution, LoadHistory};
 use crate::soil::Soil;
 
@@ -89,12 +89,8 @@ impl FullPlane {
 fn polar(offset: [f64; 2]) -> Result<(f64, [f64; 2])> {
     finite("x component of the offset", offset[0])?;
     finite("z component of the offset", offset[1])?;
-    let r = offset[0].hypot(offset[1]);
-    if r.is_finite() && r > 0.0 {
-        Ok((r, [offset[0] / r, offset[1] / r]))
-    } else {
-        Err(Error::Input { quantity: "distance", value: r, needed: "finite and above zero" })
-    }
+    let r = positive("distance", offset[0].hypot(offset[1]))?;
+    Ok((r, offset.map(|x| x / r)))
 }
 
 impl FundamentalSolution for FullPlane {

@@ -15,7 +15,7 @@
 //! | F, Q, W | ∫₀^τ f dη, ∫_τ^∞ f/η dη, ∫_τ^∞ f/η² dη |
 //! | J | x²F/2 + x t Q − t²W/2, the twice-integrated answer to H(t) |
 
-use crate::error::{Error, Result, finite};
+use crate::error::{Result, finite, positive, require};
 use crate::fundamental::branch::{Branches, Part, Power};
 use crate::fundamental::rayleigh::{TERMS, late_coefficients};
 use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
@@ -166,7 +166,7 @@ impl HalfPlane {
     /// rounding times (offset/length)²; [`crate::bem::InfluenceKernel`] has no such loss.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `time` and the elements' ends are finite, the left one first.
+    /// [`Error::Input`](crate::Error::Input) unless `time` and the elements' ends are finite, the left one first.
     pub fn element_mean(
         &self,
         receiver: ContactElement,
@@ -175,14 +175,7 @@ impl HalfPlane {
     ) -> Result<Surface> {
         finite("time", time)?;
         for element in [receiver, source] {
-            let length = element.length();
-            if !(length.is_finite() && length > 0.0) {
-                return Err(Error::Input {
-                    quantity: "length of an element",
-                    value: length,
-                    needed: "finite and above zero",
-                });
-            }
+            positive("length of an element", element.length())?;
         }
         let path = time * self.soil.shear_wave_speed();
         let gap = (source.left - receiver.right).max(receiver.left - source.right).max(0.0);
@@ -343,34 +336,17 @@ impl FundamentalSolution for HalfPlane {
     ) -> Result<[[f64; 2]; 2]> {
         surface_distance(offset)?;
         finite("time", time)?;
-        if normal[0] != 0.0 || normal[1].abs() != 1.0 {
-            return Err(Error::Input {
-                quantity: "x component of the normal",
-                value: normal[0],
-                needed: "0, with z component 1 or -1: only the surface itself is known",
-            });
-        }
+        let upright = normal[0] == 0.0 && normal[1].abs() == 1.0;
+        let needed = "0, with z component 1 or -1: only the surface itself is known";
+        require("x component of the normal", normal[0], upright, needed)?;
         Ok([[0.0; 2]; 2])
     }
 }
 
 /// |x| of an offset along the surface.
 fn surface_distance(offset: [f64; 2]) -> Result<f64> {
-    if offset[1] != 0.0 {
-        return Err(Error::Input {
-            quantity: "z component of the offset",
-            value: offset[1],
-            needed: "0: load and receiver on the surface",
-        });
-    }
-    let r = offset[0].abs();
-    if r.is_finite() && r > 0.0 {
-        Ok(r)
-    } else {
-        Err(Error::Input {
-            quantity: "x component of the offset",
-            value: offset[0],
-            needed: "finite and not zero",
-        })
-    }
+    let [x, z] = offset;
+    require("z component of the offset", z, z == 0.0, "0: load and receiver on the surface")?;
+    let fits = x.is_finite() && x != 0.0;
+    require("x component of the offset", x, fits, "finite and not zero").map(f64::abs)
 }

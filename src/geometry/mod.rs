@@ -1,7 +1,10 @@
-//! Geometry: contact elements, their order and that of their numbers; cells of a lattice; directions.
+//! Geometry: contact elements, their order and that of their numbers; cells of a lattice; directions; shapes of
+//! foundations.
 
+mod footing;
 mod lattice;
 
+pub(crate) use footing::{Edge, Footing};
 pub(crate) use lattice::{Lattice, SERIES, offset};
 
 use crate::error::{Error, MemoryError, Result, finite, memory, positive};
@@ -225,32 +228,6 @@ pub(crate) fn middle([low, high]: [f64; 2]) -> f64 {
 /// Name of the axis x (0) or y (1) in plan; `None` in the plane, where there is but one.
 pub(crate) fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
-}
-
-/// Edge of a polygon whose corners go counter-clockwise.
-pub(crate) struct Edge {
-    /// Corner at which it begins.
-    start: [f64; 2],
-    /// Outward normal, as long as the edge.
-    pub(crate) normal: [f64; 2],
-}
-
-impl Edge {
-    /// Edges of the polygon with these corners, the last of which leads back to the first.
-    pub(crate) fn all(corners: &[[f64; 2]]) -> impl Iterator<Item = Self> {
-        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-        pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
-    }
-
-    /// Component of a vector along the normal, times the length of the edge.
-    pub(crate) fn outward(&self, vector: [f64; 2]) -> f64 {
-        self.normal[0] * vector[0] + self.normal[1] * vector[1]
-    }
-
-    /// Distance from a point inside, times the length of the edge.
-    pub(crate) fn reach(&self, from: [f64; 2]) -> f64 {
-        self.outward([0, 1].map(|axis| self.start[axis] - from[axis]))
-    }
 }
 
 impl std::ops::Deref for Patch {

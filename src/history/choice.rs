@@ -116,7 +116,7 @@ impl fmt::Display for ChoiceReason {
 pub struct HistoryChoice {
     /// The method chosen; never [`HistoryMethod::Auto`].
     pub kind: HistoryMethod,
-    /// Why.
+    /// Reason of the choice.
     pub reason: ChoiceReason,
     /// Steps that were expected; `None` if nothing was known.
     pub steps: Option<usize>,

@@ -141,8 +141,8 @@ impl ChosenHistory {
         Ok(())
     }
 
-    /// This history as it is once it has given way before `steps` steps, without the tractions before; `None` if it
-    /// would not have.
+    /// The exponentials that this history gives way to before `steps` steps, without earlier tractions;
+    /// `None` if it would not have.
     pub(crate) fn succeeded(&self, steps: usize) -> Result<Option<Self>> {
         let most = self.most();
         if matches!(self.kept, Kept::Exponentials(_)) || steps < most {
@@ -170,8 +170,18 @@ impl ChosenHistory {
 }
 
 impl ConvolutionHistory for ChosenHistory {
-    fn steps(&self) -> usize {
-        self.any().steps()
+    forward! {
+        self.any();
+        fn steps(&self) -> usize;
+        fn memory(&self) -> usize;
+        fn increment_error_bound(&self) -> f64;
+        fn save(&self) -> Result<Vec<f64>>;
+    }
+
+    forward! {
+        self.any_mut();
+        fn push(&mut self, traction: &[f64]);
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
     }
 
     /// Only for steps that it is kept for.
@@ -188,26 +198,6 @@ impl ConvolutionHistory for ChosenHistory {
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         self.bound()?;
         self.any_mut().evaluate(displacement)
-    }
-
-    fn push(&mut self, traction: &[f64]) {
-        self.any_mut().push(traction);
-    }
-
-    fn memory(&self) -> usize {
-        self.any().memory()
-    }
-
-    fn increment_error_bound(&self) -> f64 {
-        self.any().increment_error_bound()
-    }
-
-    fn save(&self) -> Result<Vec<f64>> {
-        self.any().save()
-    }
-
-    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        self.any_mut().restore(steps, values)
     }
 }
 

@@ -20,7 +20,7 @@ pub trait ConvolutionHistory: Send {
     /// If a kernel cannot be evaluated.
     fn reserve(&mut self, steps: usize) -> Result<()>;
 
-    /// Reserves for so many steps with an observer; by default, for what is quick, without.
+    /// [`reserve`](ConvolutionHistory::reserve) with an observer, which hears nothing of quick work (the default).
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for
@@ -133,7 +133,7 @@ pub trait ConvolutionWeights: Send + Sync {
         Ok(())
     }
 
-    /// Prepares with an observer; by default, for closed forms, without.
+    /// [`prepare`](ConvolutionWeights::prepare) with an observer, which hears nothing of a closed form (the default).
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].
@@ -252,7 +252,8 @@ pub(super) fn all_kinds(
     }
 }
 
-const OTHER_KINDS: Error = Error::Scene {
+/// Error of coefficients that a kernel does not have.
+pub(crate) const OTHER_KINDS: Error = Error::Scene {
     quantity: "coefficients of a kernel",
     needed: "`coefficients` are those of strips, `coefficients_in_plan` those of mats in plan",
 };

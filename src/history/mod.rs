@@ -17,6 +17,7 @@ pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, HistoryChoice, HistoryMethod};
 pub(crate) use chosen::ChosenHistory;
 pub use chosen::HistoryOptions;
+pub(crate) use convolution::OTHER_KINDS;
 pub use convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
 pub use direct::DirectHistory;
 pub(crate) use direct::RESERVED_STEPS;

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Mul;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require};
 use crate::geometry::{
     ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
 };
@@ -13,28 +13,7 @@ use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 /// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const KINDS: usize = 3;
 
-/// A component of the receiver's displacement due to a component of the source's traction.
-pub(crate) struct Action {
-    /// Kind of coefficient that tells how much.
-    pub(crate) kind: usize,
-    /// Component of the displacement.
-    pub(crate) displacement: usize,
-    /// Component of the traction.
-    pub(crate) traction: usize,
-    /// Sign of an action that changes it with the side on which the receiver lies, for a receiver to
-    /// the right; `None` for the others.
-    pub(crate) odd: Option<f64>,
-}
-
-/// Meaning of the kinds of coefficients.
-pub(crate) const ACTIONS: [Action; 4] = [
-    Action { kind: 0, displacement: 0, traction: 0, odd: None },
-    Action { kind: 1, displacement: 1, traction: 1, odd: None },
-    Action { kind: 2, displacement: 0, traction: 1, odd: Some(1.0) },
-    Action { kind: 2, displacement: 1, traction: 0, odd: Some(-1.0) },
-];
-
-/// Effect of a component of the traction at a pair's source on a component of the displacement at its receiver.
+/// Action of a component of the source's traction on a component of the receiver's displacement.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
     /// Kind of coefficient.
@@ -48,20 +27,13 @@ pub(crate) struct Term {
 /// Place of the coefficients of a pair of elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// Class of pairs to which it belongs.
+    /// Class of pairs that the pair belongs to.
     pub class: usize,
     /// 1/length of the receiver, 1/m: class coefficients are integrals over it, not means.
     pub scale: f64,
     /// Sign of the coupling between normal and tangential components: +1 for a receiver to the
     /// right of the source, −1 to the left, 0 for an element on itself.
     pub sign: f64,
-}
-
-impl Pair {
-    /// Factor of an action's coefficient.
-    pub(crate) fn factor(&self, action: &Action) -> f64 {
-        action.odd.map_or(1.0, |sign| sign * self.sign)
-    }
 }
 
 /// Shortest element over the length of the patch: shorter ones could not be told apart by class.
@@ -102,13 +74,8 @@ impl PairClasses {
         check_order(&elements)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
-        if shortest < SHORTEST * span {
-            return Err(Error::Input {
-                quantity: "length of the shortest contact element over that of the patch",
-                value: shortest / span,
-                needed: "at least 1e-8",
-            });
-        }
+        let quantity = "length of the shortest contact element over that of the patch";
+        require(quantity, shortest / span, shortest >= SHORTEST * span, "at least 1e-8")?;
         let mut numbers = HashMap::new();
         let mut representatives = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());
@@ -203,11 +170,16 @@ impl PairClasses {
         let count = self.elements.len();
         let mut terms = [Term::default(); 9];
         for (place, pair) in self.pairs.iter().enumerate() {
-            for (term, action) in terms.iter_mut().zip(&ACTIONS) {
-                let components = [action.displacement, action.traction];
-                *term = Term { kind: action.kind, components, factor: pair.factor(action) };
+            let own = [
+                (0, [0, 0], 1.0),
+                (1, [1, 1], 1.0),
+                (2, [0, 1], pair.sign),
+                (2, [1, 0], -pair.sign),
+            ];
+            for (term, (kind, components, factor)) in terms.iter_mut().zip(own) {
+                *term = Term { kind, components, factor };
             }
-            put([place / count, place % count], pair, &terms[..ACTIONS.len()]);
+            put([place / count, place % count], pair, &terms[..own.len()]);
         }
         let Some((lattice, cells)) = &self.plan else { return };
         let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use crate::error::{Error, MemoryError, Result, memory, same_length};
+use crate::error::{Error, MemoryError, Result, finite, memory, same_length};
 use crate::linalg::{Triplets, dense_multiply_add, weighted_dot};
 
 /// Bytes of a degree of freedom in the sparse matrices of a structure, their factor and its states.
@@ -58,9 +58,7 @@ impl SparseMatrix {
             if index >= order {
                 return Err(Error::Index { quantity: name, index, bound: order });
             }
-            if !value.is_finite() {
-                return Err(Error::Input { quantity: name, value, needed: "finite" });
-            }
+            finite(name, value)?;
             row_start[row + 1] += 1;
         }
         for row in 0..order {

@@ -7,13 +7,84 @@
 mod equivalent_linear;
 mod inclined;
 mod sampled;
-mod site_warning;
 mod slowness;
 mod soil_column;
 mod transform;
 
 pub use equivalent_linear::{EquivalentLinear, EquivalentLinearOptions, LayerResponse};
 pub use inclined::{InclinedControl, InclinedWave};
-pub use site_warning::SiteWarning;
 pub use soil_column::{ControlPoint, SoilColumn, VerticalWave};
 pub use transform::SiteMotion;
+
+use std::fmt;
+
+/// Warning that assumptions of an equivalent-linear response are strained.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum SiteWarning {
+    /// Strain above 5·10⁻³: one modulus for the whole shaking is no longer a fair picture.
+    LargeStrain {
+        /// Layer, from 1 at the surface.
+        layer: usize,
+        /// Largest strain of the layer.
+        strain: f64,
+    },
+    /// Effective strain beyond the end of the layer's curves, whose last value was taken.
+    Extrapolated {
+        /// Layer, from 1 at the surface.
+        layer: usize,
+        /// Effective strain of the layer.
+        strain: f64,
+        /// Largest strain of its curves.
+        largest: f64,
+    },
+    /// Properties that were not strain-compatible after the last iteration.
+    NotConverged {
+        /// Largest relative change that all further ones would make, as estimated.
+        change: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// The surface moves before the motion's first sample or after its last, by more than 1 % of its peak: the record
+    /// needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more damping.
+    CutOff {
+        /// Largest acceleration cut off, over the peak.
+        share: f64,
+    },
+}
+
+impl SiteWarning {
+    /// Largest strain within the method's range.
+    pub(crate) const STRAIN_LIMIT: f64 = 5e-3;
+}
+
+impl fmt::Display for SiteWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = |strain: f64| 100.0 * strain;
+        match *self {
+            Self::LargeStrain { layer, strain } => write!(
+                f,
+                "layer {layer} strains by {:.2} %, beyond {} %: equivalent-linear response is doubtful",
+                percent(strain),
+                percent(Self::STRAIN_LIMIT)
+            ),
+            Self::Extrapolated { layer, strain, largest } => write!(
+                f,
+                "effective strain of layer {layer}, {:.2} %, is beyond its curves, which end at {:.2} %",
+                percent(strain),
+                percent(largest)
+            ),
+            Self::NotConverged { change, iterations } => write!(
+                f,
+                "properties are {:.2} % from strain-compatible ones after {iterations} iterations",
+                percent(change)
+            ),
+            Self::CutOff { share } => write!(
+                f,
+                "motion of the surface outside the record's time, {:.1} % of its peak, is cut off: give \
+                 the record quiet time (padded)",
+                percent(share)
+            ),
+        }
+    }
+}

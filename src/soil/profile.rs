@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{Error, LayeredError, Result, SiteError, positive};
+use crate::error::{Error, LayeredError, Result, SiteError, positive, require};
 use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
@@ -186,13 +186,8 @@ impl SoilProfile {
     }
 
     fn check_depth(&self) -> Result<()> {
-        if self.layers.len() > MOST_LAYERS {
-            return Err(Error::Input {
-                quantity: "number of soil layers",
-                value: self.layers.len() as f64,
-                needed: "at most 1000",
-            });
-        }
+        let count = self.layers.len();
+        require("number of soil layers", count as f64, count <= MOST_LAYERS, "at most 1000")?;
         for (index, layer) in self.layers.iter().enumerate() {
             let of_layer = |error| SiteError::of_layer(index, error);
             positive("thickness (m)", layer.thickness).map_err(of_layer)?;

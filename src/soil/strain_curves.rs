@@ -1,6 +1,6 @@
 //! Modulus reduction and damping of soils over shear strain.
 
-use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
+use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive, require};
 
 /// Secant shear modulus and damping ratio of a soil over the amplitude of its shear strain.
 ///
@@ -190,12 +190,10 @@ fn darendeli(
     not_negative("plasticity index", index)?;
     let ratio = positive("overconsolidation ratio", overconsolidation)?;
     let stress = positive("mean effective stress (Pa)", stress)? / ATMOSPHERE;
-    let least = |quantity, value: f64, least, needed| {
-        let fits = value >= least && value.is_finite();
-        if fits { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
-    };
-    least("frequency of Darendeli's curves (Hz)", frequency, 0.05, "finite and at least 0.05")?;
-    least("number of cycles of Darendeli's curves", cycles, 1.0, "finite and at least 1")?;
+    let fits = [frequency >= 0.05 && frequency.is_finite(), cycles >= 1.0 && cycles.is_finite()];
+    let quantity = "frequency of Darendeli's curves (Hz)";
+    require(quantity, frequency, fits[0], "finite and at least 0.05")?;
+    require("number of cycles of Darendeli's curves", cycles, fits[1], "finite and at least 1")?;
     let reference = 0.01 * (0.0352 + 0.0010 * index * ratio.powf(0.3246)) * stress.powf(0.3483);
     let small = 0.01
         * (0.8005 + 0.0129 * index * ratio.powf(-0.1069))
@@ -217,13 +215,8 @@ fn rows<const N: usize>(
 /// The two drawn curves beside an index, weighted.
 fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
     let last = VUCETIC_DOBRY.len() - 1;
-    if !(0.0..=VUCETIC_DOBRY[last].0).contains(&index) {
-        return Err(Error::Input {
-            quantity: "plasticity index",
-            value: index,
-            needed: "from 0 to 200",
-        });
-    }
+    let fits = (0.0..=VUCETIC_DOBRY[last].0).contains(&index);
+    require("plasticity index", index, fits, "from 0 to 200")?;
     let above = VUCETIC_DOBRY.partition_point(|(drawn, ..)| *drawn <= index).clamp(1, last);
     let ((low, ..), (high, ..)) = (VUCETIC_DOBRY[above - 1], VUCETIC_DOBRY[above]);
     let share = (index - low) / (high - low);
@@ -236,22 +229,15 @@ fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
 
 /// The rows of a table, if they are a curve.
 fn checked(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
-    if rows.is_empty() {
-        let (quantity, needed) = ("number of rows of a table of strain curves", "at least 1");
-        return Err(Error::Input { quantity, value: 0.0, needed });
-    }
+    let quantity = "number of rows of a table of strain curves";
+    require(quantity, rows.len() as f64, !rows.is_empty(), "at least 1")?;
     let mut before = 0.0;
     for &[strain, reduction, damping] in rows {
         finite("strain of a table", strain)?;
-        if strain <= before {
-            let needed = "above zero and above the one before";
-            return Err(Error::Input { quantity: "strain of a table", value: strain, needed });
-        }
-        before = strain;
-        if !(reduction > 0.0 && reduction <= 1.0) {
-            let (quantity, needed) = ("G/G_max of a table", "above 0 and at most 1");
-            return Err(Error::Input { quantity, value: reduction, needed });
-        }
+        let needed = "above zero and above the one before";
+        before = require("strain of a table", strain, strain > before, needed)?;
+        let fits = reduction > 0.0 && reduction <= 1.0;
+        require("G/G_max of a table", reduction, fits, "above 0 and at most 1")?;
         damping_ratio("damping ratio of a table", damping)?;
     }
     Ok(rows)

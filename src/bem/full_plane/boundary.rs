@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use crate::bem::{ContactElement, Strip};
-use crate::error::{Error, MemoryError, Result, finite, memory, positive};
+use crate::error::{Error, MemoryError, Result, finite, memory, positive, require};
 use crate::geometry::{ContactLayout, PLANE, check_order};
+use crate::linalg::DenseFactor;
 
 /// A polygonal boundary of the soil, with the elements on which the structure stands.
 ///
@@ -85,13 +86,9 @@ impl Boundary {
                 bound: segments.len(),
             })?;
             let rise = (segment.to[1] - segment.from[1]).abs();
-            if rise > 1e-9 * segment.length() {
-                return Err(Error::Input {
-                    quantity: "rise of a contact element",
-                    value: rise,
-                    needed: "none: contact elements are horizontal",
-                });
-            }
+            let flat = rise <= 1e-9 * segment.length();
+            let needed = "none: contact elements are horizontal";
+            require("rise of a contact element", rise, flat, needed)?;
             elements.push(ContactElement { left: segment.from[0], right: segment.to[0] });
         }
         check_order(&elements)?;
@@ -103,7 +100,7 @@ impl Boundary {
         &self.segments
     }
 
-    /// Which of them are in contact.
+    /// Indices of the elements in contact.
     pub fn contact(&self) -> &[usize] {
         &self.contact
     }
@@ -111,6 +108,51 @@ impl Boundary {
     /// The contact elements as intervals of x.
     pub fn contact_elements(&self) -> &[ContactElement] {
         &self.elements
+    }
+
+    /// Order of vectors of the boundary (2E, x first).
+    pub(super) fn layout(&self) -> ContactLayout {
+        ContactLayout::new(PLANE, self.segments.len())
+    }
+
+    /// Place of each component of a contact vector (2Q, down first) in vectors of the boundary.
+    pub(super) fn places(&self) -> impl Iterator<Item = usize> + Clone {
+        let contact = ContactLayout::new(PLANE, self.contact.len());
+        (0..contact.len()).map(move |k| {
+            let [component, element] = contact.origin(k);
+            self.layout().place(1 - component, self.contact[element])
+        })
+    }
+
+    /// Factor of the coefficients `h`, and displacements of all elements by the coefficients `g` of unit tractions on
+    /// the contact elements: 2Q columns of 2E.
+    ///
+    /// # Errors
+    /// [`Error::Singular`].
+    pub(super) fn mobility(&self, g: &[f64], h: &[f64]) -> Result<(DenseFactor, Vec<f64>)> {
+        let size = self.layout().len();
+        let mut factor = DenseFactor::with_capacity(size);
+        if !factor.factor(h, size) {
+            return Err(Error::Singular { matrix: "boundary operator", order: size });
+        }
+        let mut mobility = vec![0.0; self.places().count() * size];
+        for (column, source) in mobility.chunks_exact_mut(size).zip(self.places()) {
+            for (i, value) in column.iter_mut().enumerate() {
+                *value = g[i * size + source];
+            }
+            factor.solve(column);
+        }
+        Ok((factor, mobility))
+    }
+
+    /// Overwrites `matrix` (2Q × 2Q) with the rows of the contact elements in their `mobility`.
+    pub(super) fn compliance(&self, mobility: &[f64], matrix: &mut [f64]) {
+        let width = self.places().count();
+        for (k, column) in mobility.chunks_exact(self.layout().len()).enumerate() {
+            for (i, place) in self.places().enumerate() {
+                matrix[i * width + k] = column[place];
+            }
+        }
     }
 
     /// Whether all elements lie on one horizontal line with the soil below.
@@ -194,13 +236,9 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     for (q, source) in segments.iter().enumerate() {
         for (p, receiver) in segments.iter().enumerate() {
             let distance = source.distance(receiver.center());
-            if p != q && distance < 1e-6 * source.length().min(receiver.length()) {
-                return Err(Error::Input {
-                    quantity: "distance of a boundary element from the midpoint of another",
-                    value: distance,
-                    needed: "at least 1e-6 of the shorter",
-                });
-            }
+            let apart = p == q || distance >= 1e-6 * source.length().min(receiver.length());
+            let quantity = "distance of a boundary element from the midpoint of another";
+            require(quantity, distance, apart, "at least 1e-6 of the shorter")?;
         }
     }
     Ok(())
@@ -211,8 +249,8 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
 pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
 
-/// Which pairs of midpoint and element are translations of each other; for horizontal elements
-/// also those that are mirror images.
+/// Classes of pairs of midpoint and element that are translations of each other; for horizontal elements
+/// also mirror images.
 #[derive(Debug, Clone)]
 pub(super) struct PairClasses {
     /// One (receiver, source) per class.

@@ -9,7 +9,7 @@
 use super::block::{Level, Link, Work};
 use super::boundary::PairClasses;
 use super::{Boundary, BoundaryKernel, IncidentField};
-use crate::error::{Error, Result, same_length};
+use crate::error::{Result, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 use realfft::RealFftPlanner;
@@ -247,13 +247,6 @@ pub(super) struct Prepared {
     traction: Vec<f64>,
 }
 
-/// Where component `k` of a contact vector (2Q, down first) is in vectors of the boundary
-/// (2E, x first).
-pub(super) fn component(contact: &[usize], boundary: ContactLayout, k: usize) -> usize {
-    let [component, element] = ContactLayout::new(PLANE, contact.len()).origin(k);
-    boundary.place(1 - component, contact[element])
-}
-
 impl Prepared {
     pub(super) fn new(
         boundary: &Boundary,
@@ -261,26 +254,14 @@ impl Prepared {
         time_step: f64,
         incident: bool,
     ) -> Result<Self> {
-        let (count, contact) = (boundary.segments().len(), boundary.contact());
+        let (count, layout) = (boundary.segments().len(), boundary.layout());
         same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
-        let layout = ContactLayout::new(PLANE, count);
         let size = layout.len();
         let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
         kernel.coefficients(0, &mut g, &mut h)?;
-        let mut factor = DenseFactor::with_capacity(size);
-        if !factor.factor(&h, size) {
-            return Err(Error::Singular { matrix: "boundary operator", order: size });
-        }
-        let mut mobility = vec![0.0; ContactLayout::new(PLANE, contact.len()).len() * size];
+        let (factor, mobility) = boundary.mobility(&g, &h)?;
         let mut loaded = vec![incident; size];
-        for (k, column) in mobility.chunks_exact_mut(size).enumerate() {
-            let source = component(contact, layout, k);
-            loaded[source] = true;
-            for (i, value) in column.iter_mut().enumerate() {
-                *value = g[i * size + source];
-            }
-            factor.solve(column);
-        }
+        boundary.places().for_each(|place| loaded[place] = true);
         Ok(Self {
             history: BoundaryHistory::new(kernel, &loaded),
             time_step,
@@ -315,14 +296,13 @@ impl Prepared {
         Ok(())
     }
 
-    pub(super) fn commit(&mut self, contact: &[usize], traction: &[f64]) {
-        let size = self.displacement.len();
-        let layout = ContactLayout::new(PLANE, size / PLANE);
+    pub(super) fn commit(&mut self, boundary: &Boundary, traction: &[f64]) {
         self.displacement.copy_from_slice(&self.free);
         self.traction.copy_from_slice(&self.scattering);
-        for (k, column) in self.mobility.chunks_exact(size).enumerate() {
+        let columns = self.mobility.chunks_exact(self.displacement.len()).zip(boundary.places());
+        for (k, (column, place)) in columns.enumerate() {
             let value = traction.get(k).copied().unwrap_or(0.0);
-            self.traction[component(contact, layout, k)] += value;
+            self.traction[place] += value;
             for (u, m) in self.displacement.iter_mut().zip(column) {
                 *u += m * value;
             }
@@ -334,7 +314,7 @@ impl Prepared {
 
 /// Minus the tractions of the incident field at the midpoints.
 fn scattering(boundary: &Boundary, field: &dyn IncidentField, time: f64, out: &mut [f64]) {
-    let [along, down] = ContactLayout::new(PLANE, boundary.segments().len()).split_mut(out);
+    let [along, down] = boundary.layout().split_mut(out);
     for ((segment, x), z) in boundary.segments().iter().zip(along).zip(down) {
         let [xx, zz, xz] = field.stress(segment.center(), time);
         let n = segment.normal();

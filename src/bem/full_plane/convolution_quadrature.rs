@@ -9,7 +9,7 @@
 //! ```
 //!
 //! where the second sum, the trapezoidal rule's alias, is known: L is chosen so that all lags
-//! beyond it are late ones in the closed form of [`super::laplace_late`]. So λ need not be small
+//! beyond it are late ones in the closed form of [`super::laplace_element`]. So λ need not be small
 //! (λ^L = 1/100 here instead of the usual √ε^…), at most two digits are lost to rounding, and the
 //! number of frequencies, L/2 + 1 by symmetry, depends on how long waves cross the boundary and
 //! not on how long the march is.
@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
-use crate::error::{Error, Result, positive, same_length};
+use crate::error::{Error, Result, positive, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::soil::Soil;
 
@@ -97,13 +97,8 @@ impl ConvolutionQuadrature {
         let reach = views.iter().map(View::reach).fold(0.0, f64::max);
         let rho = positive("boundary over wave travel in a step", reach)?
             / (soil.shear_wave_speed() * time_step);
-        if rho.is_nan() || rho >= LARGEST_RHO {
-            return Err(Error::Input {
-                quantity: "steps that an S wave needs across the boundary",
-                value: rho,
-                needed: "below 1e5",
-            });
-        }
+        let quantity = "steps that an S wave needs across the boundary";
+        require(quantity, rho, rho < LARGEST_RHO, "below 1e5")?;
         let late = views.iter().map(|view| log_terms(soil, view, reach)).collect();
         let lags = first_lag(method, rho).next_power_of_two();
         let segments = segments.to_vec();

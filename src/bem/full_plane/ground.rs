@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-use super::convolution::{Prepared, component};
+use super::convolution::Prepared;
 use super::laplace::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
-use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
+use crate::bem::{ContactElement, Ground, NOT_PREPARED, StaticKernel, Strip};
 use crate::error::{Error, Observer, Result, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::history::RESERVED_STEPS;
@@ -278,15 +278,9 @@ impl Ground for FullPlaneGround {
     /// Not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
-        let contact = self.boundary.contact();
-        let layout = ContactLayout::new(PLANE, self.boundary.segments().len());
-        let width = ContactLayout::new(PLANE, contact.len()).len();
-        same_length("instantaneous operator", matrix.len(), width * width)?;
-        for (k, column) in prepared.mobility.chunks_exact(layout.len()).enumerate() {
-            for i in 0..width {
-                matrix[i * width + k] = column[component(contact, layout, i)];
-            }
-        }
+        let size = ContactLayout::new(PLANE, self.boundary.contact().len()).square();
+        same_length("instantaneous operator", matrix.len(), size)?;
+        self.boundary.compliance(&prepared.mobility, matrix);
         Ok(())
     }
 
@@ -295,13 +289,11 @@ impl Ground for FullPlaneGround {
         if self.conflict.get() {
             return Err(TWO_MOTIONS);
         }
-        let contact = self.boundary.contact();
-        let layout = ContactLayout::new(PLANE, self.boundary.segments().len());
-        let size = ContactLayout::new(PLANE, contact.len()).len();
-        same_length("displacement of the history", displacement.len(), size)?;
+        let places = self.boundary.places();
+        same_length("displacement of the history", displacement.len(), places.clone().count())?;
         prepared.advance(&self.boundary, self.incident.as_deref())?;
-        for (k, value) in displacement.iter_mut().enumerate() {
-            *value = prepared.free[component(contact, layout, k)];
+        for (value, place) in displacement.iter_mut().zip(places) {
+            *value = prepared.free[place];
         }
         Ok(())
     }
@@ -310,7 +302,7 @@ impl Ground for FullPlaneGround {
         if let Some(prepared) = &mut self.prepared {
             // After a failure here, the next history fails in the same way.
             if prepared.advance(&self.boundary, self.incident.as_deref()).is_ok() {
-                prepared.commit(self.boundary.contact(), traction);
+                prepared.commit(&self.boundary, traction);
             }
         }
     }
@@ -321,12 +313,11 @@ impl Ground for FullPlaneGround {
         let elements = self.elements();
         let size = ContactLayout::new(PLANE, elements.len()).square();
         same_length("static compliance", matrix.len(), size)?;
-        let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
         if self.boundary.is_flat() {
-            return StaticKernel::new(self.soil, datum)?.compliance(elements, matrix);
+            return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }
-        let (segments, contact) = (self.boundary.segments(), self.boundary.contact());
-        static_compliance(self.soil, segments, contact, datum, matrix)
+        let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
+        static_compliance(self.soil, &self.boundary, datum, matrix)
     }
 
     /// The incident field at the midpoints, if there is one; the scene's own motion otherwise.
@@ -351,11 +342,6 @@ impl Ground for FullPlaneGround {
         }
     }
 }
-
-const NOT_PREPARED: Error = Error::Scene {
-    quantity: "full-plane ground",
-    needed: "`prepare` must be called with the time step first",
-};
 
 const TWO_MOTIONS: Error = Error::Scene {
     quantity: "ground motion",

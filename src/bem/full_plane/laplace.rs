@@ -21,11 +21,9 @@
 
 use std::f64::consts::PI;
 
-use super::Segment;
+use super::Boundary;
 use super::boundary::PairClasses;
-use crate::error::{Error, Result};
-use crate::geometry::{ContactLayout, PLANE};
-use crate::linalg::DenseFactor;
+use crate::error::Result;
 use crate::soil::Soil;
 use complex_bessel::{Scaling, besselk_seq};
 use realfft::num_complex::Complex;
@@ -232,17 +230,15 @@ fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7
     ]
 }
 
-/// Static displacements of the elements `contact` per unit traction on them, 2Q × 2Q in the order
+/// Static displacements of the contact elements per unit traction on them, 2Q × 2Q in the order
 /// of contact vectors; all other elements free.
 pub(super) fn static_compliance(
     soil: Soil,
-    segments: &[Segment],
-    contact: &[usize],
+    boundary: &Boundary,
     datum: f64,
     matrix: &mut [f64],
 ) -> Result<()> {
-    let layout = ContactLayout::new(PLANE, segments.len());
-    let size = layout.len();
+    let (segments, layout) = (boundary.segments(), boundary.layout());
     let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
     let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
@@ -253,22 +249,8 @@ pub(super) fn static_compliance(
         let mu = soil.shear_modulus();
         [[[at(0), at(1)], [at(1), at(2)]], [[mu * at(3), mu * at(5)], [mu * at(4), mu * at(6)]]]
     });
-    let mut factor = DenseFactor::with_capacity(size);
-    if !factor.factor(&h, size) {
-        return Err(Error::Singular { matrix: "static boundary operator", order: size });
-    }
-    let width = ContactLayout::new(PLANE, contact.len()).len();
-    let mut column = vec![0.0; size];
-    for k in 0..width {
-        let source = super::convolution::component(contact, layout, k);
-        for (i, value) in column.iter_mut().enumerate() {
-            *value = g[i * size + source];
-        }
-        factor.solve(&mut column);
-        for i in 0..width {
-            matrix[i * width + k] = column[super::convolution::component(contact, layout, i)];
-        }
-    }
+    let (_, mobility) = boundary.mobility(&g, &h)?;
+    boundary.compliance(&mobility, matrix);
     Ok(())
 }
 

@@ -12,21 +12,14 @@ use super::convolution::BoundaryHistory;
 use super::stability_symbol::Symbol;
 use super::stability_zeros::{passivity, smallest_zero};
 use super::{Boundary, BoundaryCondition, BoundaryKernel};
-use crate::error::{Error, Result, positive, same_length};
+use crate::error::{Error, Result, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Growth that can be looked for.
 pub(super) fn check_growth(smallest: f64) -> Result<()> {
-    positive("growth looked for", smallest)?;
-    if (1e-7..=0.5).contains(&smallest) {
-        return Ok(());
-    }
-    Err(Error::Input {
-        quantity: "growth looked for",
-        value: smallest,
-        needed: "between 1e-7 and 0.5 per step",
-    })
+    let fits = (1e-7..=0.5).contains(&smallest);
+    require("growth looked for", smallest, fits, "between 1e-7 and 0.5 per step").map(drop)
 }
 
 /// Assessment of a boundary equation that is to be marched.
@@ -52,7 +45,8 @@ pub struct Stability {
     /// If modes grow in the traction-free problem, C is not the transform of a causal march, and
     /// the figure says little.
     pub passivity: Option<f64>,
-    /// The same of s L C at the transform's s = δ(ζ)/Δt, for kernels that know it.
+    /// Smallest eigenvalue of the Hermitian part of s L C, relative likewise, at the transform's s = δ(ζ)/Δt, for
+    /// kernels that know it.
     pub passivity_of_rate: Option<f64>,
     /// Angle of ζ where [`Stability::passivity`] is worst, rad.
     pub passivity_angle: Option<f64>,
@@ -105,7 +99,7 @@ impl Stability {
         Self::of(&Symbol::new(kernel, conditions)?, smallest_growth)
     }
 
-    /// As [`Stability::assess`], of a symbol that is there.
+    /// Stability of a symbol that is known.
     pub(super) fn of(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
         let found = smallest_zero(symbol, smallest_growth)?;
         let passivity = passivity(symbol)?;
@@ -231,7 +225,7 @@ impl fmt::Display for GroundStability {
 
 // Boundary-value problems in time: tractions or displacements given on any polygon.
 
-/// Which of the two is given for a component of an element.
+/// Quantity that is given for a component of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Given {
     /// The traction, Pa: constant over the step.

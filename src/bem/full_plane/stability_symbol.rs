@@ -159,9 +159,8 @@ impl<'a> Symbol<'a> {
     fn scaled(&self, lag: usize) -> Result<Vec<f64>> {
         let stride = self.stride();
         let mut values = vec![0.0; stride];
-        let (g, h) = values.split_at_mut(stride / 2);
-        self.kernel.coefficients(lag, g, h)?;
-        for value in g.iter_mut() {
+        self.read(lag, &mut values)?;
+        for value in &mut values[..stride / 2] {
             *value *= self.scale;
         }
         for value in &mut values {

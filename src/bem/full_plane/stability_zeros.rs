@@ -87,12 +87,7 @@ impl Search<'_> {
     fn log_determinant(&mut self, zeta: Complex64) -> Result<Complex64> {
         self.symbol.at(zeta, &mut self.sum)?;
         self.symbol.operator(&self.sum, &mut self.operator);
-        if self.factor.factor(&self.operator, self.symbol.order()) {
-            Ok(self.factor.log_determinant())
-        } else {
-            let order = self.symbol.order();
-            Err(Error::Singular { matrix: "symbol of the boundary equation", order })
-        }
+        log_determinant(&mut self.factor, &self.operator, self.symbol.order())
     }
 
     /// Zeros inside |ζ| < `radius`, and the point of the circle where det F turns fastest: next
@@ -101,14 +96,9 @@ impl Search<'_> {
     /// F is real on the real axis, so that half the circle tells.
     fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
         let operators = self.symbol.operators_on(radius, POINTS);
-        let mut values = Vec::with_capacity(operators.len());
-        for operator in &operators {
-            if !self.factor.factor(operator, self.symbol.order()) {
-                let order = self.symbol.order();
-                return Err(Error::Singular { matrix: "symbol of the boundary equation", order });
-            }
-            values.push(self.factor.log_determinant());
-        }
+        let (factor, order) = (&mut self.factor, self.symbol.order());
+        let values = operators.iter().map(|operator| log_determinant(factor, operator, order));
+        let values: Vec<_> = values.collect::<Result<_>>()?;
         let step = TAU / POINTS as f64;
         let (mut turn, mut fastest) = (0.0, (0.0, 0.0));
         for (k, ends) in values.windows(2).enumerate() {
@@ -175,6 +165,19 @@ impl Search<'_> {
     fn is_smallest(&mut self, zero: Complex64) -> Result<bool> {
         let margin = 1e-3 * (1.0 - zero.norm());
         Ok(self.zeros_inside(zero.norm() - margin)?.0 == 0)
+    }
+}
+
+/// ln det of an operator of this order.
+fn log_determinant(
+    factor: &mut DenseFactor<Complex64>,
+    operator: &[Complex64],
+    order: usize,
+) -> Result<Complex64> {
+    if factor.factor(operator, order) {
+        Ok(factor.log_determinant())
+    } else {
+        Err(Error::Singular { matrix: "symbol of the boundary equation", order })
     }
 }
 

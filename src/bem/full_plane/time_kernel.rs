@@ -3,7 +3,7 @@
 use super::boundary::{PairClasses, check_segments};
 use super::step_integrals::{Integrals, Medium, step_integrals};
 use super::{BoundaryKernel, Segment};
-use crate::error::{Error, Result, positive, same_length};
+use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::gauss;
@@ -47,8 +47,8 @@ impl TimeKernel {
     /// Kernel for a soil, elements and steps of `time_step` seconds.
     ///
     /// # Errors
-    /// [`Error::Size`] for no elements, [`Error::Input`] for an element without length, one that
-    /// passes through the midpoint of another, or a bad time step.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for an element
+    /// without length, one that passes through the midpoint of another, or a bad time step.
     pub fn new(soil: Soil, segments: &[Segment], time_step: f64) -> Result<Self> {
         check_segments(segments)?;
         positive("time step", time_step)?;
@@ -67,7 +67,7 @@ impl TimeKernel {
     /// For comparison only: it is slower and less accurate.
     ///
     /// # Errors
-    /// [`Error::Input`] for 0.
+    /// [`Error::Input`](crate::Error::Input) for 0.
     pub fn with_subelements(self, count: usize) -> Result<Self> {
         self.with_gauss_subelements(count, 1)
     }
@@ -76,22 +76,11 @@ impl TimeKernel {
     /// eight.
     ///
     /// # Errors
-    /// [`Error::Input`] for no sub-elements, or a number of points outside 1 to 8.
+    /// [`Error::Input`](crate::Error::Input) for no sub-elements, or a number of points outside 1 to 8.
     pub fn with_gauss_subelements(mut self, count: usize, points: usize) -> Result<Self> {
-        if !(1..=8).contains(&points) {
-            return Err(Error::Input {
-                quantity: "number of Gauss points of a sub-element",
-                value: points as f64,
-                needed: "from 1 to 8",
-            });
-        }
-        if count == 0 {
-            return Err(Error::Input {
-                quantity: "number of sub-elements",
-                value: 0.0,
-                needed: "at least 1",
-            });
-        }
+        let fits = (1..=8).contains(&points);
+        require("number of Gauss points of a sub-element", points as f64, fits, "from 1 to 8")?;
+        require("number of sub-elements", count as f64, count > 0, "at least 1")?;
         self.subelements = Some([count, points]);
         Ok(self)
     }

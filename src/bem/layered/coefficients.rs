@@ -280,19 +280,15 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let mut values = vec![];
         for point in place.places() {
             let over = factor(node, point).inverse();
-            for node in self.nodes(point).skip(node).take(1) {
-                let first = values.len();
-                self.integrals.outlook(&self.profile, self.variable(node), work, &mut values)?;
-                let weight = node.weight * over;
-                values[first..].iter_mut().for_each(|value| *value = *value * weight);
-            }
+            let Some(node) = self.nodes(point).nth(node) else { continue };
+            let first = values.len();
+            self.integrals.outlook(&self.profile, self.variable(node), work, &mut values)?;
+            let weight = node.weight * over;
+            values[first..].iter_mut().for_each(|value| *value = *value * weight);
         }
         let own: Vec<_> = (0..values.len() / (POINTS * OUTLOOK)).map(|place| [place; 2]).collect();
         let tolerance = self.tolerance;
-        Ok(move |times| {
-            own.is_empty()
-                || Polynomials::through::<OUTLOOK>(&values, &own, times * tolerance).is_some()
-        })
+        Ok(move |times| Polynomials::through::<OUTLOOK>(&values, &own, times * tolerance).is_some())
     }
 
     /// Samples those of the panels at `places` that have not been met before and look resolved.
@@ -346,10 +342,9 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
                 // A thread that panicked leaves a queue that is still good.
                 let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
                 let Some((number, (place, sums))) = next else { break };
-                for node in self.nodes(*place).skip(node).take(1) {
-                    self.add(node, &mut work, &mut scratch, sums)
-                        .map_err(|error| (number, error))?;
-                }
+                let own = self.nodes(*place).nth(node);
+                own.map_or(Ok(()), |node| self.add(node, &mut work, &mut scratch, sums))
+                    .map_err(|error| (number, error))?;
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 after(done).map_err(|error| (number, error))?;
             }

@@ -9,6 +9,11 @@
 //! differential equations: the reflected waves of a slab would nearly cancel the others, and what soft ground
 //! below it gives would drown in their rounding.
 //!
+//! Waves polarised across the wavenumber have the impedance Z = σ/u alone: μβ in a half-space, and through a layer of
+//! thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom Z ← z₀ (1 − R)/(1 + R).
+//! With E = 1 − e^(−2βh) that is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps its digits in thin layers; a rigid
+//! base is Z = ∞.
+//!
 //! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
 //! |s|/(c k) → 0; all differences are formed as products.
 //!
@@ -138,10 +143,10 @@ impl Compliance {
         Some((last.modulus, last.q2, last.a2))
     }
 
-    /// μ(s), β and thickness (infinite for a half-plane) of the layers that the last evaluation went through.
-    pub(crate) fn shear_waves(&self) -> impl DoubleEndedIterator<Item = (Complex, Complex, f64)> {
-        let layers = self.layers.iter().zip(&self.roots);
-        layers.map(|(layer, [_, beta])| (layer.modulus, *beta, layer.thickness))
+    /// |√q₂| of the top layer, 1/m; infinite where squares leave the range of f64.
+    pub(crate) fn root(&self) -> f64 {
+        let root = self.layers[0].q2.sqrt().abs();
+        if root.is_nan() { f64::INFINITY } else { root }
     }
 
     /// C at the wavenumber `k` > 0, 1/m.
@@ -186,6 +191,40 @@ impl Compliance {
         let c = u.times_inverse(t);
         Surface { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
     }
+
+    /// `C_tt` = 1/Z: displacement by shear across the wavenumber at which the last evaluation was, m/Pa.
+    pub(crate) fn across(&self) -> Complex {
+        // Below the last layer that is felt, rigid is as good as anything.
+        let mut below = None;
+        for (layer, [_, beta]) in self.layers.iter().zip(&self.roots).rev() {
+            let own = layer.modulus * *beta;
+            if layer.thickness.is_infinite() {
+                below = Some(own);
+                continue;
+            }
+            let missing = one_less_exponential(beta.scale(2.0 * layer.thickness));
+            let rest = Complex::real(2.0) - missing;
+            let (above, under) = match below {
+                Some(z) => (own * missing + z * rest, own * rest + z * missing),
+                None => (rest, missing),
+            };
+            below = Some(own * above / under);
+        }
+        below.map_or_else(Complex::default, Complex::inverse)
+    }
+}
+
+/// |x| below which 1 − e^(−x) is summed as a series.
+const SERIES: f64 = 0.3;
+
+/// 1 − e^(−x) for Re x ≥ 0.
+fn one_less_exponential(x: Complex) -> Complex {
+    if x.square() > SERIES * SERIES {
+        return Complex::real(1.0) - (-x).exp();
+    }
+    let terms = (2..=13).rev().map(f64::from);
+    let one = Complex::real(1.0);
+    x * terms.fold(one, |sum, n| one - (x * sum).scale(1.0 / n))
 }
 
 /// Down-going waves of a layer.

@@ -49,7 +49,7 @@ pub(crate) struct Circle {
 }
 
 impl Circle {
-    /// That of so many points for a relative accuracy of F.
+    /// Circle of `length` points for a relative accuracy of F.
     pub(crate) fn new(length: usize, tolerance: f64) -> Self {
         // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
         Self { length, logarithm: 2.0 / 3.0 * tolerance.ln() / length as f64 }

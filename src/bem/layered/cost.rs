@@ -8,10 +8,10 @@ use std::fmt;
 use std::ops::Range;
 
 use super::coefficients::{Block, DOUBT, Quadrature};
-use super::contour::{Circle, Panels, Place};
+use super::contour::{Panels, Place};
 use super::form_factors::{DEGREES, FormRow, LANES, POINTS, Panel};
 use super::passivity;
-use super::wavenumber::{Compliances, Counts, Workspace};
+use super::wavenumber::{Compliances, Counts, Wavenumbers, Workspace};
 use crate::error::{LayeredError, Result};
 use crate::history::KINDS;
 use crate::linalg::Complex;
@@ -33,14 +33,14 @@ const POINT: f64 = 170.0;
 /// (`cost/tests.rs`).
 const MISJUDGED: usize = 5;
 /// Samples for each that a look stands for.
-pub(crate) const SUMMED: f64 = 1.0 + 1.0 / MISJUDGED as f64;
+const SUMMED: f64 = 1.0 + 1.0 / MISJUDGED as f64;
 /// Samples of each eigenvalue that are looked at.
 const LOOKED_AT: usize = 16;
 /// Halving makes no integral so many times as long as its panels, as a rule.
-const MOST_HALVING: f64 = 50.0;
+pub(in crate::bem) const MOST_HALVING: f64 = 50.0;
 
-/// What step coefficients cost before the first step: by counting, not by a clock, so that the same is
-/// said everywhere.
+/// Cost of step coefficients before the first step: by counting, not by a clock, so that it is the same
+/// everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -74,14 +74,6 @@ struct Total {
 /// Samples of each eigenvalue, block by block: ln |z| and angle.
 pub(crate) struct Outlook(Vec<Vec<Vec<[f64; 2]>>>);
 
-/// A sample of an eigenvalue that stands for so many.
-pub(crate) struct Look {
-    pub(crate) node: usize,
-    /// ln |z| and angle.
-    pub(crate) place: [f64; 2],
-    pub(crate) samples: usize,
-}
-
 impl Outlook {
     /// Numbers of samples of all eigenvalues, block by block.
     pub(crate) fn counts(&self) -> impl Iterator<Item = usize> {
@@ -90,23 +82,6 @@ impl Outlook {
             let looked: usize = self.0.iter().map(|blocks| blocks[place].len()).sum();
             looked + looked / MISJUDGED
         })
-    }
-
-    /// Some samples of each eigenvalue, and of the gate if that is `open`.
-    pub(crate) fn looks(&self, open: bool) -> Vec<Look> {
-        let mut looks = vec![];
-        for (node, blocks) in self.0.iter().enumerate() {
-            let gate = passivity::places().filter(|_| open);
-            let mut samples: Vec<_> = gate.chain(blocks.iter().flatten().copied()).collect();
-            samples.sort_by(|[one, a], [two, b]| a.total_cmp(b).then(one.total_cmp(two)));
-            let stride = samples.len().div_ceil(LOOKED_AT).max(1);
-            looks.extend(samples.chunks(stride).map(|some| Look {
-                node,
-                place: some[some.len() / 2],
-                samples: some.len(),
-            }));
-        }
-        looks
     }
 }
 
@@ -161,84 +136,158 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     }
 }
 
-impl Quadrature {
-    /// Cost of the blocks `missing`, and of the passivity gate if that is `open`.
-    pub(super) fn cost(&self, missing: Range<usize>, open: bool) -> Result<Cost> {
-        let total = self.counted(missing.clone(), open, &mut Workspace::default())?;
-        Ok(self.priced(&total, missing))
+/// Compliances whose cost is known beforehand.
+pub(crate) trait Priced<const KINDS: usize>: Compliances<KINDS> + Sized {
+    /// Shortest side of an element, m.
+    fn shortest(&self) -> f64;
+
+    /// Most seconds that `samples` of the mobility take, and the gate for a matrix of order `gate`, told without an
+    /// evaluation.
+    ///
+    /// # Errors
+    /// As for [`Compliances::compliance`].
+    fn most(quadrature: &Quadrature<Self, KINDS>, samples: f64, gate: Option<usize>)
+    -> Result<f64>;
+
+    /// Cost of the blocks `missing`, of which `outlook` has the samples, and of the gate for a matrix of order `gate`;
+    /// and what would lower it most.
+    ///
+    /// # Errors
+    /// As for [`Compliances::compliance`].
+    fn cost(
+        quadrature: &Quadrature<Self, KINDS>,
+        outlook: &Outlook,
+        missing: Range<usize>,
+        gate: Option<usize>,
+    ) -> Result<(Cost, &'static str)>;
+}
+
+impl<I: Priced<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
+    /// Cost of the blocks `missing`, and of the gate for a matrix of order `gate`; and what would lower it most.
+    pub(super) fn cost(
+        &self,
+        missing: Range<usize>,
+        gate: Option<usize>,
+    ) -> Result<(Cost, &'static str)> {
+        let outlook = self.outlook(missing.clone(), &mut I::Workspace::default())?;
+        I::cost(self, &outlook, missing, gate)
     }
 
     /// Error if that is more than `limit` seconds, with the `outlook` of these blocks if it is known.
     pub(super) fn afford(
         &self,
         missing: Range<usize>,
-        open: bool,
+        gate: Option<usize>,
         limit: f64,
         outlook: Option<&Outlook>,
     ) -> Result<()> {
         // Most grounds are told without an evaluation: as if every point of the circles were sampled.
-        let circles = missing.clone().map(|number| Block::circle(number, self.tolerance));
-        let points: usize = circles.map(Circle::points).sum();
-        let shortest = 6.0 / self.time_step;
-        let panels = self.integrals.widest(&self.profile, Complex::real(shortest))? as f64;
-        let layers = self.profile.layers().len() as f64;
-        let pairs = PRODUCT * (6 * LANES * self.integrals.forms.blocks()) as f64;
-        let each = POINTS as f64 * panels * (EVALUATION + LAYER * layers + pairs);
-        let samples = (points + passivity::POINTS) as f64 * self.stages.count() as f64;
-        if 1e-9 * MOST_HALVING * samples * each <= limit {
+        let samples = (self.points(&missing) + passivity::POINTS) * self.stages.count();
+        if I::most(self, samples as f64, gate)? <= limit {
             return Ok(());
         }
-        let mut work = Workspace::default();
-        let total = match outlook {
-            Some(outlook) => self.total(outlook, open, &mut work)?,
-            None => self.counted(missing.clone(), open, &mut work)?,
+        let (Cost { seconds, .. }, cure) = match outlook {
+            Some(outlook) => I::cost(self, outlook, missing.clone(), gate)?,
+            None => self.cost(missing.clone(), gate)?,
         };
-        let seconds = self.priced(&total, missing.clone()).seconds;
         if seconds <= limit {
             return Ok(());
         }
-        let cure = if 2.0 * total.sum.deep > total.sum.integrals {
-            "a thicker top layer"
-        } else if self.profile.soils().any(|(_, damping)| damping.identity() == Elastic.identity())
-        {
-            "damping of every layer"
-        } else {
-            "a longer time step"
-        };
         let top = self.profile.layers().first();
         Err(LayeredError::TooCostly {
             seconds,
             limit,
             lags: missing.end.checked_sub(1).map_or(1, Block::last),
             time_step: self.time_step,
-            element: self.integrals.shortest,
+            element: self.integrals.shortest(),
             layer: top.map_or(f64::INFINITY, |layer| layer.thickness),
             cure,
         }
         .into())
     }
 
-    /// Counts of all samples, by a look at some of each eigenvalue.
-    fn counted(&self, missing: Range<usize>, open: bool, work: &mut Workspace) -> Result<Total> {
-        let outlook = self.outlook(missing, work)?;
-        self.total(&outlook, open, work)
-    }
-
-    fn total(&self, outlook: &Outlook, open: bool, work: &mut Workspace) -> Result<Total> {
-        let mut total = Total::default();
-        for Look { node, place, samples } in outlook.looks(open) {
-            for node in self.nodes(place).skip(node).take(1) {
-                let uses = SUMMED * samples as f64;
-                let met = &mut total.met;
-                let meet = |panel: Panel, halved: bool| {
-                    let met = met.entry((panel, halved)).or_default();
-                    *met = Met { looks: met.looks + 1, uses: met.uses + uses };
-                };
-                let s = self.variable(node);
-                let counts = self.integrals.counts(&self.profile, s, work, meet)?;
-                total.sum = total.sum.with(&counts, |sum, one| sum + uses * one);
+    /// Calls `look` with the Laplace variables of some samples of each eigenvalue, and of the gate if that is `open`,
+    /// and the number of samples that each stands for.
+    pub(in crate::bem) fn look(
+        &self,
+        Outlook(nodes): &Outlook,
+        open: bool,
+        mut look: impl FnMut(Complex, f64) -> Result<()>,
+    ) -> Result<()> {
+        for (number, blocks) in nodes.iter().enumerate() {
+            let gate = passivity::places().filter(|_| open);
+            let mut samples: Vec<_> = gate.chain(blocks.iter().flatten().copied()).collect();
+            samples.sort_by(|[one, a], [two, b]| a.total_cmp(b).then(one.total_cmp(two)));
+            let stride = samples.len().div_ceil(LOOKED_AT).max(1);
+            for some in samples.chunks(stride) {
+                let Some(node) = self.nodes(some[some.len() / 2]).nth(number) else { continue };
+                look(self.variable(node), SUMMED * some.len() as f64)?;
             }
         }
+        Ok(())
+    }
+
+    /// Points of the circles of some blocks.
+    pub(in crate::bem) fn points(&self, blocks: &Range<usize>) -> usize {
+        blocks.clone().map(|number| Block::circle(number, self.tolerance).points()).sum()
+    }
+
+    /// Most bytes of the first `blocks` blocks while the last is made.
+    pub(in crate::bem) fn memory(&self, blocks: usize) -> f64 {
+        let Some(last) = blocks.checked_sub(1) else { return 0.0 };
+        let points = Block::circle(last, self.tolerance).points() as f64;
+        let own = 8.0 * Block::last(last) as f64 + size_of::<Complex>() as f64 * points;
+        own * (KINDS * self.classes) as f64
+    }
+}
+
+impl Priced<KINDS> for Wavenumbers {
+    fn shortest(&self) -> f64 {
+        self.shortest
+    }
+
+    fn most(quadrature: &Quadrature, samples: f64, _gate: Option<usize>) -> Result<f64> {
+        let Quadrature { integrals, profile, time_step, .. } = quadrature;
+        let panels = integrals.widest(profile, Complex::real(6.0 / time_step))? as f64;
+        let layers = profile.layers().len() as f64;
+        let pairs = PRODUCT * (6 * LANES * integrals.forms.blocks()) as f64;
+        let each = POINTS as f64 * panels * (EVALUATION + LAYER * layers + pairs);
+        Ok(1e-9 * MOST_HALVING * samples * each)
+    }
+
+    fn cost(
+        quadrature: &Quadrature,
+        outlook: &Outlook,
+        missing: Range<usize>,
+        gate: Option<usize>,
+    ) -> Result<(Cost, &'static str)> {
+        let total = quadrature.total(outlook, gate.is_some(), &mut Workspace::default())?;
+        let damping = |law: &dyn Relaxation| law.identity() == Elastic.identity();
+        let cure = if 2.0 * total.sum.deep > total.sum.integrals {
+            "a thicker top layer"
+        } else if quadrature.profile.soils().any(|(_, law)| damping(law)) {
+            "damping of every layer"
+        } else {
+            "a longer time step"
+        };
+        Ok((quadrature.priced(&total, missing), cure))
+    }
+}
+
+impl Quadrature {
+    /// Counts of all samples, by a look at some of each eigenvalue.
+    fn total(&self, outlook: &Outlook, open: bool, work: &mut Workspace) -> Result<Total> {
+        let mut total = Total::default();
+        self.look(outlook, open, |s, uses| {
+            let met = &mut total.met;
+            let meet = |panel: Panel, halved: bool| {
+                let met = met.entry((panel, halved)).or_default();
+                *met = Met { looks: met.looks + 1, uses: met.uses + uses };
+            };
+            let counts = self.integrals.counts(&self.profile, s, work, meet)?;
+            total.sum = total.sum.with(&counts, |sum, one| sum + uses * one);
+            Ok(())
+        })?;
         Ok(total)
     }
 
@@ -273,25 +322,15 @@ impl Quadrature {
             * LANES as f64
             * blocks
             * (points * (sum.panels - sum.halved) + degrees * sum.halved);
-        let circles = missing.clone().map(|number| Block::circle(number, self.tolerance));
-        let on_circles: usize = circles.map(Circle::points).sum();
         let nanoseconds = LAYER * sum.layers
             + EVALUATION * sum.evaluations
             + MOMENTS * sum.halves
             + FORM_FACTOR * factors
             + WIDE * wide[1] * classes
             + PRODUCT * products
-            + POINT * on_circles as f64 * classes;
+            + POINT * self.points(&missing) as f64 * classes;
         let memory = rows * blocks * ROW + self.memory(missing.end);
         Cost { seconds: 1e-9 * nanoseconds, evaluations: sum.evaluations, memory }
-    }
-
-    /// Most bytes of the first `blocks` blocks while the last is made.
-    pub(super) fn memory(&self, blocks: usize) -> f64 {
-        let Some(last) = blocks.checked_sub(1) else { return 0.0 };
-        let points = Block::circle(last, self.tolerance).points() as f64;
-        let own = 8.0 * Block::last(last) as f64 + size_of::<Complex>() as f64 * points;
-        own * (KINDS * self.classes) as f64
     }
 }
 

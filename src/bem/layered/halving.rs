@@ -3,9 +3,9 @@
 use super::compliance::Surface;
 use super::form_factors::{DEGREES, POINTS, Panel, legendre_at};
 use super::tail::grid;
-use super::wavenumber::{Found, SHORT, Wavenumbers, Workspace, parts};
-use crate::history::KINDS;
+use super::wavenumber::{Found, SHORT, Scratch, Wavenumbers, parts};
 use crate::linalg::Complex;
+use crate::linalg::gauss::Rule;
 
 /// Rounding of C relative to its largest value on a panel.
 pub(crate) const FLOOR: f64 = 3e-14;
@@ -45,12 +45,37 @@ pub(crate) fn by_halves<S>(
     Ok(())
 }
 
+/// The median of some samples' sizes: one sample beside a pole says little of the integral.
+pub(crate) fn median(mut sizes: [f64; POINTS]) -> f64 {
+    *sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp).1
+}
+
+/// Size of the last two Legendre coefficients of functions given by `samples` at Gauss points, the largest of all;
+/// `None` if one is not a number.
+pub(crate) fn last_coefficients<const N: usize>(
+    samples: impl Iterator<Item = [Complex; N]>,
+    rule: &Rule,
+    polynomials: &[[f64; DEGREES]],
+) -> Option<f64> {
+    let mut last = [[Complex::default(); N]; 2];
+    for ((values, weight), polynomials) in samples.zip(&rule.weights).zip(polynomials) {
+        for (degree, last) in [POINTS - 2, POINTS - 1].into_iter().zip(&mut last) {
+            let factor = (degree as f64 + 0.5) * weight * polynomials[degree];
+            for (last, value) in last.iter_mut().zip(values) {
+                *last += value.scale(factor);
+            }
+        }
+    }
+    let errors: [f64; N] = std::array::from_fn(|c| last[0][c].abs() + last[1][c].abs());
+    (!errors.iter().sum::<f64>().is_nan()).then(|| errors.into_iter().fold(0.0, f64::max))
+}
+
 impl Wavenumbers {
     /// Calls `take` with each panel that C is resolved on, what was found there, and evaluations of C in its halves.
     pub(super) fn resolve(
         &self,
         panels: usize,
-        work: &mut Workspace,
+        work: &mut Scratch,
         symbol: &mut dyn FnMut(f64) -> Surface,
         take: &mut dyn FnMut(Panel, Found, usize),
     ) -> std::result::Result<(), f64> {
@@ -101,20 +126,18 @@ impl Wavenumbers {
     fn sample(
         &self,
         panels: usize,
-        work: &mut Workspace,
+        work: &mut Scratch,
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> [f64; 2] {
-        let Workspace { samples, wide, .. } = work;
+        let Scratch { samples, wide, .. } = work;
         samples.clear();
         let mut whole = 0.0;
         self.begin(panels, wide, |panel| {
             let [left, width] = self.forms.extent(panel);
             let found = self.sampled(left, width, symbol);
-            // The median: one sample beside a pole says little of the integral.
-            let mut sizes = found.map(|c| c.xx.abs() + c.zz.abs());
-            let (_, median, _) = sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp);
+            let size = median(found.map(|c| c.xx.abs() + c.zz.abs()));
             let share = (2.0 / ((left + 0.5 * width) * self.longest)).powi(2).min(1.0);
-            whole += 0.5 * width * share * *median;
+            whole += 0.5 * width * share * size;
             samples.push((panel, found));
         });
         work.evaluations += POINTS * work.samples.len();
@@ -132,26 +155,14 @@ impl Wavenumbers {
 
     /// Whether the last two Legendre coefficients of C are small enough.
     fn resolved(&self, samples: &[Surface; POINTS], left: f64, width: f64, allowed: f64) -> bool {
-        let mut last = [[Complex::default(); KINDS]; 2];
-        let mut largest = 0.0_f64;
-        for (i, sample) in samples.iter().enumerate() {
-            let values = [sample.xx, sample.zz, sample.xz];
-            for value in values {
-                largest = largest.max(value.re.abs()).max(value.im.abs());
-            }
-            for (degree, last) in [POINTS - 2, POINTS - 1].into_iter().zip(&mut last) {
-                let polynomial = self.polynomials[i][degree];
-                let factor = (degree as f64 + 0.5) * self.forms.rule.weights[i] * polynomial;
-                for (last, value) in last.iter_mut().zip(values) {
-                    *last += value.scale(factor);
-                }
-            }
-        }
-        let errors = [0, 1, 2].map(|c| last[0][c].abs() + last[1][c].abs());
-        if errors.iter().sum::<f64>().is_nan() {
+        let values = |sample: &Surface| [sample.xx, sample.zz, sample.xz];
+        let rule = &self.forms.rule;
+        let all = samples.iter().map(values);
+        let Some(error) = last_coefficients(all.clone(), rule, &self.polynomials) else {
             return false;
-        }
-        let error = errors.into_iter().fold(0.0, f64::max);
+        };
+        let sizes = all.flatten().map(|value| value.re.abs().max(value.im.abs()));
+        let largest = sizes.fold(0.0_f64, f64::max);
         let share = (2.0 / (left * self.shortest)).powi(2).min(1.0);
         error * width * share <= allowed || error <= FLOOR * largest
     }
@@ -161,12 +172,12 @@ impl Wavenumbers {
         &self,
         start: f64,
         allowed: f64,
-        work: &mut Workspace,
+        work: &mut Scratch,
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> std::result::Result<[[f64; 6]; DEGREES], f64> {
         let rule = &self.forms.rule;
         let mut moments = [[0.0; 6]; DEGREES];
-        let Workspace { stack, evaluations, .. } = work;
+        let Scratch { stack, evaluations, .. } = work;
         let sample = |left: f64, width: f64| {
             *evaluations += POINTS;
             let samples = self.sampled(left, width, symbol);

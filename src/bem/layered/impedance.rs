@@ -11,8 +11,8 @@ use realfft::num_complex::Complex64;
 
 use super::passivity::assembled;
 use super::static_compliance;
-use super::wavenumber::{Compliances, Wavenumbers, Workspace};
-use crate::error::{Error, LayeredError, Observer, Result, Watch, not_negative};
+use super::wavenumber::{Compliances, Wavenumbers, Workspace, unresolved};
+use crate::error::{Error, Observer, Result, Watch, not_negative, require};
 use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
@@ -75,7 +75,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Im μ/|μ| below which a layer counts as undamped.
 const LOSSLESS: f64 = 1e-6;
 /// Points of the extrapolation.
-pub(in crate::bem) const PER_FREQUENCY: usize = 8;
+const PER_FREQUENCY: usize = 8;
 /// Their distance over ω, and over the inverse of the time that waves take.
 const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between 8 and 7 points.
@@ -101,34 +101,28 @@ const SETTLED: f64 = 1e-3;
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`] for a frequency that is negative or not finite, or 0 on a half-plane, whose static
-/// stiffness is 0; [`LayeredError::Unresolved`] without damping at a frequency at which guided waves
-/// begin; [`Error::Singular`] if the elements cannot be told apart; as for [`PairClasses::new`].
+/// [`Error::Input`] for a frequency that is negative or not finite, or 0 on a half-plane, whose static stiffness is
+/// 0; [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which guided
+/// waves begin; [`Error::Singular`] if the elements cannot be told apart; as for [`PairClasses::new`].
 pub fn rigid_strip_impedances(
     profile: &SoilProfile,
     elements: &[ContactElement],
     frequencies: &[f64],
     contact: StripContact,
 ) -> Result<Vec<StripImpedance>> {
-    all(profile, elements, frequencies, contact, &mut Watch::nobody())
+    strip_impedances(profile, elements, frequencies, contact, &mut Watch::nobody())
 }
 
-/// [`rigid_strip_impedances`] with an observer; parts are points of the Laplace plane, eight to a frequency.
-///
-/// # Errors
-/// [`Error::Stopped`]; as for [`rigid_strip_impedances`].
-pub(crate) fn rigid_strip_impedances_observed(
-    profile: &SoilProfile,
-    elements: &[ContactElement],
+/// Watch of impedances at `frequencies`: parts are points of the Laplace plane, eight to a frequency.
+pub(in crate::bem) fn impedance_watch<'a>(
     frequencies: &[f64],
-    contact: StripContact,
-    observer: &mut Observer<'_>,
-) -> Result<Vec<StripImpedance>> {
-    let mut watch = Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer);
-    all(profile, elements, frequencies, contact, &mut watch)
+    observer: &'a mut Observer<'_>,
+) -> Watch<'a> {
+    Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer)
 }
 
-fn all(
+/// [`rigid_strip_impedances`] with a watch.
+pub(in crate::bem) fn strip_impedances(
     profile: &SoilProfile,
     elements: &[ContactElement],
     frequencies: &[f64],
@@ -136,17 +130,29 @@ fn all(
     watch: &mut Watch,
 ) -> Result<Vec<StripImpedance>> {
     let strip = RigidStrip::new(profile, elements, contact)?;
-    let mut found = Vec::with_capacity(frequencies.len());
-    for (number, frequency) in frequencies.iter().enumerate() {
-        found.push(strip.at(*frequency, &mut |point| watch.reach(PER_FREQUENCY * number + point))?);
-        watch.reach(PER_FREQUENCY * (number + 1))?;
+    profile.check()?;
+    let mut lists = Vec::with_capacity(frequencies.len());
+    for frequency in frequencies {
+        let exists = *frequency != 0.0 || matches!(profile.base(), Base::Rigid);
+        require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
+        lists.push(points(profile, strip.classes.span(), *frequency)?);
     }
-    Ok(found)
+    let found = stiffnesses(&lists, &[0, 1, 2], watch, |s| strip.stiffness(s))?;
+    let impedance = |(frequency, values): (&f64, [Complex; 4])| {
+        let [horizontal, vertical, rocking, coupling] = values;
+        StripImpedance { frequency: *frequency, horizontal, vertical, rocking, coupling }
+    };
+    Ok(frequencies.iter().zip(found).map(impedance).collect())
 }
 
-/// Laplace variables at which the stiffness is evaluated for a frequency, of elements over `span` (m): iω, or
+/// Laplace variables at which the stiffness is evaluated for a `frequency` (Hz), of elements over `span` (m): iω, or
 /// where layers are undamped [`PER_FREQUENCY`] points beside it.
-pub(in crate::bem) fn points(profile: &SoilProfile, span: f64, omega: f64) -> Result<Vec<Complex>> {
+pub(in crate::bem) fn points(
+    profile: &SoilProfile,
+    span: f64,
+    frequency: f64,
+) -> Result<Vec<Complex>> {
+    let omega = std::f64::consts::TAU * not_negative("frequency of an impedance", frequency)?;
     let s = Complex::new(0.0, omega);
     let mut moduli = vec![];
     profile.moduli(s, &mut moduli)?;
@@ -160,11 +166,34 @@ pub(in crate::bem) fn points(profile: &SoilProfile, span: f64, omega: f64) -> Re
     Ok((1..=PER_FREQUENCY).map(|j| Complex::new(step * j as f64, omega)).collect())
 }
 
-/// K(iω) from its samples at [`points`]. Entries `judged` must agree between all samples and all but the last.
+/// K(iω) from its samples `at` the [`points`] of each frequency. Entries `judged` must agree between all samples and
+/// all but the last; `watch` hears of each sample.
 ///
 /// # Errors
-/// [`LayeredError::Unresolved`] where they do not.
-pub(in crate::bem) fn extrapolated<const N: usize>(
+/// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they do not; as for `at`.
+pub(in crate::bem) fn stiffnesses<const N: usize>(
+    lists: &[Vec<Complex>],
+    judged: &[usize],
+    watch: &mut Watch,
+    mut at: impl FnMut(Complex) -> Result<[Complex; N]>,
+) -> Result<Vec<[Complex; N]>> {
+    let mut found = Vec::with_capacity(lists.len());
+    for (number, list) in lists.iter().enumerate() {
+        let mut samples = Vec::with_capacity(list.len());
+        for s in list {
+            samples.push(at(*s)?);
+            if samples.len() < list.len() {
+                watch.reach(PER_FREQUENCY * number + samples.len())?;
+            }
+        }
+        found.push(extrapolated(&samples, judged, list[0].im)?);
+        watch.reach(PER_FREQUENCY * (number + 1))?;
+    }
+    Ok(found)
+}
+
+/// K(iω) at one frequency from its samples.
+fn extrapolated<const N: usize>(
     samples: &[[Complex; N]],
     judged: &[usize],
     omega: f64,
@@ -188,7 +217,7 @@ pub(in crate::bem) fn extrapolated<const N: usize>(
     for place in judged {
         let change = (found[*place] - coarse[*place]).abs();
         if change.is_nan() || change > SETTLED * found[*place].abs() {
-            return Err(LayeredError::Unresolved { re: 0.0, im: omega, wavenumber: 0.0 }.into());
+            return Err(unresolved(Complex::new(0.0, omega), 0.0));
         }
     }
     Ok(found)
@@ -223,48 +252,16 @@ impl<'a> RigidStrip<'a> {
         Ok(Self { profile, contact, classes, integrals, motions })
     }
 
-    /// Calls `after` with the number of each point of the Laplace plane but the last.
-    fn at(
-        &self,
-        frequency: f64,
-        after: &mut dyn FnMut(usize) -> Result<()>,
-    ) -> Result<StripImpedance> {
-        not_negative("frequency of an impedance", frequency)?;
-        self.profile.check()?;
-        let omega = std::f64::consts::TAU * frequency;
-        let values = if frequency == 0.0 {
-            if matches!(self.profile.base(), Base::HalfPlane { .. }) {
-                return Err(Error::Input {
-                    quantity: "frequency of an impedance on a half-plane",
-                    value: frequency,
-                    needed: "above zero",
-                });
-            }
-            self.stiffness(&static_compliance::pairs(self.profile, &self.classes)?)?
-        } else {
-            let mut samples = vec![];
-            let list = points(self.profile, self.classes.span(), omega)?;
-            for (j, s) in list.iter().enumerate() {
-                samples.push(self.dynamic(*s)?);
-                if j + 1 < list.len() {
-                    after(j + 1)?;
-                }
-            }
-            extrapolated(&samples, &[0, 1, 2], omega)?
-        };
-        let [horizontal, vertical, rocking, coupling] = values;
-        Ok(StripImpedance { frequency, horizontal, vertical, rocking, coupling })
-    }
-
-    fn dynamic(&self, s: Complex) -> Result<[Complex; 4]> {
-        let mut values = vec![[Complex::default(); KINDS]; self.classes.count()];
-        self.integrals.compliance(self.profile, s, &mut Workspace::default(), &mut values)?;
-        self.stiffness(&values)
-    }
-
     /// hh, vv, rr and hr of Aᵀ F⁻¹ A.
-    fn stiffness(&self, compliances: &[[Complex; KINDS]]) -> Result<[Complex; 4]> {
-        let mut matrix = assembled(&self.classes, compliances);
+    fn stiffness(&self, s: Complex) -> Result<[Complex; 4]> {
+        let compliances = if s == Complex::default() {
+            static_compliance::pairs(self.profile, &self.classes)?
+        } else {
+            let mut values = vec![[Complex::default(); KINDS]; self.classes.count()];
+            self.integrals.compliance(self.profile, s, &mut Workspace::default(), &mut values)?;
+            values
+        };
+        let mut matrix = assembled(&self.classes, &compliances);
         let layout = self.classes.layout();
         let order = layout.len();
         if self.contact == StripContact::Relaxed {

@@ -1,13 +1,33 @@
 //! Blocks of lags: made once, by one thread at a time, and kept in a file.
+//!
+//! A file has words of eight bytes, little-endian:
+//!
+//! | word | meaning |
+//! |---|---|
+//! | 0, 1 | "BASEMATK", format |
+//! | 2 | fingerprint of the kernel |
+//! | 3, 4 | classes of pairs, blocks of lags |
+//! | then | coefficients: by block, class, kind (zz, xx, zx), lag |
+//! | last | check sum of all before |
+//!
+//! The fingerprint is that of the mobility at the points of the passivity gate, bit for bit, with step,
+//! stages, tolerance and elements: whatever changes a coefficient changes it, be it a layer, a damping law of
+//! one's own, the crate's arithmetic or the machine's. The format stands for the rule by which contours are
+//! sampled as well.
 
+use std::fs::File;
+use std::io::Read;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::coefficients::{BLOCKS, Block, FIRST};
-use super::file;
-use crate::error::{Error, Result, Watch, same_length};
+use crate::error::{
+    Error, KernelFileError, LayeredError, Result, Watch, require, same_length, write_file,
+};
+use crate::text::check_sum::CheckSum;
 
 /// Between two looks whether another thread has ended.
 const WAIT: Duration = Duration::from_millis(20);
@@ -47,7 +67,7 @@ impl KeptBlocks {
         self.blocks[number].get().is_some()
     }
 
-    /// Those of the blocks of `wanted` from the first on that is not there.
+    /// Blocks of `wanted` from the first missing one on.
     pub(crate) fn missing(&self, wanted: Range<usize>) -> Range<usize> {
         wanted.start + wanted.clone().take_while(|number| self.has(*number)).count()..wanted.end
     }
@@ -66,9 +86,7 @@ impl KeptBlocks {
         let checked = self.once(&self.checked, watch, |watch| {
             let fingerprint = check(watch)?;
             if let Some(path) = &self.file {
-                for (place, block) in
-                    self.blocks.iter().zip(file::read(path, fingerprint, self.sizes)?)
-                {
+                for (place, block) in self.blocks.iter().zip(read(path, fingerprint, self.sizes)?) {
                     let _ = place.set(Ok(block));
                 }
             }
@@ -81,10 +99,10 @@ impl KeptBlocks {
     pub(crate) fn write(&self, fingerprint: u64) -> Result<()> {
         let Some(path) = &self.file else { return Ok(()) };
         let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
-        file::write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
+        write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
     }
 
-    /// What is in `place`, made now if nothing is; what was stopped leaves nothing.
+    /// Content of `place`, made now if there is none; making that is stopped leaves none.
     pub(crate) fn once<'a, T>(
         &self,
         place: &'a OnceLock<Result<T>>,
@@ -132,9 +150,7 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
     for others in &values[1..] {
         same_length("coefficients of a kind", others.len(), lags)?;
     }
-    if first_lag == 0 {
-        return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
-    }
+    require("lag", first_lag as f64, first_lag > 0, "at least 1")?;
     last_block(first_lag.saturating_add(lags))?;
     let mut done = 0;
     while done < lags {
@@ -152,13 +168,7 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
 /// Number of the block with lag `lag`.
 pub(crate) fn last_block(lag: usize) -> Result<usize> {
     let most = FIRST << (BLOCKS - 1);
-    if lag > most {
-        return Err(Error::Input {
-            quantity: "lag of a layered ground",
-            value: lag as f64,
-            needed: "at most 2147483648",
-        });
-    }
+    require("lag of a layered ground", lag as f64, lag <= most, "at most 2147483648")?;
     Ok(Block::place(lag).0)
 }
 
@@ -168,4 +178,107 @@ pub(crate) fn threads() -> usize {
     return rayon::current_num_threads();
     #[cfg(not(feature = "rayon"))]
     1
+}
+
+// Files.
+
+const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
+/// 1: of coefficients sampled at every point of their circles; 2: on panels; 3: over powers of z there; 4: where they
+/// look resolved.
+const FORMAT: u64 = 5;
+const HEADER: usize = 5;
+
+/// The blocks of a file, in order; none if there is no file, or one of another kernel or format.
+///
+/// # Errors
+/// [`LayeredError::File`] for a file that cannot be read, is no kernel's, or is damaged.
+fn read(path: &Path, fingerprint: u64, [classes, kinds]: [usize; 2]) -> Result<Vec<Block>> {
+    match contents(path, fingerprint, [classes, kinds]) {
+        Err(KernelFileError::Unreadable(std::io::ErrorKind::NotFound)) => Ok(vec![]),
+        found => found.map_err(|reason| {
+            Error::from(LayeredError::File { file: path.display().to_string(), reason })
+        }),
+    }
+}
+
+fn contents(
+    path: &Path,
+    fingerprint: u64,
+    [classes, kinds]: [usize; 2],
+) -> std::result::Result<Vec<Block>, KernelFileError> {
+    let unreadable = |error: std::io::Error| KernelFileError::Unreadable(error.kind());
+    let mut file = File::open(path).map_err(unreadable)?;
+    let found = file.metadata().map_err(unreadable)?.len();
+    let mut begin = vec![];
+    file.by_ref().take(8 * HEADER as u64).read_to_end(&mut begin).map_err(unreadable)?;
+    let header: Vec<u64> =
+        begin.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
+    if header.first() != Some(&MAGIC) {
+        return Err(KernelFileError::NotAKernel);
+    }
+    if header.get(1).is_some_and(|format| *format != FORMAT) {
+        return Ok(vec![]);
+    }
+    let [_, _, whose, found_classes, blocks] = header[..] else {
+        return Err(KernelFileError::Length { found, needed: None });
+    };
+    if whose != fingerprint || found_classes != classes as u64 {
+        return Ok(vec![]);
+    }
+    let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
+    let size = |blocks: usize| {
+        let lags: usize = (0..blocks).map(Block::lags).sum();
+        (HEADER + kinds * classes * lags + 1) as u64 * 8
+    };
+    let needed = (blocks <= BLOCKS).then(|| size(blocks));
+    if needed != Some(found) {
+        return Err(KernelFileError::Length { found, needed });
+    }
+    let mut bytes = vec![];
+    file.read_to_end(&mut bytes).map_err(unreadable)?;
+    let (words, _) = bytes.as_chunks::<8>();
+    let Some((stored, data)) = words.split_last() else {
+        return Err(KernelFileError::Length { found, needed });
+    };
+    let mut sum = CheckSum::default();
+    for word in begin.as_chunks().0.iter().chain(data) {
+        sum.add(u64::from_le_bytes(*word));
+    }
+    if sum.value() != u64::from_le_bytes(*stored) {
+        return Err(KernelFileError::Damaged);
+    }
+    let mut numbers = data.iter().map(|word| f64::from_le_bytes(*word));
+    if !numbers.clone().all(f64::is_finite) {
+        return Err(KernelFileError::Damaged);
+    }
+    let mut list = |lags: usize| numbers.by_ref().take(lags).collect::<Vec<_>>();
+    let mut block = |number: usize| {
+        let lags = Block::lags(number);
+        Block { values: (0..kinds * classes).map(|_| list(lags)).collect() }
+    };
+    Ok((0..blocks).map(&mut block).collect())
+}
+
+/// Writes the file anew; another process finds the old one or the new, whole.
+fn write(path: &Path, fingerprint: u64, classes: usize, blocks: &[&Block]) -> Result<()> {
+    static WRITTEN: AtomicU64 = AtomicU64::new(0);
+    let lists = || blocks.iter().flat_map(|block| &block.values);
+    let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;
+    let mut bytes: Vec<u8> = Vec::with_capacity(8 * count);
+    let mut sum = CheckSum::default();
+    let header = [MAGIC, FORMAT, fingerprint, classes as u64, blocks.len() as u64];
+    for word in header.into_iter().chain(lists().flatten().map(|number| number.to_bits())) {
+        sum.add(word);
+        bytes.extend(word.to_le_bytes());
+    }
+    bytes.extend(sum.value().to_le_bytes());
+    let mut name = path.as_os_str().to_owned();
+    let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
+    name.push(format!(".{}-{number}", std::process::id()));
+    let beside = Path::new(&name);
+    write_file(beside, bytes)?;
+    std::fs::rename(beside, path).map_err(|error| {
+        let _ = std::fs::remove_file(beside);
+        Error::Write { file: path.display().to_string(), reason: error.kind() }
+    })
 }

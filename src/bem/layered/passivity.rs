@@ -20,15 +20,16 @@ pub(crate) fn places() -> impl Iterator<Item = [f64; 2]> {
         .map(|point| [RADIUS.ln(), std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64])
 }
 
-/// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
-/// times the number of degrees of freedom, every pair relative to its elements' own mobilities.
+/// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the
+/// tolerance of the quadrature times the number of degrees of freedom, every pair relative to its elements' own
+/// mobilities.
 ///
-/// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
-/// `mesh` and of what else a coefficient depends on.
+/// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The
+/// fingerprint is that of all values at these points, of the `mesh` and of what else a coefficient depends on.
 pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
     quadrature: &Quadrature<I, KINDS>,
     classes: &PairClasses,
-    mesh: impl Iterator<Item = f64>,
+    mesh: &[f64],
     watch: &mut Watch,
 ) -> Result<u64> {
     let order = classes.layout().len();
@@ -38,7 +39,7 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
     let mut values = scratch.clone();
     let mut fingerprint = CheckSum::default();
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
-    sizes.into_iter().chain(mesh).for_each(|number| fingerprint.add_number(number));
+    sizes.iter().chain(mesh).for_each(|number| fingerprint.add_number(*number));
     for (point, [logarithm, angle]) in places().enumerate() {
         quadrature.mobility([logarithm, angle], &mut work, &mut scratch, &mut values)?;
         watch.reach(point + 1)?;

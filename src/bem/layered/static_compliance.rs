@@ -10,7 +10,7 @@
 //! with a free datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). A rigid base is its own datum.
 
 use super::compliance::{Compliance, Surface};
-use super::wavenumber::{Wavenumbers, Workspace};
+use super::wavenumber::{Scratch, Wavenumbers, deep};
 use crate::error::{Result, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::history::{KINDS, PairClasses};
@@ -70,8 +70,8 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
         let (even, odd) = (Complex::real(even * decay), Complex::real(odd * decay));
         Surface { xx: c.xx - even, zz: c.zz - even, xz: c.xz + odd }
     };
-    let least = Wavenumbers::deep(profile).max(end);
-    integrals.at_rest(&compliance, least, &mut Workspace::default(), &mut values, &mut symbol)?;
+    let least = deep(profile).max(end);
+    integrals.at_rest(&compliance, least, &mut Scratch::default(), &mut values, &mut symbol)?;
     if let Some([even, odd]) = far {
         for (class, value) in values.iter_mut().enumerate() {
             let [source, receiver] = classes.representative(class)?;
@@ -106,7 +106,7 @@ fn smooth(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bem::layered::wavenumber::Compliances;
+    use crate::bem::layered::wavenumber::{Compliances, Workspace};
     use crate::bem::{Grading, StaticKernel, Strip};
     use crate::soil::{Kjartansson, Soil};
     use crate::{Error, LayeredError};

@@ -14,7 +14,7 @@
 use super::compliance::{Compliance, Surface};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
-use crate::error::{LayeredError, Result};
+use crate::error::{Error, LayeredError, Result, Watch};
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -29,9 +29,20 @@ const MOST_PANELS: f64 = 65_536.0;
 const MOST_FOR_SHORT: f64 = 100.0;
 
 /// Compliances of classes of pairs, of some kinds each.
-pub(crate) trait Compliances<const KINDS: usize>: Sync {
-    /// What one thread needs for one after the other.
+pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
+    /// Scratch of one thread.
     type Workspace: Default;
+
+    /// Errors of late step coefficients, summed, over the 2/3 power of the tolerance and the sum of all coefficients.
+    const LATE_ERROR: f64 = 0.0;
+
+    /// Makes what all compliances share, unless it is there.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped).
+    fn make_ready(&self, _watch: &mut Watch) -> Result<()> {
+        Ok(())
+    }
 
     /// Overwrites `values`, one per class, with the compliances at `s`, Re s > 0 (or damped layers), integrals over
     /// receiver and source.
@@ -47,19 +58,17 @@ pub(crate) trait Compliances<const KINDS: usize>: Sync {
     ) -> Result<()>;
 
     /// Appends [`OUTLOOK`] numbers for each of a few wavenumbers that stand for the compliances at `s`, at a hundredth of
-    /// the cost; nothing where panels are tried without looking.
+    /// the cost.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].
     fn outlook(
         &self,
-        _profile: &SoilProfile,
-        _s: Complex,
-        _work: &mut Self::Workspace,
-        _values: &mut Vec<Complex>,
-    ) -> Result<()> {
-        Ok(())
-    }
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Self::Workspace,
+        values: &mut Vec<Complex>,
+    ) -> Result<()>;
 }
 
 /// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
@@ -82,16 +91,22 @@ pub(crate) struct Wavenumbers {
     pub(super) tolerance: f64,
 }
 
-/// What one thread needs for one integral after the other.
+/// Scratch of one thread.
 #[derive(Debug, Default)]
 pub(crate) struct Workspace {
     pub(crate) compliance: Compliance,
+    pub(super) panels: Scratch,
+}
+
+/// Scratch for the panels of one integral after the other.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
     pub(super) samples: Vec<(Panel, [Surface; POINTS])>,
     sums: Vec<Sums>,
     pub(super) wide: Vec<Panel>,
     pub(super) stack: Vec<(f64, f64, u32)>,
     /// Number of evaluations of C so far.
-    pub(crate) evaluations: usize,
+    pub(super) evaluations: usize,
 }
 
 /// Work that integrals take: numbers, estimated.
@@ -99,14 +114,14 @@ pub(crate) struct Workspace {
 pub(crate) struct Counts {
     /// Panels that are summed.
     pub(crate) panels: f64,
-    /// Those that are halved below the narrowest.
+    /// Panels that are halved below the narrowest.
     pub(crate) halved: f64,
     /// Integrals, and those whose K is for the thickness of the top layer's sake.
     pub(crate) integrals: f64,
     pub(crate) deep: f64,
     /// Evaluations of C.
     pub(crate) evaluations: f64,
-    /// Those in halves.
+    /// Evaluations of C in halves.
     pub(crate) halves: f64,
     /// Layers that evaluations go through after the first.
     pub(crate) layers: f64,
@@ -127,7 +142,7 @@ impl Counts {
     }
 }
 
-/// What a panel gives: C at its points, or the moments of its halves.
+/// Result of a panel: C at its points, or the moments of its halves.
 pub(super) enum Found<'a> {
     Samples(&'a [Surface; POINTS]),
     Moments(&'a [[f64; 6]; DEGREES]),
@@ -144,16 +159,12 @@ impl Compliances<KINDS> for Wavenumbers {
         work: &mut Self::Workspace,
         values: &mut [[Complex; KINDS]],
     ) -> Result<()> {
-        let mut compliance = std::mem::take(&mut work.compliance);
-        let outcome = compliance.set(profile, s).and_then(|()| {
-            let panels = self.panels(Self::reach(&compliance).max(Self::deep(profile)))?;
-            let resolved = self.sum(panels, work, &mut |k| compliance.at(k));
-            resolved.map_err(|k| unresolved(s, k))?;
-            self.add_tail(&compliance, panels, work);
-            Ok(())
-        });
-        work.compliance = compliance;
-        outcome?;
+        let Workspace { compliance, panels: work } = work;
+        compliance.set(profile, s)?;
+        let panels = self.panels(Self::reach(compliance).max(deep(profile)))?;
+        let resolved = self.sum(panels, work, &mut |k| compliance.at(k));
+        resolved.map_err(|k| unresolved(s, k))?;
+        self.add_tail(compliance, panels, work);
         self.read(work, values);
         Ok(())
     }
@@ -167,7 +178,7 @@ impl Compliances<KINDS> for Wavenumbers {
         values: &mut Vec<Complex>,
     ) -> Result<()> {
         work.compliance.set(profile, s)?;
-        work.evaluations +=
+        work.panels.evaluations +=
             surface_outlook(profile, &mut work.compliance, [self.shortest, self.span], values);
         Ok(())
     }
@@ -229,52 +240,39 @@ impl Wavenumbers {
         work: &mut Workspace,
         mut meet: impl FnMut(Panel, bool),
     ) -> Result<Counts> {
-        let mut compliance = std::mem::take(&mut work.compliance);
-        let outcome = compliance.set(profile, s).and_then(|()| {
-            let (reach, deep) = (Self::reach(&compliance), Self::deep(profile));
-            let panels = self.panels(reach.max(deep))?;
-            let mut counts = Counts {
-                integrals: 1.0,
-                deep: if deep > reach { 1.0 } else { 0.0 },
-                ..Counts::default()
-            };
-            compliance.visited = 0;
-            let before = work.evaluations;
-            let mut halves = 0;
-            let resolved = self.resolve(
-                panels,
-                work,
-                &mut |k| compliance.at(k),
-                &mut |panel, found, evaluations| {
-                    counts.panels += 1.0;
-                    let halved = matches!(found, Found::Moments(_));
-                    meet(panel, halved);
-                    if halved {
-                        counts.halved += 1.0;
-                        halves += evaluations;
-                    }
-                },
-            );
-            resolved.map_err(|k| unresolved(s, k))?;
-            let evaluations = work.evaluations - before;
-            counts.evaluations = evaluations as f64;
-            counts.halves = halves as f64;
-            // The lowest is a half-plane, or half as dear as another layer on a rigid base.
-            let lowest = if compliance.half_plane().is_some() { 1.0 } else { 0.5 };
-            counts.layers = compliance.visited as f64 - lowest * evaluations as f64;
-            Ok(counts)
-        });
-        work.compliance = compliance;
-        outcome
+        let Workspace { compliance, panels: work } = work;
+        compliance.set(profile, s)?;
+        let (reach, deep) = (Self::reach(compliance), deep(profile));
+        let panels = self.panels(reach.max(deep))?;
+        let deep = if deep > reach { 1.0 } else { 0.0 };
+        let mut counts = Counts { integrals: 1.0, deep, ..Counts::default() };
+        compliance.visited = 0;
+        let before = work.evaluations;
+        let mut count = |panel: Panel, found: Found, evaluations: usize| {
+            counts.panels += 1.0;
+            let halved = matches!(found, Found::Moments(_));
+            meet(panel, halved);
+            if halved {
+                counts.halved += 1.0;
+                counts.halves += evaluations as f64;
+            }
+        };
+        let resolved = self.resolve(panels, work, &mut |k| compliance.at(k), &mut count);
+        resolved.map_err(|k| unresolved(s, k))?;
+        counts.evaluations = (work.evaluations - before) as f64;
+        // The lowest is a half-plane, or half as dear as another layer on a rigid base.
+        let lowest = if compliance.half_plane().is_some() { 1.0 } else { 0.5 };
+        counts.layers = compliance.visited as f64 - lowest * counts.evaluations;
+        Ok(counts)
     }
 
-    /// The same at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
+    /// Compliances at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
     /// top layer of `compliance` beyond.
     pub(super) fn at_rest(
         &self,
         compliance: &Compliance,
         least: f64,
-        work: &mut Workspace,
+        work: &mut Scratch,
         values: &mut [[Complex; KINDS]],
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> Result<()> {
@@ -288,15 +286,7 @@ impl Wavenumbers {
 
     /// Least K for which the series of the tail converges.
     fn reach(compliance: &Compliance) -> f64 {
-        let (_, q2, _) = compliance.top();
-        let reach = REACH * q2.sqrt().abs();
-        // Where squares leave the range of f64, no number of panels is enough.
-        if reach.is_nan() { f64::INFINITY } else { reach }
-    }
-
-    /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
-    pub(super) fn deep(profile: &SoilProfile) -> f64 {
-        profile.layers().first().map_or(0.0, |layer| DEEP / layer.thickness)
+        REACH * compliance.root()
     }
 
     /// Number of panels up to K ≥ `least`.
@@ -317,7 +307,7 @@ impl Wavenumbers {
     fn sum(
         &self,
         panels: usize,
-        work: &mut Workspace,
+        work: &mut Scratch,
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> std::result::Result<(), f64> {
         let forms = &self.forms;
@@ -346,14 +336,14 @@ impl Wavenumbers {
     pub(crate) fn widest(&self, profile: &SoilProfile, s: Complex) -> Result<usize> {
         let mut compliance = Compliance::default();
         compliance.set(profile, s)?;
-        let panels = self.panels(Self::reach(&compliance).max(Self::deep(profile)))?;
+        let panels = self.panels(Self::reach(&compliance).max(deep(profile)))?;
         let mut widest = vec![];
         self.begin(panels, &mut vec![], |panel| widest.push(panel));
         Ok(widest.len())
     }
 
     /// Adds the series beyond the last panel.
-    fn add_tail(&self, compliance: &Compliance, panels: usize, work: &mut Workspace) {
+    fn add_tail(&self, compliance: &Compliance, panels: usize, work: &mut Scratch) {
         let (modulus, q2, a2) = compliance.top();
         let [xx, zz, xz] = surface_series(a2);
         let limit = panels as f64 * self.forms.width;
@@ -369,7 +359,7 @@ impl Wavenumbers {
         accumulate(self.tails.rows(&self.forms, panels), &coefficients, &mut work.sums);
     }
 
-    fn read(&self, work: &Workspace, values: &mut [[Complex; KINDS]]) {
+    fn read(&self, work: &Scratch, values: &mut [[Complex; KINDS]]) {
         const UNIT: f64 = std::f64::consts::FRAC_1_PI;
         for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
             let (sums, lane) = (&work.sums[class / LANES], class % LANES);
@@ -379,9 +369,14 @@ impl Wavenumbers {
     }
 }
 
-/// Halving stopped at the wavenumber `k`.
-fn unresolved(s: Complex, k: f64) -> LayeredError {
-    LayeredError::Unresolved { re: s.re, im: s.im, wavenumber: k }
+/// Error of an integral at `s` whose halving stopped at the wavenumber `k`.
+pub(crate) fn unresolved(s: Complex, k: f64) -> Error {
+    LayeredError::Unresolved { re: s.re, im: s.im, wavenumber: k }.into()
+}
+
+/// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
+pub(crate) fn deep(profile: &SoilProfile) -> f64 {
+    profile.layers().first().map_or(0.0, |layer| DEEP / layer.thickness)
 }
 
 /// zz, xx, xz, real and imaginary, times a weight.

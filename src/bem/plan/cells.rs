@@ -3,15 +3,14 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::faces::Face;
-use super::mats::{apart, mat_by_mat, owners};
+use super::faces::{Face, apart, mat_by_mat, owners};
 use super::unions::Unions;
-use crate::error::{Error, PlanError, Result, finite, memory, positive};
+use crate::error::{Error, PlanError, Result, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
 use crate::structure::{FaceNode, Structure};
 
-/// How far outer cells reach beyond the outline, of their side: piecewise constant tractions under a rigid base behave
+/// Overhang of outer cells beyond the outline, of their side: piecewise constant tractions under a rigid base behave
 /// like a mat whose edge lies so far inside them.
 const OVERHANG: f64 = 0.105;
 /// Part of the area that may be missing.
@@ -63,7 +62,7 @@ impl Plan {
         Self::on_faces(&[corners.to_vec()], cells)
     }
 
-    /// What some faces cover: convex polygons, each by its corners (m) in either order, with `cells` along the shorter
+    /// Cells under some faces: convex polygons, each by its corners (m) in either order, with `cells` along the shorter
     /// side of all. Faces that share a corner, or have one on the other's edge, are of one mat; between mats there is
     /// at least one empty cell. Edges inside the bounding rectangle, such as those of an L, go to the nearest line
     /// between cells: see [`Plan::area_error`].
@@ -259,14 +258,14 @@ impl Plan {
         PairClasses::in_plan(self.lattice.clone(), self.cells.clone(), self.corner[0])
     }
 
+    /// Contact element of a cell.
+    pub(super) fn owner(&self, cell: usize) -> usize {
+        self.owners.as_ref().map_or(cell, |owners| owners[cell])
+    }
+
     /// Contact elements of several cells, if there are any.
     pub(in crate::bem) fn unions(&self) -> Option<Unions> {
         self.owners.as_deref().map(Unions::new)
-    }
-
-    /// Contact element of a cell.
-    pub(super) fn element_of(&self, cell: usize) -> usize {
-        self.owners.as_ref().map_or(cell, |owners| owners[cell])
     }
 
     /// Sides of the contact elements along x, and front and back ends, m.
@@ -280,7 +279,7 @@ impl Plan {
         for (number, cell) in self.cells.iter().enumerate() {
             let ([left, right], depth) = (ends(0, cell), ends(1, cell));
             // Cells of a mat come row by row, and the first of an element before its others.
-            let owner = self.element_of(number);
+            let owner = self.owner(number);
             if let Some((element, [_, back])) = elements.get_mut(owner).zip(depths.get_mut(owner)) {
                 (element.right, *back) = (element.right.max(right), back.max(depth[1]));
             } else {
@@ -296,7 +295,7 @@ impl Plan {
         let [a, b] = self.lattice.pitch;
         let mut sums: Vec<[f64; 2]> = vec![];
         for (number, inside) in self.inside().into_iter().enumerate() {
-            let owner = self.element_of(number);
+            let owner = self.owner(number);
             sums.resize(sums.len().max(owner + 1), [0.0; 2]);
             sums[owner][0] += inside;
             sums[owner][1] += a * b;
@@ -337,13 +336,12 @@ impl Plan {
 
 /// Error for less than two cells along a side, or more than memory allows.
 fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
-    if cells < 2 {
-        return Err(Error::Input {
-            quantity: "number of cells along the shorter side of a mat",
-            value: cells as f64,
-            needed: "at least 2",
-        });
-    }
+    require(
+        "number of cells along the shorter side of a mat",
+        cells as f64,
+        cells > 1,
+        "at least 2",
+    )?;
     check_memory(counts)
 }
 

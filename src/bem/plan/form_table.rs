@@ -11,9 +11,8 @@
 
 use std::sync::OnceLock;
 
-use super::angular_means::{AngularMeans, FORMS};
-use super::static_cells;
-use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid};
+use super::forms::{AngularMeans, FORMS, integrals};
+use crate::bem::layered::{DEGREES, POINTS, REACH, legendre, on_grid};
 use crate::error::{PlanError, Result, Watch, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
@@ -23,8 +22,6 @@ use crate::linalg::gauss::Rule;
 pub(super) const TERMS: usize = 7;
 /// Angle by which forms turn over a panel.
 const TURN: f64 = 16.0;
-/// K over the largest |√q₂|.
-const REACH: f64 = 4.0;
 /// Least K × shorter side of a cell: static forms beyond it are small enough.
 const SHORT: f64 = 8.0;
 /// K* × shorter side, where |√q₂| is 2/side.
@@ -74,13 +71,13 @@ impl Rows {
     }
 }
 
-/// Bounds of the wavenumbers: reach of the Laplace variables, and thickness of the top layer.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Need {
-    /// Largest |√q₂|, 1/m.
-    pub(super) root: f64,
-    /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
-    pub(super) deep: f64,
+/// Forms and their tails.
+#[derive(Debug)]
+struct Tabulated {
+    /// At the Gauss points, panel by panel.
+    values: Rows,
+    /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
+    tails: Vec<(usize, Rows)>,
 }
 
 /// Forms of a lattice, tabulated.
@@ -93,23 +90,21 @@ pub(super) struct FormTable {
     pub(super) rule: Rule,
     /// Legendre polynomials at the Gauss points.
     pub(super) polynomials: Vec<[f64; DEGREES]>,
-    /// At the Gauss points, panel by panel.
-    pub(super) values: Rows,
+    tabulated: OnceLock<Tabulated>,
     /// Legendre coefficients of a panel.
     legendre: Vec<OnceLock<Rows>>,
-    /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
-    tails: Vec<(usize, Rows)>,
+    /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
     deep: f64,
     /// Number of panels up to K*.
     end: usize,
 }
 
 impl FormTable {
-    /// Table for `lattice`, still empty.
+    /// Table for `lattice`, still empty, for Laplace variables with |√q₂| up to `root` and K from `deep` on (1/m).
     ///
     /// # Errors
     /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
-    pub(super) fn new(lattice: &Lattice, need: Need) -> Result<Self> {
+    pub(super) fn new(lattice: &Lattice, [root, deep]: [f64; 2]) -> Result<Self> {
         let classes = lattice.classes().len();
         let width = TURN / lattice.diagonal();
         let mut table = Self {
@@ -118,18 +113,17 @@ impl FormTable {
             width,
             rule: Rule::new(POINTS),
             polynomials: vec![],
-            values: Rows::new(0, classes),
+            tabulated: OnceLock::new(),
             legendre: vec![],
-            tails: vec![],
-            deep: need.deep,
+            deep,
             end: 0,
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
-        let reach = (SHORT / side).max(need.deep).max(REACH * need.root);
+        let reach = (SHORT / side).max(deep).max(REACH * root);
         // Beyond K* an error q₂ K*⁻⁵ or so is left.
-        let end = END / side * (0.5 * need.root * side).min(1.0).powf(0.4);
-        let end = end.max(SPREAD * need.root).max(1.2 * reach);
+        let end = END / side * (0.5 * root * side).min(1.0).powf(0.4);
+        let end = end.max(SPREAD * root).max(1.2 * reach);
         let turn = end * lattice.diagonal();
         if turn.is_nan() || turn * turn * cells > MOST {
             let span = lattice.diagonal();
@@ -137,7 +131,7 @@ impl FormTable {
         }
         let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;
-        let last = table.panels(need.root);
+        let last = table.panels(root);
         table.legendre = (0..last).map(|_| OnceLock::new()).collect();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
         let end = (end / width).ceil() as usize;
@@ -189,10 +183,14 @@ impl FormTable {
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
-    pub(super) fn tabulate(&mut self, watch: &mut Watch) -> Result<()> {
+    pub(super) fn tabulate(&self, watch: &mut Watch) -> Result<()> {
+        if self.tabulated.get().is_some() {
+            return Ok(());
+        }
         let (list, classes, unit) = (self.lattice.classes(), self.classes, self.unit());
         let (kept, end) = (self.panels(0.0)..=self.most_panels(), self.end);
-        self.values = Rows::new(kept.end() * POINTS, classes);
+        let mut tabulated =
+            Tabulated { values: Rows::new(kept.end() * POINTS, classes), tails: vec![] };
         let mut means = AngularMeans::new(&self.lattice);
         let mut sums = Rows::new(TERMS, classes);
         // Sums fade out towards K*: an end would see the waves that forms are. What has faded is like k⁻³.
@@ -209,7 +207,7 @@ impl FormTable {
                 let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
                 let values = means.at(k);
                 if panel < *kept.end() {
-                    self.values.set(panel * POINTS + i, values);
+                    tabulated.values.set(panel * POINTS + i, values);
                 }
                 let fading = step((k - last) / (star - last));
                 let mut weight = 0.5 * self.width * self.rule.weights[i];
@@ -222,15 +220,15 @@ impl FormTable {
             }
             if kept.contains(&panel) && on_grid(panel) == panel {
                 let forms = sums.forms.clone();
-                self.tails.push((panel, Rows { forms, classes }));
+                tabulated.tails.push((panel, Rows { forms, classes }));
             }
         }
         // What is left of all is known.
         for (class, offset) in list.iter().enumerate() {
-            let totals = static_cells::integrals(self.lattice.pitch, *offset);
+            let totals = integrals(self.lattice.pitch, *offset);
             for (form, total) in totals.into_iter().enumerate() {
                 let left = total - sums.forms[form][class];
-                for (_, rows) in &mut self.tails {
+                for (_, rows) in &mut tabulated.tails {
                     rows.forms[form][class] = total;
                     for term in 1..TERMS {
                         let beyond = left * faded[term] / faded[0];
@@ -239,12 +237,16 @@ impl FormTable {
                 }
             }
         }
+        // Another thread may have been first, with the same.
+        let _ = self.tabulated.set(tabulated);
         Ok(())
     }
 
-    /// Integrals beyond the last of `panels`.
-    pub(super) fn tail(&self, panels: usize) -> Option<&Rows> {
-        self.tails.iter().find(|(count, _)| *count == panels).map(|(_, rows)| rows)
+    /// Forms at all points, and integrals beyond the last of `panels`; `None` if they are not tabulated.
+    pub(super) fn tabulated(&self, panels: usize) -> Option<[&Rows; 2]> {
+        let Tabulated { values, tails } = self.tabulated.get()?;
+        let (_, tail) = tails.iter().find(|(count, _)| *count == panels)?;
+        Some([values, tail])
     }
 
     /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of ∫ C Pₙ dk.

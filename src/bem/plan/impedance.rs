@@ -6,8 +6,8 @@
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
 use super::sectors::{MOTIONS, Sectors};
-use crate::bem::layered::{Compliances, PER_FREQUENCY, StripContact, extrapolated, points};
-use crate::error::{Observer, PlanError, Result, Watch, not_negative};
+use crate::bem::layered::{Compliances, StripContact, impedance_watch, points, stiffnesses};
+use crate::error::{Observer, PlanError, Result, Watch};
 use crate::geometry::SERIES;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -91,8 +91,7 @@ pub fn impedances_in_plan_observed(
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<PlanImpedance>> {
-    let mut watch = Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer);
-    all(profile, plan, frequencies, contact, &mut watch)
+    all(profile, plan, frequencies, contact, &mut impedance_watch(frequencies, observer))
 }
 
 fn all(
@@ -105,12 +104,11 @@ fn all(
     profile.check()?;
     let mut lists = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
-        not_negative("frequency of an impedance", *frequency)?;
+        lists.push(points(profile, plan.lattice.diagonal(), *frequency)?);
         check_cells(profile, plan, *frequency)?;
-        lists.push(points(profile, plan.lattice.diagonal(), std::f64::consts::TAU * frequency)?);
     }
-    let list = lists.iter().flatten().copied();
-    let integrals = Integrals::new(&plan.lattice, profile, list, TOLERANCE, watch)?;
+    let all = lists.iter().flatten().copied();
+    let integrals = Integrals::new(&plan.lattice, profile, all, TOLERANCE, watch)?;
     let parts: &[&[usize]] = match contact {
         StripContact::Bonded => &[&[0, 1, 2]],
         StripContact::Relaxed => &[&[0], &[1, 2]],
@@ -119,25 +117,16 @@ fn all(
     let diagonal: [usize; MOTIONS] = std::array::from_fn(|i| (MOTIONS + 1) * i);
     let mut work = Workspace::default();
     let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
-    let mut found = Vec::with_capacity(frequencies.len());
-    for (number, (frequency, list)) in frequencies.iter().zip(lists).enumerate() {
-        let mut samples = Vec::with_capacity(list.len());
-        for (point, s) in list.iter().enumerate() {
-            integrals.compliance(profile, *s, &mut work, &mut values)?;
-            let matrix = sectors.stiffness(&values, parts)?;
-            let flat: [Complex; ENTRIES] =
-                std::array::from_fn(|k| matrix[k / MOTIONS][k % MOTIONS]);
-            samples.push(flat);
-            if point + 1 < list.len() {
-                watch.reach(PER_FREQUENCY * number + point + 1)?;
-            }
-        }
-        let entries = extrapolated(&samples, &diagonal, list[0].im)?;
+    let found = stiffnesses(&lists, &diagonal, watch, |s| {
+        integrals.compliance(profile, s, &mut work, &mut values)?;
+        let matrix = sectors.stiffness(&values, parts)?;
+        Ok::<[Complex; ENTRIES], _>(std::array::from_fn(|k| matrix[k / MOTIONS][k % MOTIONS]))
+    })?;
+    let impedance = |(frequency, entries): (&f64, [Complex; ENTRIES])| {
         let matrix = std::array::from_fn(|i| std::array::from_fn(|j| entries[MOTIONS * i + j]));
-        found.push(PlanImpedance { frequency: *frequency, matrix });
-        watch.reach(PER_FREQUENCY * (number + 1))?;
-    }
-    Ok(found)
+        PlanImpedance { frequency: *frequency, matrix }
+    };
+    Ok(frequencies.iter().zip(found).map(impedance).collect())
 }
 
 /// Error for cells that do not resolve the waves of a frequency.

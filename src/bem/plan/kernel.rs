@@ -1,19 +1,18 @@
-//! Step coefficients of a ground under cells of a lattice.
+//! Step coefficients of a ground under cells of a lattice, and their cost, by counting as for
+//! [strips](crate::bem::layered).
 
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::OnceLock;
 
 use super::cells::Plan;
-use super::cost;
 use super::integrals::{Integrals, Workspace};
 use crate::bem::layered::{
-    Block, Compliances, Cost, GATE_POINTS, KeptBlocks, Quadrature, Samples, Stages, copy_lags,
-    last_block, on_circle, passive, threads,
+    Compliances, Cost, GATE_POINTS, MOST_HALVING, Outlook, POINTS, Priced, Quadrature,
+    QuadratureWeights, Stages, on_circle,
 };
-use crate::error::{Error, Observer, Result, Watch, memory, positive, same_length};
-use crate::geometry::{Lattice, SERIES, SPACE};
-use crate::history::{ConvolutionWeights, PairClasses, SharedSpectra};
+use crate::error::{Result, Watch, positive, same_length};
+use crate::geometry::{Lattice, SERIES};
+use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -28,10 +27,6 @@ const REACH_MARGIN: f64 = 1.02;
 pub(in crate::bem) fn gate_sample(plan: &Plan) -> Option<[usize; 2]> {
     (plan.count() > ALL_CELLS).then_some([SOME_CELLS, plan.count()])
 }
-
-/// Absolute errors of late lags, summed, over the 2/3 power of the tolerance and the sum of all coefficients. Measured: 0.4
-/// to 4.8 (8 × 8 cells, half-space and damped layer, two steps, tolerances 1e-13 to 1e-10, to 32 768 lags).
-const LATE_ERROR: f64 = 5.0;
 
 /// Overwrites `matrix` (3Q × 3Q, row-major, m/Pa) with the mean static displacements of the cells of a plan.
 pub(in crate::bem) fn static_compliance(
@@ -50,166 +45,42 @@ pub(in crate::bem) fn static_compliance(
     Ok(())
 }
 
-/// Step coefficients by Runge–Kutta convolution quadrature, in blocks of lags that are computed when they are needed
-/// first: those of the [layered ground](crate::bem::layered::LayeredKernel), of six kinds.
-#[derive(Debug)]
-pub(in crate::bem) struct LatticeKernel {
-    profile: SoilProfile,
-    lattice: Lattice,
-    classes: PairClasses,
-    stages: Stages,
-    time_step: f64,
-    tolerance: f64,
-    quadrature: OnceLock<Result<Quadrature<Integrals, SERIES>>>,
-    kept: KeptBlocks,
-    spectra: SharedSpectra,
-    /// Most processor time that coefficients may take, s.
-    limit: f64,
-}
+/// Step coefficients of the [layered ground](crate::bem::layered::LayeredKernel) under cells, of six kinds.
+pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES>;
 
 impl LatticeKernel {
     /// Kernel of `profile` under the cells of `plan` for steps of `time_step` seconds, to a relative `tolerance`, with
     /// coefficients from a file if it is given and has them, and at most `limit` seconds of a processor for others.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
-    pub(in crate::bem) fn new(
+    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal); as for [`Integrals::sketch`].
+    pub(in crate::bem) fn in_plan(
         profile: SoilProfile,
         plan: &Plan,
-        [time_step, tolerance, limit]: [f64; 3],
         stages: Stages,
+        [time_step, tolerance, limit]: [f64; 3],
         file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;
         profile.check()?;
         profile.check_causal()?;
-        let classes = plan.classes()?;
-        let (lattice, count) = (plan.lattice.clone(), classes.count());
-        Ok(Self {
-            profile,
-            lattice,
-            classes,
-            stages,
-            time_step,
-            tolerance,
-            quadrature: OnceLock::new(),
-            kept: KeptBlocks::new([count, SERIES], file),
-            spectra: SharedSpectra::default(),
-            limit,
-        })
-    }
-
-    /// The quadrature without its forms.
-    fn sketch(&self) -> Result<Quadrature<Integrals, SERIES>> {
         // λ is analytic in the unit disc, and so is √q₂: the largest lie on its edge.
         let nodes = (0..=REACH_POINTS).flat_map(|point| {
             let angle = std::f64::consts::PI * point as f64 / REACH_POINTS as f64;
             let [z, rest] = on_circle(0.0, angle);
-            self.stages.nodes(z, rest)
+            stages.nodes(z, rest)
         });
-        let list = nodes.map(|node| node.lambda.scale(REACH_MARGIN / self.time_step));
-        let integrals = Integrals::sketch(&self.lattice, &self.profile, list, self.tolerance)?;
-        let own = vec![[0; 2]; self.classes.count()];
-        let sizes = [self.time_step, self.tolerance];
-        Ok(Quadrature::of(self.profile.clone(), integrals, own, self.stages, sizes))
-    }
-
-    /// The quadrature, made now if it has not been.
-    fn quadrature(&self, watch: &mut Watch) -> Result<&Quadrature<Integrals, SERIES>> {
-        self.kept.once(&self.quadrature, watch, |watch| {
-            let mut quadrature = self.sketch()?;
-            quadrature.integrals.table.tabulate(watch)?;
-            Ok(quadrature)
-        })
-    }
-
-    /// What the coefficients up to lag `lags` cost.
-    pub(in crate::bem) fn cost(&self, lags: usize) -> Result<Cost> {
-        cost::cost(&self.sketch()?, 0..last_block(lags.max(1))? + 1, Some(self.gate_order()))
-    }
-
-    /// Cells that pass the gate, times three.
-    fn gate_order(&self) -> usize {
-        let cells = self.classes.elements().len();
-        SPACE * if cells <= ALL_CELLS { cells } else { SOME_CELLS }
-    }
-
-    /// Passes the gate, unless what is missing of the blocks of `wanted` costs too much: quadrature and fingerprint of the
-    /// coefficients.
-    fn admit(
-        &self,
-        wanted: Range<usize>,
-        watch: &mut Watch,
-    ) -> Result<(&Quadrature<Integrals, SERIES>, u64)> {
-        let gate = (!self.kept.is_checked()).then(|| self.gate_order());
-        let missing = self.kept.missing(wanted.clone());
-        // A file may hold all that is wanted.
-        let late = gate.is_some() && self.kept.file.is_some();
-        if gate.is_some() || !missing.is_empty() {
-            let first = if late { 0..0 } else { missing };
-            match self.quadrature.get() {
-                Some(Ok(quadrature)) => cost::afford(quadrature, first, gate, self.limit)?,
-                _ => cost::afford(&self.sketch()?, first, gate, self.limit)?,
-            }
-        }
-        let quadrature = self.quadrature(watch)?;
-        let fingerprint = self.kept.gate(watch, |watch| {
-            let Lattice { pitch, counts } = &self.lattice;
-            let sizes = pitch.iter().copied().chain(counts.iter().map(|count| *count as f64));
-            let cells = self.classes.plan().map_or(&[][..], |(_, cells)| cells);
-            if cells.len() <= ALL_CELLS {
-                return passive(quadrature, &self.classes, sizes, watch);
-            }
-            let some = PairClasses::in_plan(self.lattice.clone(), scattered(cells), 0.0)?;
-            passive(quadrature, &some, sizes, watch)
-        })?;
-        let rest = self.kept.missing(wanted);
-        if late && !rest.is_empty() {
-            cost::afford(quadrature, rest, None, self.limit)?;
-        }
-        Ok((quadrature, fingerprint))
-    }
-
-    /// Block `number`, computed now if it has not been.
-    fn block(&self, number: usize, watch: &mut Watch, before: usize) -> Result<&Block> {
-        let (quadrature, _) = self.admit(number..number + 1, watch)?;
-        self.kept.block(number, watch, |watch| {
-            let expected = before..before + self.samples(number);
-            quadrature.block(number, threads(), Samples::new(watch, expected))
-        })
-    }
-
-    /// Most samples of block `number`.
-    fn samples(&self, number: usize) -> usize {
-        self.stages.count() * Block::circle(number, self.tolerance).points()
-    }
-
-    /// Error unless the blocks up to number `last` may be in memory.
-    fn fits(&self, last: usize) -> Result<()> {
-        let bytes = cost::memory(last + 1, self.classes.count(), self.tolerance);
-        Ok(memory::check("lags of a ground in plan", Block::last(last) as f64, bytes)?)
-    }
-
-    fn make_ready(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
-        let last = last_block(lags.max(1))?;
-        let missing = self.kept.missing(0..last + 1);
-        if missing.is_empty() {
-            return Ok(());
-        }
-        self.fits(last)?;
-        let total = GATE_POINTS + missing.clone().map(|number| self.samples(number)).sum::<usize>();
-        let mut watch = match observer {
-            Some(observer) => Watch::new("step coefficients of a ground in plan", total, observer),
-            None => Watch::nobody(),
-        };
-        let (_, fingerprint) = self.admit(0..last + 1, &mut watch)?;
-        let mut done = GATE_POINTS;
-        for number in missing {
-            self.block(number, &mut watch, done)?;
-            done += self.samples(number);
-        }
-        watch.reach(total)?;
-        self.kept.write(fingerprint)
+        let list = nodes.map(|node| node.lambda.scale(REACH_MARGIN / time_step));
+        let integrals = Integrals::sketch(&plan.lattice, &profile, list, tolerance)?;
+        let classes = plan.classes()?;
+        let own = vec![[0; 2]; classes.count()];
+        let quadrature = Quadrature::of(profile, integrals, own, stages, [time_step, tolerance]);
+        let some = gate_sample(plan).map(|_| scattered(&plan.cells));
+        let sample = some.map(|cells| PairClasses::in_plan(plan.lattice.clone(), cells, 0.0));
+        let Lattice { pitch, counts } = &plan.lattice;
+        let mesh = pitch.iter().copied().chain(counts.iter().map(|count| *count as f64)).collect();
+        Ok(Self::new(quadrature, classes, sample.transpose()?, mesh, limit, file))
     }
 }
 
@@ -229,55 +100,73 @@ fn scattered(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     order.into_iter().take(SOME_CELLS).map(|place| cells[place]).collect()
 }
 
-impl ConvolutionWeights for LatticeKernel {
-    fn classes(&self) -> &PairClasses {
-        &self.classes
+/// Nanoseconds of one thread for an evaluation of the surface compliance, for each layer in it after the first, for a
+/// product of a kernel and a form, for a direction of the forms at a wavenumber and for a product there, for a
+/// multiply–add of the gate's factorisation, for an entry of its matrix, and for a class at a point of a circle.
+/// Measured.
+const EVALUATION: f64 = 200.0;
+const LAYER: f64 = 200.0;
+const PRODUCT: f64 = 0.2;
+const DIRECTION: f64 = 170.0;
+const MEAN: f64 = 0.2;
+const FACTOR: f64 = 0.1;
+const ENTRY: f64 = 15.0;
+const POINT: f64 = 300.0;
+/// Products for a class at a wavenumber: two numbers of each sum that a form goes into.
+const SUMS: f64 = 16.0;
+/// Products for an offset of two cells in a direction.
+const MEANS: f64 = 5.0;
+
+impl Priced<SERIES> for Integrals {
+    fn shortest(&self) -> f64 {
+        self.finest
     }
 
-    fn prepare(&self, lags: usize) -> Result<()> {
-        self.make_ready(lags, None)
-    }
-
-    fn prepare_observed(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        self.make_ready(lags, Some(observer))
-    }
-
-    fn coefficients(&self, _: usize, _: usize, _: [&mut [f64]; 3]) -> Result<()> {
-        Err(NOT_IN_PLAN)
-    }
-
-    fn coefficients_in_plan(
-        &self,
-        class: usize,
-        first_lag: usize,
-        values: [&mut [f64]; SERIES],
-    ) -> Result<()> {
-        let bound = self.classes.count();
-        if class >= bound {
-            let quantity = "class of pairs of cells";
-            return Err(Error::Index { quantity, index: class, bound });
+    /// Infinite with the gate, whose forms and factorisation are no samples.
+    fn most(
+        quadrature: &Quadrature<Self, SERIES>,
+        samples: f64,
+        gate: Option<usize>,
+    ) -> Result<f64> {
+        if gate.is_some() {
+            return Ok(f64::INFINITY);
         }
-        copy_lags(class, first_lag, values, |number| {
-            if !self.kept.has(number) {
-                self.fits(number)?;
-            }
-            self.block(number, &mut Watch::nobody(), 0)
-        })
+        let evaluation = EVALUATION + LAYER * quadrature.profile.layers().len() as f64;
+        let each = MOST_HALVING * evaluation + SUMS * PRODUCT * quadrature.classes as f64;
+        let panels = (POINTS * quadrature.integrals.table.most_panels()) as f64;
+        Ok(1e-9 * samples * panels * each)
     }
 
-    fn late_error(&self) -> f64 {
-        LATE_ERROR * self.tolerance.powf(2.0 / 3.0)
-    }
-
-    fn spectra(&self) -> Option<&SharedSpectra> {
-        Some(&self.spectra)
+    fn cost(
+        quadrature: &Quadrature<Self, SERIES>,
+        outlook: &Outlook,
+        missing: Range<usize>,
+        gate: Option<usize>,
+    ) -> Result<(Cost, &'static str)> {
+        let (table, classes) = (&quadrature.integrals.table, quadrature.classes as f64);
+        let layers = quadrature.profile.layers().len() as f64;
+        let mut nanoseconds = gate.map_or(0.0, |order| {
+            let order = order as f64;
+            let check = order.powi(2) * (FACTOR * order / 6.0 + ENTRY);
+            let offsets = table.offsets() as f64;
+            table.directions() as f64 * (DIRECTION + MEAN * MEANS * offsets)
+                + GATE_POINTS as f64 * check
+        });
+        let (mut evaluations, mut work) = (0.0, Workspace::default());
+        quadrature.look(outlook, gate.is_some(), |s, samples| {
+            let [panels, halved, own] =
+                quadrature.integrals.counts(&quadrature.profile, s, &mut work)?;
+            let (rows, own) = ((POINTS * (panels + halved)) as f64, own as f64);
+            evaluations += samples * own;
+            let each = own * (EVALUATION + LAYER * layers) + rows * classes * SUMS * PRODUCT;
+            nanoseconds += samples * each;
+            Ok(())
+        })?;
+        nanoseconds += POINT * quadrature.points(&missing) as f64 * classes;
+        let memory = table.memory() + quadrature.memory(missing.end);
+        Ok((Cost { seconds: 1e-9 * nanoseconds, evaluations, memory }, "larger cells"))
     }
 }
-
-const NOT_IN_PLAN: Error = Error::Scene {
-    quantity: "kernel of a ground in plan",
-    needed: "`coefficients_in_plan` of cells of a lattice",
-};
 
 #[cfg(test)]
 mod tests;

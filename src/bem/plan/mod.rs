@@ -9,25 +9,20 @@
 //! | file | what is in it |
 //! |---|---|
 //! | unions | contact elements of several cells |
-//! | cells, mats, faces | plan: cells on a lattice under faces, discs, masks |
-//! | sh | surface compliance across the wavenumber |
-//! | angular_means, static_cells, form_table | form factors, and their integrals |
+//! | cells, faces | plan: cells on a lattice under faces, discs, masks |
+//! | forms, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
-//! | kernel, cost | step coefficients by convolution quadrature; what they cost |
+//! | kernel | step coefficients by convolution quadrature, and their cost |
 //! | sectors, impedance | rigid mats at one frequency |
 
-mod angular_means;
 mod cells;
-mod cost;
 pub(crate) mod faces;
 mod form_table;
+mod forms;
 mod impedance;
 mod integrals;
 mod kernel;
-mod mats;
 mod sectors;
-mod sh;
-mod static_cells;
 mod unions;
 
 pub use cells::Plan;

@@ -48,7 +48,7 @@ impl<'a> Sectors<'a> {
 
     /// Symmetry in these reflections at most.
     fn by(plan: &'a Plan, reflections: &[[bool; 2]]) -> Self {
-        let owners: Vec<_> = (0..plan.cells.len()).map(|cell| plan.element_of(cell)).collect();
+        let owners: Vec<_> = (0..plan.cells.len()).map(|cell| plan.owner(cell)).collect();
         let count = owners.iter().max().map_or(0, |last| last + 1);
         let counts = plan.lattice.counts;
         let mut on = vec![None; counts[0] * counts[1]];

@@ -3,7 +3,7 @@
 //! Tractions of an element are those of all its cells, and its displacement is their mean: with the incidence P of cells
 //! and elements, integrals over elements are PᵀFP, which keeps them passive.
 
-use crate::error::{Error, Result, memory, same_length};
+use crate::error::{Error, Result, memory, require, same_length};
 use crate::geometry::SPACE;
 
 /// Cells of each element.
@@ -53,20 +53,15 @@ impl Unions {
             if !is_on && union.is_some() {
                 let quantity = "cells of the mat in a union with others";
                 let value = owners.iter().filter(|owner| Some(**owner) == union).count() as f64;
-                return Err(Error::Input {
-                    quantity,
-                    value,
-                    needed: "all of its rectangle, or none",
-                });
+                let needed = "all of its rectangle, or none";
+                return Err(Error::Input { quantity, value, needed });
             }
             for (axis, step) in [1, counts[0]].into_iter().enumerate().filter(|_| *is_on) {
                 let ends = [cell[axis] == 0, cell[axis] + 1 == counts[axis]];
                 let outer = ends[0] || ends[1] || !on[place - step] || !on[place + step];
                 let wide = [along, across][axis][lines[axis][cell[axis]]];
-                if outer && wide != 1 {
-                    let quantity = "width of an outermost union, cells";
-                    return Err(Error::Input { quantity, value: wide as f64, needed: "1" });
-                }
+                let quantity = "width of an outermost union, cells";
+                require(quantity, wide as f64, wide == 1 || !outer, "1")?;
             }
         }
         Ok(owners)

@@ -8,13 +8,9 @@
 
 use std::ops::Range;
 
-use crate::bem::ContactElement;
 use crate::coupled::{Foundation, State};
-use crate::geometry::{Edge, far_ends, middle, span};
+use crate::geometry::{Edge, Footing, far_ends};
 use crate::interface::{ContactState, Mode};
-
-/// Components of an edge's normal that are equal but for rounding.
-const ALIKE: f64 = 1.0 - 1e-9;
 
 /// The base as a whole, or the foundation of this number.
 #[derive(Clone, Copy)]
@@ -74,35 +70,31 @@ impl<'a> Base<'a> {
         self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
     }
 
-    /// Left and right, front and back ends (m): those of the elements in the plane, of the outline in plan.
+    /// Left and right, front and back end: of its elements in the plane, of its outline in plan.
     pub(super) fn ends(&self) -> [[f64; 2]; 2] {
-        let context = &self.state.context;
-        if !context.elements.is_plan() {
-            let own = context.elements.get(self.elements()).unwrap_or_default();
-            return [far_ends(own.iter().map(|element| [element.left, element.right])), [0.0; 2]];
-        }
-        let own = self.foundation.map_or(0..context.outlines.len(), |k| k..k + 1);
-        let corners = || context.outlines[own.clone()].iter().flatten();
-        [0, 1].map(|axis| span(corners().map(|corner| corner[axis])))
+        let footings = &self.state.context.footings;
+        let own = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
+        let own = footings.get(own).unwrap_or_default();
+        [0, 1].map(|axis| far_ends(own.iter().map(|own| own.ends[axis])))
     }
 
-    /// The least factor of safety of its foundations, by friction coefficients and contact; NaN where
+    /// The least factor of safety of its foundations, each by its friction coefficients and pressed elements; NaN where
     /// none is known.
-    pub(super) fn least(&self, factor: impl Fn(&[f64], Footing<'_>) -> f64) -> f64 {
+    pub(super) fn least(&self, factor: impl Fn(&[f64], &Pressed<'_>) -> f64) -> f64 {
+        let context = &self.state.context;
         let of = |k: usize| {
-            let (own, context) = (self.state.foundations[k].elements.clone(), &self.state.context);
+            let own = self.state.foundations[k].elements.clone();
+            let Some(footing) = context.footings.get(k) else { return f64::NAN };
             let friction = match context.friction.len() {
                 0 | 1 => &context.friction[..],
                 _ => context.friction.get(own.clone()).unwrap_or_default(),
             };
-            let footing = Footing {
-                elements: context.elements.get(own.clone()).unwrap_or_default(),
-                depths: context.elements.depths().get(own.clone()).unwrap_or_default(),
+            let pressed = Pressed {
+                footing,
                 areas: context.elements.areas().get(own.clone()).unwrap_or_default(),
                 contact: self.state.contact.get(own).unwrap_or_default(),
-                outline: context.outlines.get(k).map(Vec::as_slice).unwrap_or_default(),
             };
-            factor(friction, footing)
+            factor(friction, &pressed)
         };
         match self.foundation {
             Some(k) => of(k),
@@ -118,46 +110,37 @@ pub(super) fn open_area(base: &Base<'_>) -> f64 {
     open.fold(0.0, |sum, (area, _)| sum + area)
 }
 
-/// Elements of a foundation with their tractions.
+/// A foundation with the tractions of its elements.
 #[derive(Clone, Copy)]
-pub(super) struct Footing<'a> {
-    pub(super) elements: &'a [ContactElement],
-    /// Front and back end of each element, m.
-    pub(super) depths: &'a [[f64; 2]],
+pub(super) struct Pressed<'a> {
+    pub(super) footing: &'a Footing,
     /// Area of each element, m²; in the plane its length.
     pub(super) areas: &'a [f64],
     pub(super) contact: &'a [ContactState],
-    /// Corners of the convex outline, counter-clockwise; none in the plane.
-    pub(super) outline: &'a [[f64; 2]],
 }
 
-impl Footing<'_> {
+impl Pressed<'_> {
     /// Area and state of each element.
     fn areas(&self) -> impl Iterator<Item = (f64, &ContactState)> {
         self.areas.iter().copied().zip(self.contact)
-    }
-
-    /// Ends of an element along x (0) or y (1), m.
-    fn ends(&self, e: usize, axis: usize) -> [f64; 2] {
-        if axis == 0 { [self.elements[e].left, self.elements[e].right] } else { self.depths[e] }
     }
 }
 
 /// Σ A φ p over |Σ A τ|, for one friction coefficient or one for each element; NaN without any. An infinite
 /// coefficient holds wherever it is pressed on.
-pub(super) fn against_sliding(friction: &[f64], footing: Footing<'_>) -> f64 {
+pub(super) fn against_sliding(friction: &[f64], pressed: &Pressed<'_>) -> f64 {
     if friction.is_empty() {
         return f64::NAN;
     }
     let (mut resistance, mut normal, mut shear, mut across) = (0.0, 0.0, 0.0, 0.0);
-    for (e, (area, state)) in footing.areas().enumerate() {
+    for (e, (area, state)) in pressed.areas().enumerate() {
         let coefficient = friction[if friction.len() == 1 { 0 } else { e }];
-        let pressed = area * state.pressure;
+        let force = area * state.pressure;
         // Infinity times zero is no resistance.
-        if pressed != 0.0 && !(coefficient == f64::INFINITY && pressed < 0.0) {
-            resistance += coefficient * pressed;
+        if force != 0.0 && !(coefficient == f64::INFINITY && force < 0.0) {
+            resistance += coefficient * force;
         }
-        normal += pressed;
+        normal += force;
         shear += area * state.shear;
         across += area * state.shear_across;
     }
@@ -166,38 +149,18 @@ pub(super) fn against_sliding(friction: &[f64], footing: Footing<'_>) -> f64 {
 
 /// N b over the moment of the pressure about the middle of the base, b the half width. In plan the least of the edges
 /// that face along `axis` (x 0, y 1), at their distances b from the middle of the outline; infinite along y in the plane.
-pub(super) fn against_overturning(footing: Footing<'_>, axis: usize) -> f64 {
-    let Footing { elements, outline, .. } = footing;
-    if elements.is_empty() || outline.is_empty() && axis > 0 {
-        return f64::INFINITY;
+pub(super) fn against_overturning(pressed: &Pressed<'_>, axis: usize) -> f64 {
+    let Footing { arms, edges, .. } = pressed.footing;
+    let (mut normal, mut moment) = (0.0, [0.0; 2]);
+    for ((area, state), [x, y]) in pressed.areas().zip(arms) {
+        let force = area * state.pressure;
+        normal += force;
+        moment[0] += force * x;
+        moment[1] += force * y;
     }
-    let ends = |axis: usize| {
-        if outline.is_empty() {
-            return far_ends((0..elements.len()).map(|e| footing.ends(e, axis)));
-        }
-        span(outline.iter().map(|corner| corner[axis]))
-    };
-    // Resultant, and its moment about the middle along one axis.
-    let pressed = |axis: usize, center: f64| {
-        let each = footing.areas().enumerate().map(|(e, (area, state))| {
-            let force = area * state.pressure;
-            [force, force * (middle(footing.ends(e, axis)) - center)]
-        });
-        each.fold([0.0; 2], |[sum, moment], [force, own]| [sum + force, moment + own])
-    };
-    if outline.is_empty() {
-        let [low, high] = ends(axis);
-        let [normal, moment] = pressed(axis, middle([low, high]));
-        return ratio(normal, normal * 0.5 * (high - low), moment.abs());
-    }
-    let center = [0, 1].map(|axis| middle(ends(axis)));
-    let [[normal, along], [_, across]] = [0, 1].map(|axis| pressed(axis, center[axis]));
-    let faces = |edge: &Edge| edge.normal[axis].abs() >= ALIKE * edge.normal[1 - axis].abs();
-    let factor = |edge: Edge| {
-        let moment = edge.outward([along, across]);
-        ratio(normal, normal * edge.reach(center), moment.max(0.0))
-    };
-    Edge::all(outline).filter(faces).map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
+    let factor =
+        |(edge, reach): &(Edge, f64)| ratio(normal, normal * reach, edge.outward(moment).max(0.0));
+    edges[axis].iter().map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
 }
 
 /// Resistance over demand: NaN without any pressure, infinite without demand, zero when the base is
@@ -217,18 +180,25 @@ fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bem::ContactElement;
+    use crate::geometry::Patch;
 
     const BASE: [ContactElement; 2] =
         [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }];
 
-    fn on(contact: &[ContactState; 2]) -> Footing<'_> {
-        Footing {
-            elements: &BASE,
-            depths: &[[0.0, 1.0]; 2],
-            areas: &[2.0, 1.0],
-            contact,
-            outline: &[],
-        }
+    fn footing(outline: &[[f64; 2]], depths: [f64; 2]) -> Footing {
+        let components = if outline.is_empty() { 2 } else { 3 };
+        let depths = depths.map(|depth| [0.0, depth]).to_vec();
+        let patch = Patch::new(components, BASE.to_vec(), depths, vec![1.0; 2]).unwrap();
+        Footing::new(&patch, 0..2, outline)
+    }
+
+    fn in_plane() -> Footing {
+        footing(&[], [1.0; 2])
+    }
+
+    fn on<'a>(footing: &'a Footing, contact: &'a [ContactState; 2]) -> Pressed<'a> {
+        Pressed { footing, areas: &[2.0, 1.0], contact }
     }
 
     fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {
@@ -242,11 +212,12 @@ mod tests {
     /// N = 2·30 + 10 = 70, H = −14, middle 0.5, half width 1.5, moment 60·(−0.5) + 10·1 = −20.
     #[test]
     fn by_hand() {
-        let state = contact([30.0, 10.0], [-10.0, 6.0]);
-        assert!((against_sliding(&[0.4], on(&state)) - 0.4 * 70.0 / 14.0).abs() < 1e-14);
-        let each = against_sliding(&[0.5, 0.1], on(&state));
-        assert!((each - 31.0 / 14.0).abs() < 1e-14);
-        assert!((against_overturning(on(&state), 0) - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+        let (base, state) = (in_plane(), contact([30.0, 10.0], [-10.0, 6.0]));
+        let pressed = on(&base, &state);
+        assert!((against_sliding(&[0.4], &pressed) - 0.4 * 70.0 / 14.0).abs() < 1e-14);
+        assert!((against_sliding(&[0.5, 0.1], &pressed) - 31.0 / 14.0).abs() < 1e-14);
+        assert!((against_overturning(&pressed, 0) - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+        assert_eq!(against_overturning(&pressed, 1), f64::INFINITY);
     }
 
     /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5) along x
@@ -255,41 +226,41 @@ mod tests {
     fn by_hand_in_plan() {
         let mut state = contact([30.0, 10.0], [-10.0, 6.0]);
         [state[0].shear_across, state[1].shear_across] = [5.0, 10.0];
-        let depths = [[0.0, 3.0], [0.0, 1.0]];
-        let outline = [[-1.0, 0.0], [2.0, 0.0], [2.0, 3.0], [-1.0, 3.0]];
-        let footing =
-            Footing { depths: &depths, areas: &[6.0, 1.0], outline: &outline, ..on(&state) };
+        let base = footing(&[[-1.0, 0.0], [2.0, 0.0], [2.0, 3.0], [-1.0, 3.0]], [3.0, 1.0]);
+        let pressed = Pressed { areas: &[6.0, 1.0], ..on(&base, &state) };
         let expected = 0.4 * 190.0 / 54.0_f64.hypot(40.0);
-        assert!((against_sliding(&[0.4], footing) - expected).abs() < 1e-14);
-        assert!((against_overturning(footing, 0) - 190.0 * 1.5 / 80.0).abs() < 1e-13);
-        assert!((against_overturning(footing, 1) - 190.0 * 1.5 / 10.0).abs() < 1e-13);
+        assert!((against_sliding(&[0.4], &pressed) - expected).abs() < 1e-14);
+        assert!((against_overturning(&pressed, 0) - 190.0 * 1.5 / 80.0).abs() < 1e-13);
+        assert!((against_overturning(&pressed, 1) - 190.0 * 1.5 / 10.0).abs() < 1e-13);
         let one = contact([0.0, 10.0], [0.0; 2]);
-        let footing = Footing { contact: &one, ..footing };
-        assert!((against_overturning(footing, 0) - 1.5).abs() < 1e-14);
-        assert!((against_overturning(footing, 1) - 1.5).abs() < 1e-14);
-        // A diamond about the same middle, whose edges face both ways: (e · n)/h = 2/1.5.
-        let diamond = [[-1.0, 1.5], [0.5, 0.0], [2.0, 1.5], [0.5, 3.0]];
-        let footing = Footing { outline: &diamond, ..footing };
         for axis in 0..2 {
-            assert!((against_overturning(footing, axis) - 0.75).abs() < 1e-14);
+            let factor = against_overturning(&on(&base, &one), axis);
+            assert!((factor - 1.5).abs() < 1e-14);
         }
-        assert_eq!(against_overturning(on(&one), 1), f64::INFINITY);
+        // A diamond about the same middle, whose edges face both ways: (e · n)/h = 2/1.5.
+        let base = footing(&[[-1.0, 1.5], [0.5, 0.0], [2.0, 1.5], [0.5, 3.0]], [3.0, 1.0]);
+        for axis in 0..2 {
+            let factor = against_overturning(&on(&base, &one), axis);
+            assert!((factor - 0.75).abs() < 1e-14);
+        }
     }
 
     #[test]
     fn limits() {
+        let base = in_plane();
+        let sliding = |friction: f64, state| against_sliding(&[friction], &on(&base, state));
+        let overturning = |state| against_overturning(&on(&base, state), 0);
         let (flight, pressed) = (contact([0.0; 2], [0.0; 2]), contact([1.0; 2], [0.0; 2]));
         for friction in [0.0, 0.4, f64::INFINITY] {
-            assert!(against_sliding(&[friction], on(&flight)).is_nan());
+            assert!(sliding(friction, &flight).is_nan());
         }
-        assert!(against_overturning(on(&flight), 0).is_nan());
-        assert_eq!(against_sliding(&[0.4], on(&pressed)), f64::INFINITY);
-        assert_eq!(against_sliding(&[0.0], on(&pressed)), 0.0);
-        let sheared = contact([1.0, 0.0], [0.3, 0.0]);
-        assert_eq!(against_sliding(&[f64::INFINITY], on(&sheared)), f64::INFINITY);
+        assert!(overturning(&flight).is_nan());
+        assert_eq!(sliding(0.4, &pressed), f64::INFINITY);
+        assert_eq!(sliding(0.0, &pressed), 0.0);
+        assert_eq!(sliding(f64::INFINITY, &contact([1.0, 0.0], [0.3, 0.0])), f64::INFINITY);
         // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
-        assert_eq!(against_overturning(on(&pressed), 0), f64::INFINITY);
+        assert_eq!(overturning(&pressed), f64::INFINITY);
         // Pulled up on the whole: nothing resists.
-        assert_eq!(against_overturning(on(&contact([-1.0; 2], [0.0; 2])), 0), 0.0);
+        assert_eq!(overturning(&contact([-1.0; 2], [0.0; 2])), 0.0);
     }
 }

@@ -189,7 +189,7 @@ quantities! {
     /// most: on n cells along x it stands on them at (n − 0.21)/(n − 1), 1.11 for 8 and 1.05 for 16 cells or graded unions.
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
-        |base| base.least(|_, footing| against_overturning(footing, 0));
+        |base| base.least(|_, pressed| against_overturning(pressed, 0));
     /// In plan: resultant of the horizontal forces on the soil along x and y, N.
     HorizontalForce horizontal_force, "horizontal force", "N/m", Scale::Unit, [Plan, Page, Comparison, ComparisonTime],
         |base| base.sum(|own, _| own.base_shear).hypot(base.sum(|own, _| own.shear_across));
@@ -222,7 +222,7 @@ quantities! {
     /// In plan: safety against overturning over the front or the back edge, as that over the left or the right one.
     OverturningSafetyAcross overturning_safety_across, "factor of safety against overturning across", "",
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
-        |base| base.least(|_, footing| against_overturning(footing, 1));
+        |base| base.least(|_, pressed| against_overturning(pressed, 1));
 }
 
 /// In the plane this quantity and those after it keep their first value.

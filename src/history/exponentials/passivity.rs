@@ -63,7 +63,7 @@ pub(super) fn margin(
     found
 }
 
-/// Least margin at one frequency.
+/// Least eigenvalue at one frequency.
 fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
     let window = lags.length();
@@ -262,12 +262,12 @@ mod tests {
     /// Tail that is `factor` times what it should be.
     fn tail(kernel: &PatchKernel, window: usize, factor: f64) -> Tail {
         let tail = kernel.exponentials(window, 1_000_000, 1e-9).unwrap();
-        let mut products = tail.products().to_vec();
+        let mut products = tail.products.clone();
         for weight in products.iter_mut().flat_map(|p| p.normal.iter_mut().chain(&mut p.tangential))
         {
             *weight *= factor;
         }
-        let (rates, functions) = (tail.rates().to_vec(), tail.functions().to_vec());
+        let (rates, functions) = (tail.rates, tail.functions);
         let tail = ExponentialSum::new(rates, functions, products).unwrap();
         Tail::new(tail, kernel.classes().elements()).unwrap()
     }

@@ -18,9 +18,11 @@ use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 /// tangential ones. There is no coupling between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExponentialSum {
-    rates: Vec<f64>,
-    functions: Vec<Vec<f64>>,
-    products: Vec<TailProduct>,
+    /// Rates per step.
+    pub(super) rates: Vec<f64>,
+    /// Per function: its means over the elements.
+    pub(super) functions: Vec<Vec<f64>>,
+    pub(super) products: Vec<TailProduct>,
 }
 
 /// Product of a function of the traction with a function of the displacement, and the other way
@@ -73,21 +75,6 @@ impl ExponentialSum {
         }
         Ok(Self { rates, functions, products })
     }
-
-    /// Rates per step.
-    pub(crate) fn rates(&self) -> &[f64] {
-        &self.rates
-    }
-
-    /// Per function: its means over the elements.
-    pub(crate) fn functions(&self) -> &[Vec<f64>] {
-        &self.functions
-    }
-
-    /// Products of functions, and their weights.
-    pub(crate) fn products(&self) -> &[TailProduct] {
-        &self.products
-    }
 }
 
 /// A fit as it was asked for.
@@ -138,19 +125,19 @@ pub(super) struct Tail {
 impl Tail {
     /// Empty.
     pub(super) fn new(data: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
-        for means in data.functions() {
+        for means in &data.functions {
             same_length("means of a function", means.len(), elements.len())?;
         }
-        let functions = data.functions().len();
+        let functions = data.functions.len();
         let mut poles = vec![0; functions];
-        for product in data.products() {
+        for product in &data.products {
             for function in product.functions {
                 poles[function] = poles[function].max(product.normal.len());
             }
         }
         Ok(Self {
             lengths: elements.iter().map(ContactElement::length).collect(),
-            decay: data.rates().iter().map(|rate| (-rate).exp()).collect(),
+            decay: data.rates.iter().map(|rate| (-rate).exp()).collect(),
             states: [(); PLANE].map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
             moments: vec![0.0; functions],
             amplitudes: vec![0.0; functions],
@@ -175,7 +162,7 @@ impl Tail {
 
     /// Bytes held.
     pub(super) fn memory(&self) -> usize {
-        let products: usize = self.data.products().iter().map(|p| 2 * p.normal.len()).sum();
+        let products: usize = self.data.products.iter().map(|p| 2 * p.normal.len()).sum();
         let functions = self.functions() * self.lengths.len();
         (products + self.state_length() + functions + 2 * self.poles()) * size_of::<f64>()
     }
@@ -199,7 +186,7 @@ impl Tail {
             self.moments.fill(0.0);
             if let Some(traction) = leaving {
                 let traction = layout.split::<_, PLANE>(traction)[part];
-                for (moment, means) in self.moments.iter_mut().zip(self.data.functions()) {
+                for (moment, means) in self.moments.iter_mut().zip(&self.data.functions) {
                     for ((traction, length), mean) in traction.iter().zip(&self.lengths).zip(means)
                     {
                         *moment += traction * length * mean;
@@ -216,8 +203,8 @@ impl Tail {
             ContactLayout::new(PLANE, self.lengths.len()).split_mut(displacement);
         for (part, (states, displacement)) in self.states.iter().zip(parts).enumerate() {
             let amplitudes = self.amplitudes.as_mut_slice();
-            vectorized(Answer { states, products: self.data.products(), part, amplitudes });
-            for (amplitude, means) in self.amplitudes.iter().zip(self.data.functions()) {
+            vectorized(Answer { states, products: &self.data.products, part, amplitudes });
+            for (amplitude, means) in self.amplitudes.iter().zip(&self.data.functions) {
                 for (displacement, mean) in displacement.iter_mut().zip(means) {
                     *displacement += amplitude * mean;
                 }
@@ -231,7 +218,7 @@ impl Tail {
         let functions = self.functions();
         let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
         let mut sums = [(); PLANE].map(|()| vec![0.0; functions * functions]);
-        for product in self.data.products() {
+        for product in &self.data.products {
             let [i, j] = product.functions;
             for (part, sum) in sums.iter_mut().enumerate() {
                 let weights = weights(product, part);
@@ -247,7 +234,7 @@ impl Tail {
 
     /// The sums at the `age`-th lag of the tail, from 0.
     pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; PLANE] {
-        self.sum(|pole| (-self.data.rates()[pole] * age).exp())
+        self.sum(|pole| (-self.data.rates[pole] * age).exp())
     }
 
     /// The sums of Re Σ (1−ζ) ζ^W z^n ζ^n, ζ = e^(iω) and z the decay, over all ages n.
@@ -257,7 +244,7 @@ impl Tail {
         let (turn_re, turn_im) = ((window * omega).cos(), (window * omega).sin());
         self.sum(|pole| {
             // (1−ζ)/(1−zζ), 1−ζ = square − i sine, 1−zζ = (1−z) + z(1−ζ).
-            let (lost, z) = (-(-self.data.rates()[pole]).exp_m1(), self.decay[pole]);
+            let (lost, z) = (-(-self.data.rates[pole]).exp_m1(), self.decay[pole]);
             let (re, im) = (lost + z * square, -z * sine);
             let size = re * re + im * im;
             let (real, imaginary) =
@@ -269,7 +256,7 @@ impl Tail {
     /// Integral over the receiver of the coefficient of a pair, from such sums.
     pub(super) fn of_pair(&self, sum: &[f64], receiver: usize, source: usize) -> f64 {
         let area = self.lengths[receiver] * self.lengths[source];
-        let functions = self.data.functions();
+        let functions = &self.data.functions;
         let mean: f64 = functions
             .iter()
             .zip(sum.chunks_exact(functions.len().max(1)))

@@ -4,11 +4,11 @@
 
 use std::sync::Arc;
 
-use super::level::Tables;
+use super::level::{Class, Tables};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
-use crate::linalg::{Simd, WithSimd, add_row, add_rows, vectorized};
+use crate::linalg::{Simd, WithSimd, add_row, add_rows};
 
 /// Pairs of a patch and its coefficients over short delays.
 pub(super) struct Coefficients {
@@ -25,28 +25,6 @@ pub(super) struct Coefficients {
     leaf: usize,
     /// Empty until they are needed.
     pub(super) near: Arc<Tables>,
-}
-
-/// Coefficients d = 0 … of one class.
-pub(super) struct Class {
-    pub(super) normal: Vec<f64>,
-    pub(super) tangential: Vec<f64>,
-    pub(super) coupling: Vec<f64>,
-}
-
-impl Class {
-    /// Room for `length` values of d.
-    pub(super) fn new(length: usize) -> Self {
-        let [normal, tangential, coupling] = [(); 3].map(|()| vec![0.0; length]);
-        Self { normal, tangential, coupling }
-    }
-
-    /// Coefficients of `class`.
-    pub(super) fn fill(&mut self, kernel: &dyn ConvolutionWeights, class: usize) -> Result<()> {
-        let Self { normal, tangential, coupling } = self;
-        // The first is the instantaneous coefficient, no part of the history.
-        kernel.coefficients(class, 2, [&mut normal[1..], &mut tangential[1..], &mut coupling[1..]])
-    }
 }
 
 impl Coefficients {
@@ -71,34 +49,23 @@ impl Coefficients {
 
     /// Adds the next class to `tables`; `values` may go on beyond [`Coefficients::length`].
     pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
-        let reach = self.reaches[tables.normal.len()].min(self.coupling_direct);
-        tables.normal.push(values.normal[..self.leaf].to_vec());
-        tables.tangential.push(values.tangential[..self.leaf].to_vec());
-        tables.coupling.push(values.coupling[..=reach].to_vec());
-    }
-
-    /// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to
-    /// `coupled` of them.
-    pub(super) fn scatter(
-        &self,
-        rows: &mut [f64],
-        stride: usize,
-        now: usize,
-        ahead: usize,
-        coupled: usize,
-    ) {
-        vectorized(Scatter { coefficients: self, rows, stride, now, ahead, coupled });
+        let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
+        for ((table, values), end) in
+            tables.iter_mut().zip(values).zip([self.leaf, self.leaf, reach + 1])
+        {
+            table.push(values[..end].to_vec());
+        }
     }
 }
 
-/// [`Coefficients::scatter`].
-struct Scatter<'a> {
-    coefficients: &'a Coefficients,
-    rows: &'a mut [f64],
-    stride: usize,
-    now: usize,
-    ahead: usize,
-    coupled: usize,
+/// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to `coupled` of them.
+pub(super) struct Scatter<'a> {
+    pub(super) coefficients: &'a Coefficients,
+    pub(super) rows: &'a mut [f64],
+    pub(super) stride: usize,
+    pub(super) now: usize,
+    pub(super) ahead: usize,
+    pub(super) coupled: usize,
 }
 
 impl WithSimd for Scatter<'_> {
@@ -108,10 +75,10 @@ impl WithSimd for Scatter<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { coefficients: Coefficients { classes, near, .. }, rows, stride, now, .. } = self;
         let (ahead, count) = (self.ahead, classes.elements().len());
+        let [normal, tangential, coupling] = &**near;
         for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
             let scale = pairs[p].scale;
-            for (row, table, other) in [(p, &near.normal, 0), (count + p, &near.tangential, count)]
-            {
+            for (row, table, other) in [(p, normal, 0), (count + p, tangential, count)] {
                 let (mut q, mut four) = (0, pairs.chunks_exact(4));
                 for pairs in four.by_ref() {
                     let values: [f64; 4] =
@@ -130,7 +97,7 @@ impl WithSimd for Scatter<'_> {
                 }
             }
             for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
-                let coupling = &near.coupling[class];
+                let coupling = &coupling[class];
                 let reach = self.coupled.min(coupling.len() - 1);
                 if sign == 0.0 || reach == 0 {
                     continue;

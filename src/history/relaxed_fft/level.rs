@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::history::pair_classes::{Pair, PairClasses};
+use crate::geometry::PLANE;
+use crate::history::pair_classes::{KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -16,11 +17,9 @@ pub(super) struct Level {
     pub(super) size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Spectra of all classes, over 2b: b + 1 real parts, then as many imaginary ones, each.
-    normal: Vec<f64>,
-    tangential: Vec<f64>,
-    /// Empty where the coupling has died out within smaller blocks.
-    coupling: Vec<f64>,
+    /// Of each kind: spectra of all classes, over 2b, b + 1 real parts, then as many imaginary ones, each; none where
+    /// the coupling has died out within smaller blocks.
+    spectra: [Vec<f64>; KINDS],
 }
 
 /// Scratch of the transforms of all levels.
@@ -58,10 +57,8 @@ impl Work {
 /// Components of the tractions, and those of the displacements that they move.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Part {
-    /// Pressure moves down.
-    Normal,
-    /// Shear moves along.
-    Tangential,
+    /// Pressure moves down, shear along.
+    Even,
     /// Each moves the other.
     Coupling,
     /// All of it.
@@ -83,7 +80,7 @@ pub(super) struct Block<'a> {
 impl Level {
     /// Numbers held.
     pub(super) fn numbers(&self) -> usize {
-        self.normal.capacity() + self.tangential.capacity() + self.coupling.capacity()
+        self.spectra.iter().map(Vec::capacity).sum()
     }
 
     /// Blocks of `size`, without spectra yet.
@@ -92,27 +89,22 @@ impl Level {
             size,
             forward: planner.plan_fft_forward(2 * size),
             inverse: planner.plan_fft_inverse(2 * size),
-            normal: Vec::new(),
-            tangential: Vec::new(),
-            coupling: Vec::new(),
+            spectra: Default::default(),
         }
     }
 
     /// Reserves memory for `classes` spectra of each kind, and the coupling if `couples`.
     pub(super) fn reserve(&mut self, classes: usize, couples: bool) {
-        let length = classes * 2 * (self.size + 1);
-        self.normal.reserve_exact(length);
-        self.tangential.reserve_exact(length);
-        if couples {
-            self.coupling.reserve_exact(length);
+        let count = if couples { KINDS } else { PLANE };
+        for stored in &mut self.spectra[..count] {
+            stored.reserve_exact(classes * 2 * (self.size + 1));
         }
     }
 
     /// Adds the spectra of the next class, whose coefficients reach as far as 2b or further.
-    pub(super) fn add_class(&mut self, values: [&[f64]; 3], couples: bool, work: &mut Work) {
-        let count = if couples { 3 } else { 2 };
-        let stored = [&mut self.normal, &mut self.tangential, &mut self.coupling];
-        for (values, stored) in values.into_iter().zip(stored).take(count) {
+    pub(super) fn add_class(&mut self, values: &Class, couples: bool, work: &mut Work) {
+        let count = if couples { KINDS } else { PLANE };
+        for (values, stored) in values.iter().zip(&mut self.spectra).take(count) {
             let real = &mut work.real[..2 * self.size];
             let spectrum = &mut work.spectra[..=self.size];
             real.copy_from_slice(&values[..2 * self.size]);
@@ -125,11 +117,26 @@ impl Level {
     /// Adds what the last b inputs give to the next b outputs.
     pub(super) fn apply(&self, block: &mut Block<'_>, part: Part, work: &mut Work) {
         let count = block.classes.elements().len();
-        let (first, components) = match part {
-            Part::Normal => (0, count),
-            Part::Tangential => (count, count),
-            Part::Coupling | Part::All => (0, 2 * count),
-        };
+        if part == Part::Even {
+            // One component after the other, in half the scratch.
+            for kind in 0..PLANE {
+                self.apply_to(block, part, kind, [kind * count, count], work);
+            }
+        } else {
+            self.apply_to(block, part, 0, [0, PLANE * count], work);
+        }
+    }
+
+    /// [`Level::apply`] to rows from the `first` on; `kind` is theirs where it is one.
+    fn apply_to(
+        &self,
+        block: &mut Block<'_>,
+        part: Part,
+        kind: usize,
+        [first, components]: [usize; 2],
+        work: &mut Work,
+    ) {
+        let count = block.classes.elements().len();
         let (size, bins) = (self.size, self.size + 1);
         for component in 0..components {
             let row = &block.rows[(first + component) * block.stride..][..block.stride];
@@ -139,7 +146,7 @@ impl Level {
             let spectrum = &mut work.spectra[component * bins..][..bins];
             transform(&*self.forward, real, spectrum, &mut work.scratch);
         }
-        self.multiply(block.classes, part, components, work);
+        self.multiply(block.classes, part, kind, components, work);
         for component in 0..components {
             let receiver = block.classes.pairs()[component % count * count];
             let scale = receiver.scale / (2 * size) as f64;
@@ -159,7 +166,15 @@ impl Level {
     }
 
     /// Replaces the spectra of inputs by those of outputs, tile by tile.
-    fn multiply(&self, classes: &PairClasses, part: Part, components: usize, work: &mut Work) {
+    fn multiply(
+        &self,
+        classes: &PairClasses,
+        part: Part,
+        kind: usize,
+        components: usize,
+        work: &mut Work,
+    ) {
+        let [normal, tangential, coupling] = &self.spectra;
         let (bins, count) = (self.size + 1, classes.elements().len());
         let tiles = bins.div_ceil(TILE);
         let width = bins.div_ceil(tiles);
@@ -188,18 +203,16 @@ impl Level {
             for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
                 for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
                     match part {
-                        Part::Normal => add(1.0, &self.normal, class, q, p),
-                        Part::Tangential => add(1.0, &self.tangential, class, q, p),
+                        Part::Even => add(1.0, &self.spectra[kind], class, q, p),
                         Part::Coupling => {}
                         Part::All => {
-                            add(1.0, &self.normal, class, q, p);
-                            add(1.0, &self.tangential, class, count + q, count + p);
+                            add(1.0, normal, class, q, p);
+                            add(1.0, tangential, class, count + q, count + p);
                         }
                     }
-                    let couples = matches!(part, Part::Coupling | Part::All);
-                    if couples && sign != 0.0 && !self.coupling.is_empty() {
-                        add(sign, &self.coupling, class, count + q, p);
-                        add(-sign, &self.coupling, class, q, count + p);
+                    if part != Part::Even && sign != 0.0 && !coupling.is_empty() {
+                        add(sign, coupling, class, count + q, p);
+                        add(-sign, coupling, class, q, count + p);
                     }
                 }
             }
@@ -307,6 +320,19 @@ impl Ring {
     }
 }
 
+/// `count` rows of the second stride, with what rows of the first hold.
+pub(super) fn widened<T: Copy + Default>(
+    rows: &[T],
+    count: usize,
+    [old, new]: [usize; 2],
+) -> Vec<T> {
+    let mut wide = vec![T::default(); count * new];
+    for (wide, row) in wide.chunks_exact_mut(new).zip(rows.chunks_exact(old.max(1))) {
+        wide[..old].copy_from_slice(row);
+    }
+    wide
+}
+
 // Wavenumbers of a lattice.
 
 /// Wavenumbers, and those that have spectra of their own: the others are mirror images.
@@ -332,24 +358,14 @@ impl WaveNumbers {
     }
 }
 
-// Coefficients over short delays, class by class.
+// Coefficients over short delays.
+//
+// Index d of a coefficient is the number of steps from the traction to the first step that sees it as history: lag d
+// + 1 of the kernel.
 
-/// Coefficients that are summed directly.
-///
-/// Index d of a coefficient is the number of steps from the traction to the first step that sees
-/// it as history: lag d + 1 of the kernel.
-#[derive(Debug, Default)]
-pub(crate) struct Tables {
-    /// Per class: d = 0 … leaf − 1; the first is zero.
-    pub(super) normal: Vec<Vec<f64>>,
-    pub(super) tangential: Vec<Vec<f64>>,
-    /// Per class: d = 0 … as long as it is not zero and summed directly.
-    pub(super) coupling: Vec<Vec<f64>>,
-}
+/// Coefficients d = 0 … of one class, kind by kind.
+pub(super) type Class = [Vec<f64>; KINDS];
 
-impl Tables {
-    /// Numbers held.
-    pub(super) fn numbers(&self) -> usize {
-        [&self.normal, &self.tangential, &self.coupling].into_iter().flatten().map(Vec::len).sum()
-    }
-}
+/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1, the first of them zero;
+/// the coupling as long as it is not zero.
+pub(crate) type Tables = [Vec<Vec<f64>>; KINDS];

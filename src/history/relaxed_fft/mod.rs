@@ -237,7 +237,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         Ok(())
     }
 
-    /// Part of two displacements that a memory which has ended leaves out.
+    /// Displacements of two steps by the lags that a memory leaves out once it has ended.
     fn increment_error_bound(&self) -> f64 {
         self.end.map_or(0.0, |end| 2.0 * end.rest * self.largest)
     }

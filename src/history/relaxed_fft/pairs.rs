@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::coefficients::{Blocks, Class, Coefficients, LEAF, PARTS};
-use super::level::{Block, Level, Part, Ring, Tables, Work};
+use super::coefficients::{Blocks, Coefficients, LEAF, PARTS, Scatter};
+use super::level::{Block, Class, Level, Part, Ring, Tables, Work, widened};
+use super::wave_level::{Levels, SharedSpectra};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
+use crate::history::pair_classes::KINDS;
+use crate::linalg::vectorized;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
 /// it up to here; further on blocks are faster.
@@ -39,7 +42,7 @@ impl Pairs {
         Self::with_coupling(kernel, leaf, DIRECT_COUPLING)
     }
 
-    /// Pairs for rows whose places are used again: nothing but blocks may reach beyond a leaf.
+    /// Blocks for rows whose places are used again: nothing may reach beyond a leaf but blocks.
     pub(super) fn bounded(kernel: &dyn ConvolutionWeights, leaf: usize) -> Result<Self> {
         Self::with_coupling(kernel, leaf, 0)
     }
@@ -91,16 +94,16 @@ impl Pairs {
         let far = if levels.is_empty() { 0 } else { self.leaf << end };
         let length = if tables.is_some() { far.max(self.coefficients.length()) } else { far };
         if length > 0 {
-            let mut values = Class::new(length);
+            let mut values: Class = [(); KINDS].map(|()| vec![0.0; length]);
             for class in 0..classes {
                 watch.reach(PARTS * class / classes)?;
-                values.fill(kernel, class)?;
+                // The first is the instantaneous coefficient, no part of the history.
+                kernel.coefficients(class, 2, values.each_mut().map(|kind| &mut kind[1..]))?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
                 }
-                let values = [&values.normal[..], &values.tangential, &values.coupling];
                 for (level, couples) in &mut levels {
-                    level.add_class(values, *couples, &mut self.work);
+                    level.add_class(&values, *couples, &mut self.work);
                 }
             }
         }
@@ -123,27 +126,18 @@ impl Pairs {
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
         kernel.prepare(lags.max(self.coefficients.length()))?;
         let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
-        let classes = &self.coefficients.classes;
-        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements()))
-        {
-            let mut shared = spectra.pairs();
-            let mut near = shared.near.take();
-            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near, watch);
-            shared.near.clone_from(&near);
-            shared.levels.extend(more?);
-            (shared.levels[..wanted].to_vec(), near)
-        } else {
-            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
-            let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near, watch)?);
-            (levels, near)
-        };
-        for level in &levels {
+        let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
+        let mut shared = spectra.map(SharedSpectra::pairs);
+        let near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
+        let mut own = Levels { levels: self.levels.clone(), near };
+        let store = shared.as_deref_mut().unwrap_or(&mut own);
+        (self.levels, self.coefficients.near) =
+            store.take(wanted, |range, near| self.make(kernel, range, near, watch))?;
+        for number in 0..wanted {
+            let level = &self.levels[number];
             let components = if self.couples(level.size) { 2 * count } else { count };
             self.work.grow(level, components);
         }
-        self.levels = levels;
-        self.coefficients.near = near.unwrap_or_default();
         Ok(())
     }
 }
@@ -155,7 +149,7 @@ impl Blocks for Pairs {
 
     fn numbers(&self) -> usize {
         self.rows.capacity()
-            + self.coefficients.near.numbers()
+            + self.coefficients.near.iter().flatten().map(Vec::len).sum::<usize>()
             + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
             + self.work.numbers()
     }
@@ -176,14 +170,8 @@ impl Blocks for Pairs {
         // Inputs reach past the end of the capacity only by a coupling that is summed directly.
         let needed = capacity + self.coefficients.coupling_direct;
         let stride = needed.next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
-        let mut rows = vec![0.0; 2 * count * stride];
-        if self.stride > 0 {
-            for (new, old) in rows.chunks_exact_mut(stride).zip(self.rows.chunks_exact(self.stride))
-            {
-                new[..self.stride].copy_from_slice(old);
-            }
-        }
-        (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
+        self.rows = widened(&self.rows, 2 * count, [self.stride, stride]);
+        (self.stride, self.capacity) = (stride, capacity);
         Ok(())
     }
 
@@ -206,8 +194,8 @@ impl Blocks for Pairs {
         let coefficients = &self.coefficients;
         let ahead = self.leaf - 1 - last % self.leaf;
         let coupled = if coefficients.couples_far { ahead } else { coefficients.coupling_direct };
-        let ring = self.ring;
-        coefficients.scatter(&mut self.rows, self.stride, ring.place(last), ahead, coupled);
+        let (ring, rows, stride) = (self.ring, &mut self.rows[..], self.stride);
+        vectorized(Scatter { coefficients, rows, stride, now: ring.place(last), ahead, coupled });
         if !now.is_multiple_of(self.leaf) {
             return;
         }
@@ -221,14 +209,9 @@ impl Blocks for Pairs {
         let far = self.levels.iter().rfind(|level| self.couples(level.size));
         let (rows, stride) = (&mut self.rows[..], self.stride);
         let mut block = Block { rows, stride, ring, now, classes: &coefficients.classes };
-        if couples {
-            level.apply(&mut block, Part::All, &mut self.work);
-        } else {
-            level.apply(&mut block, Part::Normal, &mut self.work);
-            level.apply(&mut block, Part::Tangential, &mut self.work);
-            if let Some(level) = far {
-                level.apply(&mut block, Part::Coupling, &mut self.work);
-            }
+        level.apply(&mut block, if couples { Part::All } else { Part::Even }, &mut self.work);
+        if let Some(level) = far.filter(|_| !couples) {
+            level.apply(&mut block, Part::Coupling, &mut self.work);
         }
     }
 

@@ -1,10 +1,10 @@
 //! Blocks of one size over the wavenumbers of a lattice, and spectra that grounds share.
 
-use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::level::{Level, Ring, Tables, WaveNumbers};
+use super::level::{Level, Part, Ring, Tables, WaveNumbers};
+use crate::error::Result;
 use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
 use crate::history::pair_classes::KINDS as STRIP_KINDS;
@@ -40,17 +40,6 @@ pub(super) struct WaveLevel {
     /// stand for i times them. That of a strip's coupling is empty where
     /// it has died out within smaller blocks.
     spectra: Vec<Vec<Complex<f64>>>,
-}
-
-/// Components of the tractions, and those of the displacements that they move.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Part {
-    /// Pressures move down, shears along.
-    Even,
-    /// Each moves the other.
-    Coupling,
-    /// All of it.
-    All,
 }
 
 impl WaveLevel {
@@ -303,6 +292,20 @@ impl<L, N> Default for Levels<L, N> {
     }
 }
 
+impl<L, N: Default> Levels<L, N> {
+    /// The `wanted` smallest levels and the coefficients of a leaf: `make` makes the levels from one number to the
+    /// one before another, and the coefficients unless they are there.
+    pub(super) fn take(
+        &mut self,
+        wanted: usize,
+        make: impl FnOnce([usize; 2], &mut Option<Arc<N>>) -> Result<Vec<Arc<L>>>,
+    ) -> Result<(Vec<Arc<L>>, Arc<N>)> {
+        let more = make([self.levels.len(), wanted], &mut self.near)?;
+        self.levels.extend(more);
+        Ok((self.levels[..wanted].to_vec(), self.near.clone().unwrap_or_default()))
+    }
+}
+
 /// Spectra of a kernel's coefficients, and exponentials for its late lags, for all histories of this
 /// kernel and of its clones.
 ///
@@ -369,8 +372,4 @@ impl SharedSpectra {
     }
 }
 
-impl fmt::Debug for SharedSpectra {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("SharedSpectra").finish_non_exhaustive()
-    }
-}
+short_debug! { SharedSpectra; self; }

@@ -10,8 +10,8 @@ use rustfft::FftPlanner;
 use super::coefficients::{Blocks, LEAF, PARTS};
 use super::lattice::Lattice;
 use super::leaf::{PlanLeaf, StripLeaf};
-use super::level::Ring;
-use super::wave_level::{COUPLING, Near, Part, WaveLevel};
+use super::level::{Part, Ring, widened};
+use super::wave_level::{COUPLING, Levels, Near, SharedSpectra, WaveLevel};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::linalg::vectorized;
@@ -190,14 +190,8 @@ impl Waves {
 
     /// Rows of `stride`, with what they hold.
     fn widen(&mut self, stride: usize) {
-        let mut rows = vec![Complex::default(); width(&self.lattice) / 2 * stride];
-        if self.stride > 0 {
-            for (new, old) in rows.chunks_exact_mut(stride).zip(self.rows.chunks_exact(self.stride))
-            {
-                new[..self.capacity].copy_from_slice(&old[..self.capacity]);
-            }
-        }
-        (self.rows, self.stride) = (rows, stride);
+        self.rows = widened(&self.rows, width(&self.lattice) / 2, [self.stride, stride]);
+        self.stride = stride;
     }
 
     /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
@@ -213,31 +207,22 @@ impl Waves {
         kernel.prepare(lags.min(self.end.unwrap_or(lags)))?;
         // Where memory ends, spectra are not those of all lags.
         let spectra = kernel.spectra().filter(|_| self.leaf == LEAF && self.end.is_none());
-        let elements = kernel.classes().elements();
-        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
-            let mut shared = spectra.waves();
-            let mut near = shared.near.take();
-            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near, watch);
-            shared.near.clone_from(&near);
-            shared.levels.extend(more?);
-            (shared.levels[..wanted].to_vec(), near)
-        } else {
-            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
-            let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near, watch)?);
-            (levels, near)
-        };
+        let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
+        let mut shared = spectra.map(SharedSpectra::waves);
+        let near = (self.capacity > 0).then(|| Arc::clone(&self.near));
+        let mut own = Levels { levels: self.levels.clone(), near };
+        let store = shared.as_deref_mut().unwrap_or(&mut own);
+        (self.levels, self.near) =
+            store.take(wanted, |range, near| self.make(kernel, range, near, watch))?;
         let zero = Complex::default();
-        if let Some(level) = levels.last() {
+        if let Some(level) = self.levels.last() {
             // Where components couple, both are transformed before they are multiplied.
-            let coupled = levels.iter().rfind(|level| level.has(COUPLING));
+            let coupled = self.levels.iter().rfind(|level| level.has(COUPLING));
             let coupled = coupled.map_or(0, |l| 2 * self.lattice.components() * l.size);
             let length = self.blocks.len().max(coupled).max(2 * level.size);
             self.blocks.resize(length, zero);
             self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
         }
-        self.levels = levels;
-        self.near = near.unwrap_or_default();
         Ok(())
     }
 }

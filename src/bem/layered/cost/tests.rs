@@ -40,7 +40,7 @@ fn done(quadrature: &Quadrature, last: usize) -> [f64; 3] {
         }
     }
     let tables: usize = quadrature.integrals.forms.made().iter().sum();
-    [work.evaluations as f64, work.compliance.visited as f64, tables as f64]
+    [work.panels.evaluations as f64, work.compliance.visited as f64, tables as f64]
 }
 
 /// To a factor of two, on fifteen grounds with two and three stages; in a fraction of the time.
@@ -86,14 +86,15 @@ fn work_is_known_beforehand() {
             let classes = PairClasses::new(strip.elements()).unwrap();
             let quadrature = Quadrature::new(profile.clone(), &classes, stages, time_step, 1e-10);
             let mut work = Workspace::default();
-            let total = quadrature.counted(0..last + 1, true, &mut work).unwrap();
+            let outlook = quadrature.outlook(0..last + 1, &mut work).unwrap();
+            let total = quadrature.total(&outlook, true, &mut work).unwrap();
             let rigid = matches!(profile.base(), Base::Rigid);
             let lowest = if rigid { 0.5 } else { 1.0 };
             let evaluations = total.sum.evaluations;
             let tables = quadrature.tables(&total.met).map(|[kept, _]| kept).iter().sum();
             let found = [evaluations, lowest * evaluations + total.sum.layers, tables];
             let wanted = done(&quadrature, last);
-            let looked_at = work.evaluations as f64 / wanted[0];
+            let looked_at = work.panels.evaluations as f64 / wanted[0];
             let ratios = [0, 1, 2].map(|k| found[k] / wanted[k]);
             println!(
                 "{name}, {stages:?}: {ratios:.3?} of {:.1e}, looked at {looked_at:.3}",

@@ -87,7 +87,7 @@ fn tables_profiles_pass_for_all_steps() {
             check(
                 &quadrature(profile.clone(), &classes, time_step),
                 &classes,
-                std::iter::empty(),
+                &[],
                 &mut Watch::nobody(),
             )
             .unwrap();
@@ -109,12 +109,8 @@ impl Relaxation for Active {
 fn active_damping_is_refused() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let found = check(
-        &quadrature(p1(Active, Elastic), &classes, 0.1),
-        &classes,
-        std::iter::empty(),
-        &mut Watch::nobody(),
-    );
+    let found =
+        check(&quadrature(p1(Active, Elastic), &classes, 0.1), &classes, &[], &mut Watch::nobody());
     assert!(
         matches!(found, Err(Error::Layered(LayeredError::ActiveDamping { layer: 1, value, .. })) if value < 0.0),
         "{found:?}"
@@ -173,7 +169,7 @@ fn the_gate_reports_the_least_eigenvalue() {
     values[0][0] = Complex::real(f64::NAN);
     assert!(margin(&classes, &values).is_nan());
     let strict = Quadrature { tolerance: -0.25, ..quadrature };
-    let found = check(&strict, &classes, std::iter::empty(), &mut Watch::nobody());
+    let found = check(&strict, &classes, &[], &mut Watch::nobody());
     let Err(Error::Layered(LayeredError::NotPassive { margin, allowed, radius, .. })) = found
     else {
         panic!("{found:?}");

@@ -18,7 +18,7 @@ fn all(
     let mut work = Workspace::default();
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
-    (values, work.evaluations)
+    (values, work.panels.evaluations)
 }
 
 /// `F_s_P1_gmb_Q3.csv`: another program, tolerance 1e-12.

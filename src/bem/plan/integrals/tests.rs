@@ -18,7 +18,7 @@ fn all(
     let mut work = Workspace::default();
     let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
-    (values, work.evaluations)
+    (values, work.panels.evaluations)
 }
 
 fn half_space() -> SoilProfile {

@@ -1,7 +1,9 @@
 //! Weights of cells against a table, statics, and themselves.
 
 use super::*;
+use crate::Error;
 use crate::bem::layered::test_profiles::{gmb, p1};
+use crate::history::ConvolutionWeights;
 use crate::soil::Soil;
 
 const STEP: f64 = 0.2;
@@ -13,7 +15,7 @@ fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
 fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKernel {
     let [columns, rows] = lattice.counts;
     let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
-    LatticeKernel::new(profile, &plan, [STEP, 1e-10, 600.0], stages, None).unwrap()
+    LatticeKernel::in_plan(profile, &plan, stages, [STEP, 1e-10, 600.0], None).unwrap()
 }
 
 fn half_space() -> SoilProfile {
@@ -46,7 +48,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
         let kernel = kernel(profile.clone(), &square(), Stages::Two);
         kernel.prepare(256).unwrap();
-        let quadrature = kernel.quadrature(&mut Watch::nobody()).unwrap();
+        let quadrature = &kernel.quadrature;
         let mut work = Workspace::default();
         let mut values = vec![[Complex::default(); SERIES]; kernel.classes.count()];
         let mut scratch = values.clone();
@@ -101,8 +103,9 @@ fn weights_depend_on_the_offset_alone() {
         let [one, two] = [weights(&small, 100), weights(&large, 200)];
         let largest = one[0][1][0];
         let mut worst = 0.0_f64;
-        for (class, offset) in small.lattice.classes().into_iter().enumerate() {
-            let other = large.lattice.classes().iter().position(|it| *it == offset).unwrap();
+        let offsets = |kernel: &LatticeKernel| kernel.classes.plan().unwrap().0.classes();
+        for (class, offset) in offsets(&small).into_iter().enumerate() {
+            let other = offsets(&large).iter().position(|it| *it == offset).unwrap();
             for (one, two) in
                 one[class].iter().flatten().zip(two[other].iter().flat_map(|lags| &lags[..100]))
             {

@@ -1,0 +1,190 @@
+//! Convolution weights by quadrature, in blocks of lags that are computed when they are needed first.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::coefficients::{Block, Quadrature, Samples};
+use super::cost::{Cost, Outlook, Priced};
+use super::kept::{KeptBlocks, copy_lags, last_block, threads};
+use super::passivity;
+use crate::error::{Error, Observer, Result, Watch, memory};
+use crate::geometry::SERIES;
+use crate::history::{
+    ConvolutionWeights, KINDS as STRIP_KINDS, OTHER_KINDS, PairClasses, SharedSpectra,
+};
+
+/// [`ConvolutionWeights`] by Runge–Kutta convolution quadrature, under strips or in plan.
+#[derive(Debug)]
+pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
+    pub(in crate::bem) quadrature: Quadrature<I, KINDS>,
+    pub(in crate::bem) classes: PairClasses,
+    /// Elements that pass the gate in place of all.
+    sample: Option<PairClasses>,
+    /// Numbers that tell the mesh from others.
+    mesh: Vec<f64>,
+    pub(super) kept: KeptBlocks,
+    spectra: SharedSpectra,
+    /// Most processor time that weights may take, s.
+    pub(super) limit: f64,
+}
+
+impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
+    /// Weights of `classes`, none computed yet: a `sample` of the elements passes the gate if it is given.
+    pub(in crate::bem) fn new(
+        quadrature: Quadrature<I, KINDS>,
+        classes: PairClasses,
+        sample: Option<PairClasses>,
+        mesh: Vec<f64>,
+        limit: f64,
+        file: Option<PathBuf>,
+    ) -> Self {
+        let kept = KeptBlocks::new([classes.count(), KINDS], file);
+        let spectra = SharedSpectra::default();
+        Self { quadrature, classes, sample, mesh, kept, spectra, limit }
+    }
+
+    /// Cost of the weights up to lag `lags`.
+    pub(in crate::bem) fn cost(&self, lags: usize) -> Result<Cost> {
+        let blocks = 0..last_block(lags.max(1))? + 1;
+        Ok(self.quadrature.cost(blocks, Some(self.gate().layout().len()))?.0)
+    }
+
+    /// Elements that pass the gate.
+    fn gate(&self) -> &PairClasses {
+        self.sample.as_ref().unwrap_or(&self.classes)
+    }
+
+    /// Block `number`, computed now if it has not been.
+    fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&Block> {
+        self.kept.block(number, watch, |watch| {
+            self.quadrature.block(number, threads(), Samples::new(watch, expected))
+        })
+    }
+
+    /// Fingerprint of the weights, after the gate; an error if the gate is not passed, or if what is missing of the
+    /// blocks of `wanted` costs too much. `outlook` are the samples of these.
+    fn admit(
+        &self,
+        wanted: Range<usize>,
+        outlook: Option<&Outlook>,
+        watch: &mut Watch,
+    ) -> Result<u64> {
+        let missing = self.kept.missing(wanted.clone());
+        let gate = (!self.kept.is_checked()).then(|| self.gate().layout().len());
+        // A file may hold all that is wanted.
+        let late = gate.is_some() && self.kept.file.is_some();
+        let first = if late { 0..0 } else { missing };
+        if gate.is_some() || !first.is_empty() {
+            self.quadrature.afford(first, gate, self.limit, outlook.filter(|_| !late))?;
+        }
+        let fingerprint = self.kept.gate(watch, |watch| {
+            self.quadrature.integrals.make_ready(watch)?;
+            passivity::check(&self.quadrature, self.gate(), &self.mesh, watch)
+        })?;
+        let rest = self.kept.missing(wanted);
+        if late && !rest.is_empty() {
+            self.quadrature.afford(rest, None, self.limit, None)?;
+        }
+        Ok(fingerprint)
+    }
+
+    /// Error unless the blocks up to the last of `missing` may be in memory.
+    fn fits(&self, missing: &Range<usize>) -> Result<()> {
+        if missing.is_empty() {
+            return Ok(());
+        }
+        let lags = Block::last(missing.end - 1) as f64;
+        Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
+    }
+
+    /// Computes the blocks of lags up to `lags`; without an observer, nobody counts beforehand.
+    fn compute(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
+        let last = last_block(lags.max(1))?;
+        let missing = self.kept.missing(0..last + 1);
+        self.fits(&missing)?;
+        let mut expected = vec![0; last + 1];
+        let mut watch = Watch::nobody();
+        let mut outlook = None;
+        if let Some(observer) = observer {
+            // What cannot be counted beforehand fails as it does without an observer.
+            outlook = self.quadrature.outlook(missing.clone(), &mut I::Workspace::default()).ok();
+            let counts = outlook.iter().flat_map(Outlook::counts);
+            expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);
+            let total = passivity::POINTS + expected.iter().sum::<usize>();
+            watch = Watch::new("step coefficients of layered ground", total, observer);
+        }
+        let fingerprint = self.admit(0..last + 1, outlook.as_ref(), &mut watch)?;
+        let complete = self.kept.missing(0..last + 1).is_empty();
+        let mut done = passivity::POINTS;
+        watch.reach(done)?;
+        for (number, count) in expected.into_iter().enumerate() {
+            self.block(number, &mut watch, done..done + count)?;
+            done += count;
+        }
+        watch.reach(done)?;
+        if complete { Ok(()) } else { self.kept.write(fingerprint) }
+    }
+
+    /// Overwrites `values`, one slice for each kind, with the lags of a class from `first_lag` on.
+    fn copy<const N: usize>(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: [&mut [f64]; N],
+    ) -> Result<()> {
+        if N != KINDS {
+            return Err(OTHER_KINDS);
+        }
+        let bound = self.classes.count();
+        if class >= bound {
+            return Err(Error::Index { quantity: "class of element pairs", index: class, bound });
+        }
+        copy_lags(class, first_lag, values, |number| {
+            if !self.kept.has(number) {
+                self.fits(&(number..number + 1))?;
+                self.admit(number..number + 1, None, &mut Watch::nobody())?;
+            }
+            self.block(number, &mut Watch::nobody(), 0..0)
+        })
+    }
+}
+
+impl<I: Priced<KINDS>, const KINDS: usize> ConvolutionWeights for QuadratureWeights<I, KINDS> {
+    fn classes(&self) -> &PairClasses {
+        &self.classes
+    }
+
+    fn prepare(&self, lags: usize) -> Result<()> {
+        self.compute(lags, None)
+    }
+
+    fn prepare_observed(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.compute(lags, Some(observer))
+    }
+
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: [&mut [f64]; STRIP_KINDS],
+    ) -> Result<()> {
+        self.copy(class, first_lag, values)
+    }
+
+    fn coefficients_in_plan(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: [&mut [f64]; SERIES],
+    ) -> Result<()> {
+        self.copy(class, first_lag, values)
+    }
+
+    fn late_error(&self) -> f64 {
+        I::LATE_ERROR * self.quadrature.tolerance.powf(2.0 / 3.0)
+    }
+
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        Some(&self.spectra)
+    }
+}

@@ -1,0 +1,78 @@
+//! Shape of a foundation: outward edges of its outline, and lever arms about its middle.
+
+use std::ops::Range;
+
+use super::{Patch, far_ends, middle, span};
+
+/// Components of an edge's normal that are equal but for rounding.
+const ALIKE: f64 = 1.0 - 1e-9;
+
+/// Edge of a polygon whose corners go counter-clockwise.
+#[derive(Debug)]
+pub(crate) struct Edge {
+    /// Corner at which it begins.
+    start: [f64; 2],
+    /// Outward normal, as long as the edge.
+    pub(crate) normal: [f64; 2],
+}
+
+impl Edge {
+    /// Edges of the polygon with these corners, the last of which leads back to the first.
+    pub(crate) fn all(corners: &[[f64; 2]]) -> impl Iterator<Item = Self> {
+        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+        pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
+    }
+
+    /// Component of a vector along the normal, times the length of the edge.
+    pub(crate) fn outward(&self, vector: [f64; 2]) -> f64 {
+        self.normal[0] * vector[0] + self.normal[1] * vector[1]
+    }
+
+    /// Distance from a point inside, times the length of the edge.
+    pub(crate) fn reach(&self, from: [f64; 2]) -> f64 {
+        self.outward([0, 1].map(|axis| self.start[axis] - from[axis]))
+    }
+}
+
+/// Lever arms of a foundation about the middle of its elements, in plan of its outline.
+#[derive(Debug)]
+pub(crate) struct Footing {
+    /// Left and right end, front and back end, m; no depth in the plane.
+    pub(crate) ends: [[f64; 2]; 2],
+    /// Middle of each element from that of the foundation, m.
+    pub(crate) arms: Vec<[f64; 2]>,
+    /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the middle.
+    pub(crate) edges: [Vec<(Edge, f64)>; 2],
+}
+
+impl Footing {
+    /// Of these elements, with the corners of the convex outline, counter-clockwise; none in the plane.
+    pub(crate) fn new(patch: &Patch, elements: Range<usize>, outline: &[[f64; 2]]) -> Self {
+        let (ends, center, edges);
+        if outline.is_empty() {
+            let along = elements.clone().map(|e| [patch[e].left, patch[e].right]);
+            let [left, right] = far_ends(along);
+            // One metre deep.
+            (ends, center) = ([[left, right], [0.0; 2]], [middle([left, right]), 0.5]);
+            let edge = |x, normal| (Edge { start: [x, 0.5], normal }, 0.5 * (right - left));
+            edges = [vec![edge(left, [-1.0, 0.0]), edge(right, [1.0, 0.0])], vec![]];
+        } else {
+            ends = [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])));
+            center = ends.map(middle);
+            edges = [0, 1].map(|axis| {
+                let faces =
+                    |edge: &Edge| edge.normal[axis].abs() >= ALIKE * edge.normal[1 - axis].abs();
+                let with_reach = |edge: Edge| {
+                    let reach = edge.reach(center);
+                    (edge, reach)
+                };
+                Edge::all(outline).filter(faces).map(with_reach).collect()
+            });
+        }
+        let arms = elements.map(|e| {
+            let place = patch.middle(e);
+            [0, 1].map(|axis| place[axis] - center[axis])
+        });
+        Self { ends, arms: arms.collect(), edges }
+    }
+}
