@@ -18,6 +18,59 @@ macro_rules! getters {
     };
 }
 
+/// Static methods `name(arguments) = value;` of a `$class` that make an object of it, or return an error.
+macro_rules! makers {
+    ($class:ident; $($(#[$($attribute:tt)*])+ $name:ident($($arguments:tt)*) = $value:expr;)+) => {
+        #[pyo3::pymethods]
+        impl $class {
+            $(
+                $(#[$($attribute)*])+
+                #[staticmethod]
+                #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
+                fn $name($($arguments)*) -> pyo3::PyResult<Self> {
+                    $value
+                }
+            )+
+        }
+    };
+}
+
+/// Objects of a `$class` with that of the class it extends, which follows from its own by the name `$own`.
+macro_rules! extends {
+    ($class:ty, $own:ident => $base:expr) => {
+        impl $class {
+            fn initializer(self) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
+                let $own = &self;
+                let base = $base;
+                Ok(pyo3::PyClassInitializer::from(base).add_subclass(self))
+            }
+        }
+
+        impl<'py> pyo3::IntoPyObject<'py> for $class {
+            type Target = Self;
+            type Output = pyo3::Bound<'py, Self>;
+            type Error = pyo3::PyErr;
+
+            fn into_pyobject(self, py: pyo3::Python<'py>) -> pyo3::PyResult<Self::Output> {
+                pyo3::Bound::new(py, self.initializer()?)
+            }
+        }
+    };
+}
+
+/// How an `$object` of Python is taken as a `$type`.
+macro_rules! extracts {
+    ($type:ty, $object:ident => $value:expr) => {
+        impl<'py> pyo3::FromPyObject<'_, 'py> for $type {
+            type Error = pyo3::PyErr;
+
+            fn extract($object: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
+                $value
+            }
+        }
+    };
+}
+
 mod array;
 mod cases;
 mod dof_names;
@@ -88,7 +141,8 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("MODES", crate::names::MODES.map(|(_, name)| name))?;
+        module.add("MODES", &*crate::names::MODES)?;
+        module.add("_ELEMENT_UNITS", crate::results::element_units())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

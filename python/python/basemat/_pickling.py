@@ -58,10 +58,6 @@ class Made(NamedTuple):
         return found
 
 
-def _again(made: Made) -> Any:
-    return made.again()
-
-
 def _given(value: Any) -> Any:
     return value.again() if isinstance(value, Made) else value
 
@@ -135,17 +131,15 @@ def _how(description: Any) -> Made:
     return made._replace(calls=tuple(own.get(_CALLS, ())))
 
 
-def _init(self: Any, *arguments: Any, **keywords: Any) -> None:
-    vars(self)[_MADE] = _made(type(self), None, arguments, keywords)
-
-
 def _reduce(self: Any) -> Any:
-    return _again, (_how(self),)
+    return Made.again, (_how(self),)
 
 
 def _repr(self: Any) -> str:
     """The call that makes it."""
     made = _how(self)
+    if made.owner is _layer:
+        return _values(self)
     is_named = isinstance(made.owner, type) or inspect.isfunction(made.owner)
     owner = made.owner if is_named else type(self)
     name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
@@ -188,7 +182,7 @@ def _prepare(described: Any) -> None:
         return
 
     def __init__(self: Any, *arguments: Any, **keywords: Any) -> None:
-        _init(self, *arguments, **keywords)
+        vars(self)[_MADE] = _made(type(self), None, arguments, keywords)
 
     if signature is not None:
         own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
@@ -207,6 +201,23 @@ def _prepare_method(owner: Any, name: str) -> None:
         vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
 
     setattr(owner, name, _noting(getattr(owner, name), note))
+
+
+def _layer(profile: _core.SoilProfile, number: int) -> _core.SoilLayer:
+    return profile.layers[number]
+
+
+def _prepare_layers() -> None:
+    """The layers that a profile gives back know that they are its own."""
+    get: Any = _core.SoilProfile.layers
+
+    def layers(self: _core.SoilProfile) -> list[_core.SoilLayer]:
+        found: list[_core.SoilLayer] = get.__get__(self)
+        for number, layer in enumerate(found):
+            vars(layer)[_MADE] = Made(_layer, None, (self, number), {})
+        return found
+
+    _core.SoilProfile.layers = property(layers, doc=get.__doc__)  # type: ignore[method-assign,assignment]
 
 
 def _prepare_call(name: str) -> None:
@@ -238,6 +249,7 @@ def _prepare_all() -> None:
         _prepare_method(owner, name)
     for name in [name for name in vars(_core.Mesh) if name.startswith("add_")]:
         _prepare_call(name)
+    _prepare_layers()
     for name in _FUNCTIONS:
         function = _remembering(getattr(_core, name), None, None)
         function.__module__ = "basemat"

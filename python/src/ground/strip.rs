@@ -20,6 +20,18 @@ pub(super) fn grading(name: &str) -> PyResult<Grading> {
     name.parse().or_raise()
 }
 
+makers! {
+    PyStrip;
+    /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
+    from_nodes(nodes: Numbers) = Strip::from_nodes(nodes.0).or_raise().map(Self);
+}
+
+getters! {
+    PyStrip, own;
+    /// Ends of the elements: list of elements + 1 numbers, m.
+    nodes: Vec<f64> = own.0.nodes().to_vec();
+}
+
 #[pymethods]
 impl PyStrip {
     #[new]
@@ -31,18 +43,6 @@ impl PyStrip {
         grading: &str,
     ) -> PyResult<Self> {
         Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
-    }
-
-    /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
-    #[staticmethod]
-    fn from_nodes(nodes: Numbers) -> PyResult<Self> {
-        Ok(Self(Strip::from_nodes(nodes.0).or_raise()?))
-    }
-
-    /// Ends of the elements: list of elements + 1 numbers, m.
-    #[getter]
-    fn nodes(&self) -> Vec<f64> {
-        self.0.nodes().to_vec()
     }
 
     fn __repr__(&self) -> String {
@@ -77,18 +77,14 @@ impl Elements {
     }
 }
 
-impl<'py> FromPyObject<'_, 'py> for Elements {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(plan) = object.cast::<PyPlan>() {
-            return Ok(Self::Plan(plan.get().0.clone()));
-        }
-        if let Ok(strip) = object.cast::<PyStrip>() {
-            return Ok(Self::Strips(vec![strip.get().0.clone()]));
-        }
-        let list: Vec<Bound<'_, PyStrip>> =
-            object.extract().map_err(|_| no_such(&object, "a Strip, a list of them, or a Plan"))?;
-        Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
+extracts!(Elements, object => {
+    if let Ok(plan) = object.cast::<PyPlan>() {
+        return Ok(Self::Plan(plan.get().0.clone()));
     }
-}
+    if let Ok(strip) = object.cast::<PyStrip>() {
+        return Ok(Self::Strips(vec![strip.get().0.clone()]));
+    }
+    let list: Vec<Bound<'_, PyStrip>> =
+        object.extract().map_err(|_| no_such(&object, "a Strip, a list of them, or a Plan"))?;
+    Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
+});

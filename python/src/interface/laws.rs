@@ -24,11 +24,6 @@ impl PyBonded {
     fn new() -> PyClassInitializer<Self> {
         PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self)
     }
-
-    #[allow(clippy::unused_self, reason = "a method of Python")]
-    fn __repr__(&self) -> &'static str {
-        "Bonded()"
-    }
 }
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
@@ -57,16 +52,12 @@ impl PyCoulomb {
             .or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
     }
+}
 
+getters! {
+    PyCoulomb, own;
     /// Friction coefficient, a number.
-    #[getter]
-    fn friction(&self) -> f64 {
-        self.0.friction()
-    }
-
-    fn __repr__(&self) -> String {
-        format!("Coulomb({:?})", self.0.friction())
-    }
+    friction: f64 = own.0.friction();
 }
 
 /// A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
@@ -108,6 +99,8 @@ impl PyYielding {
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
+extends!(PyThinLayer, own => PyInterfaceLaw::copied(own.0));
+
 impl PyThinLayer {
     fn of(
         law: basemat::Result<ThinLayer>,
@@ -115,15 +108,34 @@ impl PyThinLayer {
         slip_stiffness_share: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) -> PyResult<Self> {
         let law = law
             .with(debonded_share, ThinLayer::with_debonded_ratio)
             .with(slip_stiffness_share, ThinLayer::with_slip_stiffness_ratio)
             .with(friction_limit, |law, limit| Ok(law.with_friction_limit(limit.parse()?)))
-            .with(slip_sense, |law, sense| Ok(law.with_slip_sense(sense.parse()?)))
-            .or_raise()?;
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
+            .with(slip_sense, |law, sense| Ok(law.with_slip_sense(sense.parse()?)));
+        law.or_raise().map(Self)
     }
+}
+
+makers! {
+    PyThinLayer;
+    /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
+    /// ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+    /// four if given.
+    #[pyo3(signature = (normal, shear, friction, *, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
+    from_stiffness(
+        normal: f64,
+        shear: f64,
+        friction: f64,
+        debonded_share: Option<f64>,
+        slip_stiffness_share: Option<f64>,
+        friction_limit: Option<&str>,
+        slip_sense: Option<&str>,
+    ) = {
+        let law = ThinLayer::from_stiffness(normal, shear, friction);
+        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
+    };
 }
 
 #[pymethods]
@@ -142,34 +154,15 @@ impl PyThinLayer {
     ) -> PyResult<PyClassInitializer<Self>> {
         let law = ThinLayer::new(soil.0, neighbour_height, friction)
             .with(thickness_ratio, ThinLayer::with_thickness_ratio);
-        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
+        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)?
+            .initializer()
     }
+}
 
-    /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
-    /// ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
-    /// four if given.
-    #[staticmethod]
-    #[pyo3(signature = (normal, shear, friction, *, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
-    fn from_stiffness(
-        py: Python<'_>,
-        normal: f64,
-        shear: f64,
-        friction: f64,
-        debonded_share: Option<f64>,
-        slip_stiffness_share: Option<f64>,
-        friction_limit: Option<&str>,
-        slip_sense: Option<&str>,
-    ) -> PyResult<Py<Self>> {
-        let law = ThinLayer::from_stiffness(normal, shear, friction);
-        let own = Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense);
-        Py::new(py, own?)
-    }
-
+getters! {
+    PyThinLayer, own;
     /// Normal and shear stiffness, Pa/m.
-    #[getter]
-    fn stiffness(&self) -> [f64; 2] {
-        self.0.stiffness()
-    }
+    stiffness: [f64; 2] = own.0.stiffness();
 }
 
 /// Coulomb friction whose coefficient is a function of the start of the step:
@@ -196,7 +189,7 @@ impl PyVariableFriction {
             let function = Arc::clone(&function);
             let own = move |start: &PreviousContact<'_>| {
                 asked(f64::NAN, |py| {
-                    let found = function.call1(py, (PyPreviousContact::of(start),))?;
+                    let found = function.call1(py, (PyPreviousContact::of(py, start)?,))?;
                     real("the coefficient's function", found.bind(py))
                 })
             };

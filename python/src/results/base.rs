@@ -103,8 +103,4 @@ impl PyServiceCheck {
     fn __str__(&self) -> String {
         self.0.to_string()
     }
-
-    fn __repr__(&self) -> String {
-        format!("ServiceCheck({})", self.0)
-    }
 }

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use basemat::results::DeformedShape;
 use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::{PyContactNode, PyFaceNode};
+use super::{PyContactNode, PyFaceNode, PyFemModel, PyShearBuilding, PyStoreyBuilding};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
@@ -24,12 +25,14 @@ pub(crate) struct PyStructure {
 impl PyStructure {
     /// A structure that can be copied.
     pub(crate) fn copied(structure: impl Structure + Clone + Sync + 'static) -> Self {
-        Self::new(Arc::new(move || Ok(Box::new(structure.clone()))))
+        Self::new(move || Ok(structure.clone()))
     }
 
-    /// A structure by its recipe.
-    pub(crate) fn new(make: Recipe<dyn Structure>) -> Self {
-        Self { make, names: None }
+    /// A structure from what makes it.
+    pub(crate) fn new<S: Structure + 'static>(
+        make: impl Fn() -> basemat::Result<S> + Send + Sync + 'static,
+    ) -> Self {
+        Self { make: Arc::new(move || Ok(Box::new(make()?))), names: None }
     }
 
     /// The same with names of its degrees of freedom.
@@ -72,6 +75,22 @@ pub(crate) fn made<'py>(
         return Ok((Box::new(own), copy));
     }
     Ok((recipe(object)?().or_raise()?, object.clone()))
+}
+
+/// The shape of a structure for pictures: its elements or storeys, of another one a box of this `height`.
+pub(crate) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
+    if let Ok(own) = object.cast::<PyFemModel>() {
+        return Ok(DeformedShape::of_model(&own.get().0));
+    }
+    if let Ok(own) = object.cast::<PyShearBuilding>() {
+        return DeformedShape::of_building(&own.get().made()?).or_raise();
+    }
+    if let Ok(own) = object.cast::<PyStoreyBuilding>() {
+        return DeformedShape::of_storeys(&own.get().made()?).or_raise();
+    }
+    let needed = "height: give that of the box that stands for the structure";
+    let height = height.ok_or_else(|| refuse(needed))?;
+    DeformedShape::of_block(recipe(object)?().or_raise()?.as_ref(), height).or_raise()
 }
 
 /// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.

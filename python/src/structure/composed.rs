@@ -5,14 +5,13 @@ use std::sync::Arc;
 use basemat::structure::{
     CraigBampton, ModalDamping, RayleighDamping, ReducedModel, Structure, StructureGroup,
 };
-use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::{PyStructure, recipe};
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Count, Numbers, whole};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
-use crate::recipe::{Recipe, Shared};
+use crate::recipe::{Make, Recipe, Shared};
 use crate::row::{PyDofCombination, RowLike};
 
 /// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
@@ -27,17 +26,18 @@ getters! {
     stiffness: f64 = own.0.stiffness();
 }
 
+makers! {
+    PyRayleighDamping;
+    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
+    from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) =
+        RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self);
+}
+
 #[pymethods]
 impl PyRayleighDamping {
     #[new]
     fn new(mass: f64, stiffness: f64) -> PyResult<Self> {
         Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
-    }
-
-    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
-    #[staticmethod]
-    fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
-        Ok(Self(RayleighDamping::from_ratios(frequencies, ratios).or_raise()?))
     }
 
     /// Damping ratio at a ``frequency`` (Hz).
@@ -52,31 +52,31 @@ impl PyRayleighDamping {
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel(Arc<ReducedModel>);
 
+getters! {
+    PyReducedModel, own;
+    /// Frequencies of the modes: array of shape (modes,), Hz.
+    frequencies: Array = own.0.frequencies().into();
+}
+
 #[pymethods]
 impl PyReducedModel {
     #[new]
     #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
     fn new(
         structure: Bound<'_, PyAny>,
-        #[pyo3(from_py_with = whole)] modes: usize,
+        modes: Count,
         #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
         let full = recipe(&structure)?().or_raise()?;
-        let reduction = CraigBampton::new(modes).keep(&keep.unwrap_or_default());
+        let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
         let reduced = py.detach(move || {
             reduction.reduce(full).with(damping_ratio, ReducedModel::with_damping_ratio)
         });
         let reduced = Arc::new(reduced.or_raise()?);
         let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
-    }
-
-    /// Frequencies of the modes: array of shape (modes,), Hz.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.0.frequencies())
     }
 
     /// A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
@@ -88,8 +88,8 @@ impl PyReducedModel {
 
     /// Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
     /// ``reduced`` one, array of shape (dofs,).
-    fn full<'py>(&self, py: Python<'py>, reduced: Numbers) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(PyArray1::from_vec(py, self.0.recovery().full(&reduced.0).or_raise()?))
+    fn full(&self, reduced: Numbers) -> PyResult<Array> {
+        self.0.recovery().full(&reduced.0).or_raise().map(Array::from)
     }
 }
 
@@ -98,7 +98,7 @@ impl PyReducedModel {
 /// each other, along y where they are themselves (``center`` of :meth:`RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
-    make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
+    make: Make<StructureGroup>,
     /// Degrees of freedom of each structure.
     dofs: Vec<usize>,
 }
@@ -125,21 +125,16 @@ impl PyStructureGroup {
         });
         make().or_raise()?;
         let own = Arc::clone(&make);
-        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?))));
+        let base = PyStructure::new(move || own());
         Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
     }
 
     /// A ``row`` of the structure ``member`` (0: the first) as a :class:`DofCombination` of the group.
-    fn row(
-        &self,
-        #[pyo3(from_py_with = whole)] member: usize,
-        row: RowLike,
-    ) -> PyResult<PyDofCombination> {
-        let RowLike(row, order) = row;
-        if let Some(dofs) = self.dofs.get(member) {
-            order.check("the row", *dofs)?;
+    fn row(&self, member: Count, row: RowLike) -> PyResult<PyDofCombination> {
+        if let Some(dofs) = self.dofs.get(member.0) {
+            row.1.check("the row", *dofs)?;
         }
-        Ok((self.make)().or_raise()?.row(member, row).or_raise()?.into())
+        Ok((self.make)().or_raise()?.row(member.0, row.0).or_raise()?.into())
     }
 }
 
@@ -168,14 +163,13 @@ impl PyWithModalDamping {
             if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
         };
         let frequencies = damped(own).or_raise()?.frequencies().to_vec();
-        let make = move || Ok(Box::new(damped(structure()?)?) as Box<_>);
-        let base = PyStructure::new(Arc::new(make)).named(names);
+        let base = PyStructure::new(move || damped(structure()?)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
     }
+}
 
+getters! {
+    PyWithModalDamping, own;
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.0)
-    }
+    frequencies: Array = own.0.as_slice().into();
 }

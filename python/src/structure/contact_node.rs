@@ -29,19 +29,20 @@ getters! {
     vertical: PyDofCombination = PyDofCombination(own.0.vertical.clone(), own.1);
 }
 
+makers! {
+    PyContactNode;
+    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+    /// numbers ``dofs`` (horizontal, vertical, rotation).
+    rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) =
+        Ok(ContactNode::rigid(x, center, dofs).into());
+}
+
 #[pymethods]
 impl PyContactNode {
     #[new]
     fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
         let order = horizontal.1.and(vertical.1)?;
         Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
-    }
-
-    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
-    /// numbers ``dofs`` (horizontal, vertical, rotation).
-    #[staticmethod]
-    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) -> Self {
-        ContactNode::rigid(x, center, dofs).into()
     }
 
     /// The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
@@ -56,12 +57,8 @@ impl PyContactNode {
     }
 
     fn __repr__(&self) -> String {
-        format!(
-            "ContactNode({:?}, {:?}, {:?})",
-            self.0.x,
-            self.0.horizontal.to_vec(),
-            self.0.vertical.to_vec()
-        )
+        let ContactNode { x, horizontal, vertical } = &self.0;
+        format!("ContactNode({x:?}, {:?}, {:?})", &**horizontal, &**vertical)
     }
 }
 
@@ -130,19 +127,15 @@ pub(crate) enum Contact<'py> {
     Faces(Vec<Vec<Bound<'py, PyFaceNode>>>),
 }
 
-impl<'py> FromPyObject<'_, 'py> for Contact<'py> {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let line = object.extract().map(Self::Line);
-        let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
-        // One face may be given by itself.
-        let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
-        line.map_err(|_: PyErr| {
-            no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")
-        })
-    }
-}
+extracts!(Contact<'py>, object => {
+    let line = object.extract().map(Self::Line);
+    let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
+    // One face may be given by itself.
+    let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
+    line.map_err(|_: PyErr| {
+        no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")
+    })
+});
 
 impl Contact<'_> {
     /// Nodes and faces, one of them empty, of a structure of so many degrees of freedom.

@@ -24,23 +24,14 @@ pub(crate) struct PyHysteresis {
 /// A law of this package, or one written in Python.
 pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>);
 
-impl<'py> FromPyObject<'_, 'py> for LawLike {
-    type Error = PyErr;
+extracts!(LawLike, object => match object.cast::<PyHysteresis>() {
+    Ok(own) => Ok(Self(own.get().make.clone())),
+    Err(_) => Ok(Self(user::hysteresis(&object)?)),
+});
 
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        match object.cast::<PyHysteresis>() {
-            Ok(own) => Ok(Self(own.get().make.clone())),
-            Err(_) => Ok(Self(user::hysteresis(&object)?)),
-        }
-    }
-}
-
-fn law<T>(law: impl Hysteresis + Clone + Sync + 'static, own: T) -> PyClassInitializer<T>
-where
-    T: pyo3::PyClass<BaseType = PyHysteresis>,
-{
-    let base = PyHysteresis { make: Arc::new(move || Ok(Box::new(law.clone()))) };
-    PyClassInitializer::from(base).add_subclass(own)
+/// The base of a law that can be copied.
+fn copied(law: impl Hysteresis + Clone + Sync + 'static) -> PyHysteresis {
+    PyHysteresis { make: Arc::new(move || Ok(Box::new(law.clone()))) }
 }
 
 #[pymethods]
@@ -67,7 +58,8 @@ pub(crate) struct PyBilinear;
 impl PyBilinear {
     #[new]
     fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
-        Ok(law(Bilinear::new(stiffness, yield_force, hardening).or_raise()?, Self))
+        let base = copied(Bilinear::new(stiffness, yield_force, hardening).or_raise()?);
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }
 
@@ -94,7 +86,7 @@ impl PyBoucWen {
             (Some(exponent), Some(beta)) => own = own.with_shape(exponent, beta).or_raise()?,
             _ => return Err(crate::error::refuse("give both exponent and beta, or neither")),
         }
-        Ok(law(own, Self))
+        Ok(PyClassInitializer::from(copied(own)).add_subclass(Self))
     }
 }
 
@@ -102,6 +94,8 @@ impl PyBoucWen {
 /// ``yield_displacement`` (m; 0.5 mm by default) before it slides.
 #[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyFrictionPendulum(FrictionPendulum);
+
+extends!(PyFrictionPendulum, own => copied(own.0.clone()));
 
 #[pymethods]
 impl PyFrictionPendulum {
@@ -114,9 +108,8 @@ impl PyFrictionPendulum {
         yield_displacement: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
         let own = FrictionPendulum::new(weight, radius, friction)
-            .and_then(|own| own.with_yield_displacement(yield_displacement))
-            .or_raise()?;
-        Ok(law(own.clone(), Self(own)))
+            .and_then(|own| own.with_yield_displacement(yield_displacement));
+        Self(own.or_raise()?).initializer()
     }
 
     /// Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default).
@@ -140,6 +133,22 @@ getters! {
     stiffness: f64 = own.0.stiffness();
 }
 
+extends!(PyLeadRubber, own => copied(own.0.clone()));
+
+fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<PyLeadRubber> {
+    let own = own.and_then(|own| own.with_stiffness_ratio(stiffness_ratio));
+    own.or_raise().map(PyLeadRubber)
+}
+
+makers! {
+    PyLeadRubber;
+    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
+    /// ``stiffness_ratio`` is that of the class.
+    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) =
+        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio);
+}
+
 #[pymethods]
 impl PyLeadRubber {
     #[new]
@@ -151,26 +160,8 @@ impl PyLeadRubber {
         lead_area: f64,
         stiffness_ratio: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area)
-            .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
-            .or_raise()?;
-        Ok(law(own.clone(), Self(own)))
-    }
-
-    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
-    /// ``stiffness_ratio`` is that of the class.
-    #[staticmethod]
-    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    fn from_strength(
-        py: Python<'_>,
-        stiffness: f64,
-        strength: f64,
-        stiffness_ratio: f64,
-    ) -> PyResult<Py<Self>> {
-        let own = LeadRubber::from_strength(stiffness, strength)
-            .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
-            .or_raise()?;
-        Py::new(py, law(own.clone(), Self(own)))
+        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
+        bearing(own, stiffness_ratio)?.initializer()
     }
 }
 
@@ -201,10 +192,10 @@ impl PyWithSprings {
             for (row, law) in &springs {
                 own = own.spring(row, law()?)?;
             }
-            Ok(Box::new(own) as Box<_>)
+            Ok(own)
         };
         make().or_raise()?;
-        let base = PyStructure::new(Arc::new(make)).named(names);
+        let base = PyStructure::new(make).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct UserStructure {
     ends: Vec<usize>,
     names: Option<DofNames>,
     active_damping: bool,
-    force: Option<UserForce>,
+    nonlinear: bool,
 }
 
 impl UserStructure {
@@ -56,7 +56,7 @@ impl UserStructure {
             contact: contact.of(dofs)?,
             ends: ends.transpose()?.unwrap_or_default(),
             active_damping: flag.map_or(Ok(false), |flag| flag.is_truthy())?,
-            force: nonlinear.then(|| UserForce { object: object.clone(), dofs }),
+            nonlinear,
             object,
         })
     }
@@ -64,6 +64,17 @@ impl UserStructure {
     /// The object that is asked.
     pub(crate) fn object<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
         self.object.bind(py).clone()
+    }
+
+    /// Calls a method with the displacement: array of shape (n,).
+    fn call<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        displacement: &[f64],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let displacement = PyArray1::from_slice(py, displacement);
+        self.object.bind(py).call_method1(method, (displacement,))
     }
 
     /// Adds the matrix that a method returns.
@@ -76,31 +87,27 @@ impl UserStructure {
     }
 }
 
+/// What a method of the structure returned, if it has the `shape` that is needed; `found` is its own.
+fn shaped<T>(method: &str, what: &str, value: T, found: String, shape: String) -> PyResult<T> {
+    if found == shape {
+        return Ok(value);
+    }
+    let text = format!("returned {what} of shape {found}, but must return one of {shape}");
+    Err(refuse(format!("{method} of the structure {text}")))
+}
+
 /// The matrix that a method of the structure returned.
 fn matrix_of(method: &str, found: &Bound<'_, PyAny>, order: usize) -> PyResult<Triplets> {
-    let name = format!("{method} of the structure");
-    let Matrix(matrix) = returned(&name, found)?;
-    if matrix.order() == order {
-        return Ok(matrix);
-    }
-    let shape = (matrix.order(), matrix.order());
-    let needed = (order, order);
-    Err(refuse(format!(
-        "{name} returned a matrix of shape {shape:?}, but must return one of {needed:?}"
-    )))
+    let Matrix(matrix) = returned(&format!("{method} of the structure"), found)?;
+    let [own, needed] = [matrix.order(), order].map(|order| format!("({order}, {order})"));
+    shaped(method, "a matrix", matrix, own, needed)
 }
 
 /// The vector that a method of the structure returned.
 fn vector_of(method: &str, found: &Bound<'_, PyAny>, order: usize) -> PyResult<Vec<f64>> {
-    let name = format!("{method} of the structure");
-    let Numbers(values) = returned(&name, found)?;
-    if values.len() == order {
-        return Ok(values);
-    }
-    let shape = values.len();
-    Err(refuse(format!(
-        "{name} returned an array of shape ({shape},), but must return one of ({order},)"
-    )))
+    let Numbers(values) = returned(&format!("{method} of the structure"), found)?;
+    let [own, needed] = [values.len(), order].map(|count| format!("({count},)"));
+    shaped(method, "an array", values, own, needed)
 }
 
 /// Adds a matrix of Python to one of the core.
@@ -165,34 +172,16 @@ impl Structure for UserStructure {
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        self.force.as_ref().map(|force| force as &dyn NonlinearForce)
+        self.nonlinear.then_some(self)
     }
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        self.force.as_mut().map(|force| force as &mut dyn NonlinearForce)
+        if self.nonlinear { Some(self) } else { None }
     }
 }
 
 /// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
-struct UserForce {
-    object: UserObject,
-    dofs: usize,
-}
-
-impl UserForce {
-    /// Calls a method with the displacement: array of shape (n,).
-    fn call<'py>(
-        &self,
-        py: Python<'py>,
-        method: &str,
-        displacement: &[f64],
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let displacement = PyArray1::from_slice(py, displacement);
-        self.object.bind(py).call_method1(method, (displacement,))
-    }
-}
-
-impl NonlinearForce for UserForce {
+impl NonlinearForce for UserStructure {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
         let found = self
             .object
