@@ -1,37 +1,50 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-/// Getters `name: type = value;` of a `$class`, whose values may ask for the object by the name `$own`.
-macro_rules! getters {
-    ($class:ident, $own:ident; $($(#[doc = $doc:tt])+ $name:ident: $type:ty = $value:expr;)+) => {
+/// Members of a `$class`: its constructor `new(arguments) = value;`, static methods `name(arguments) = value;` that make
+/// an object of it, and getters `name: type = value;`, whose values may ask for the object by the name `$own`.
+macro_rules! members {
+    (@ $class:ident $own:ident { $($made:tt)* }) => {
         #[pyo3::pymethods]
-        impl $class {
-            $(
-                $(#[doc = $doc])+
-                #[getter]
-                pub(crate) fn $name(&self) -> $type {
-                    let $own = self;
-                    $value
-                }
-            )+
-        }
+        impl $class { $($made)* }
     };
-}
-
-/// Static methods `name(arguments) = value;` of a `$class` that make an object of it, or return an error.
-macro_rules! makers {
-    ($class:ident; $($(#[$($attribute:tt)*])+ $name:ident($($arguments:tt)*) = $value:expr;)+) => {
-        #[pyo3::pymethods]
-        impl $class {
-            $(
-                $(#[$($attribute)*])+
-                #[staticmethod]
-                #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
-                fn $name($($arguments)*) -> pyo3::PyResult<Self> {
-                    $value
-                }
-            )+
-        }
+    (
+        @ $class:ident $own:ident { $($made:tt)* }
+        $(#[$($attribute:tt)*])* new($($arguments:tt)*) = $value:expr; $($others:tt)*
+    ) => {
+        members! { @ $class $own { $($made)*
+            $(#[$($attribute)*])*
+            #[new]
+            #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
+            fn new($($arguments)*) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
+                let made: pyo3::PyResult<_> = $value;
+                made.map(Into::into)
+            }
+        } $($others)* }
+    };
+    (
+        @ $class:ident $own:ident { $($made:tt)* }
+        $(#[$($attribute:tt)*])* $name:ident($($arguments:tt)*) = $value:expr; $($others:tt)*
+    ) => {
+        members! { @ $class $own { $($made)*
+            $(#[$($attribute)*])*
+            #[staticmethod]
+            #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
+            fn $name($($arguments)*) -> pyo3::PyResult<Self> { $value }
+        } $($others)* }
+    };
+    (
+        @ $class:ident $own:ident { $($made:tt)* }
+        $(#[$($attribute:tt)*])* $name:ident: $type:ty = $value:expr; $($others:tt)*
+    ) => {
+        members! { @ $class $own { $($made)*
+            $(#[$($attribute)*])*
+            #[getter]
+            pub(crate) fn $name(&self) -> $type { let $own = self; $value }
+        } $($others)* }
+    };
+    ($class:ident, $own:ident; $($members:tt)+) => {
+        members! { @ $class $own {} $($members)+ }
     };
 }
 

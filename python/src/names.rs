@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use basemat::interface::Mode;
 use pyo3::PyResult;
 
-use crate::error::{OrRaise, refuse};
+use crate::error::refuse;
 
 /// All modes, in the order of their numbers in arrays.
 pub(crate) static MODES: LazyLock<Vec<String>> =
@@ -17,7 +17,8 @@ pub(crate) fn mode_name(mode: Mode) -> &'static str {
 
 /// The mode of a name.
 pub(crate) fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().or_raise()
+    let unknown = || format!("there is no contact mode '{name}', only {}", MODES.join(", "));
+    name.parse().map_err(|_| refuse(unknown()))
 }
 
 /// The choice of a name among `all`; `what` names the argument.

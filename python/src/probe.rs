@@ -25,21 +25,8 @@ fn labelled(probe: Probe, order: Order, unit: Option<String>) -> PyProbe {
     PyProbe(probe, order)
 }
 
-getters! {
+members! {
     PyProbe, own;
-    /// Its name, that of its time series.
-    name: &str = &own.0.name;
-    /// Label of its unit; values are what the weights make of SI units.
-    unit: &str = &own.0.unit;
-    /// The :class:`DofCombination` of displacements, that of velocities and that of accelerations.
-    rows: [PyDofCombination; 3] = {
-        let Probe { displacement, velocity, acceleration, .. } = &own.0;
-        [displacement, velocity, acceleration].map(|row| PyDofCombination(row.clone(), own.1))
-    };
-}
-
-makers! {
-    PyProbe;
     /// Displacement (m, or rad of a rotation) of the ``row`` relative to the free field, as the time
     /// series ``name``; ``unit``: its label, "m" unless given.
     #[pyo3(signature = (name, row, *, unit=None))]
@@ -65,4 +52,13 @@ makers! {
     #[pyo3(signature = (name, section, *, unit=None))]
     section(name: String, section: &PySectionRows, unit: Option<String>) =
         Ok(labelled(Probe::section(name, &section.0), section.1, unit));
+    /// Its name, that of its time series.
+    name: &str = &own.0.name;
+    /// Label of its unit; values are what the weights make of SI units.
+    unit: &str = &own.0.unit;
+    /// The :class:`DofCombination` of displacements, that of velocities and that of accelerations.
+    rows: [PyDofCombination; 3] = {
+        let Probe { displacement, velocity, acceleration, .. } = &own.0;
+        [displacement, velocity, acceleration].map(|row| PyDofCombination(row.clone(), own.1))
+    };
 }

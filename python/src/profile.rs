@@ -22,8 +22,8 @@ fn damping(law: basemat::Result<impl Relaxation + 'static>) -> PyResult<PyDampin
     Ok(PyDampingLaw(Arc::new(law.or_raise()?)))
 }
 
-makers! {
-    PyDampingLaw;
+members! {
+    PyDampingLaw, own;
     /// No damping.
     elastic() = damping(Ok(Elastic));
     /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
@@ -52,21 +52,15 @@ makers! {
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
-getters! {
+members! {
     PySoilLayer, own;
+    #[pyo3(signature = (soil, thickness, damping=None))]
+    new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) =
+        Ok(Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) }));
     /// Its :class:`Soil`.
     soil: PySoil = PySoil(own.0.soil);
     /// Its thickness, m.
     thickness: f64 = own.0.thickness;
-}
-
-#[pymethods]
-impl PySoilLayer {
-    #[new]
-    #[pyo3(signature = (soil, thickness, damping=None))]
-    fn new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
-        Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) })
-    }
 }
 
 fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
@@ -79,12 +73,28 @@ fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
 
-getters! {
+members! {
     PySoilProfile, own;
+    #[pyo3(signature = (layers, base=None, *, base_damping=None))]
+    new(
+        layers: Vec<Bound<'_, PySoilLayer>>,
+        base: Option<&PySoil>,
+        base_damping: Option<&PyDampingLaw>,
+    ) = {
+        let layers = layers.iter().map(|layer| layer.get().0.clone()).collect();
+        let base = match base {
+            Some(soil) => Base::HalfPlane { soil: soil.0, damping: law(base_damping) },
+            None => Base::Rigid,
+        };
+        Ok(Self(SoilProfile::new(layers, base).or_raise()?))
+    };
     /// The layers from the surface down: list of :class:`SoilLayer`.
     layers: Vec<PySoilLayer> = own.0.layers().iter().cloned().map(PySoilLayer).collect();
     /// The :class:`Soil` of the half-plane under the layers; None on a rigid base.
-    base: Option<PySoil> = match own.0.base() { Base::HalfPlane { soil,.. } => Some(PySoil(*soil)), Base::Rigid => None, };
+    base: Option<PySoil> = match own.0.base() {
+        Base::HalfPlane { soil, .. } => Some(PySoil(*soil)),
+        Base::Rigid => None,
+    };
     /// Depth of all layers, m.
     depth: f64 = own.0.depth();
     /// First natural frequency of the layers, Hz; None without layers.
@@ -95,21 +105,6 @@ getters! {
 
 #[pymethods]
 impl PySoilProfile {
-    #[new]
-    #[pyo3(signature = (layers, base=None, *, base_damping=None))]
-    fn new(
-        layers: Vec<Bound<'_, PySoilLayer>>,
-        base: Option<&PySoil>,
-        base_damping: Option<&PyDampingLaw>,
-    ) -> PyResult<Self> {
-        let layers = layers.iter().map(|layer| layer.get().0.clone()).collect();
-        let base = match base {
-            Some(soil) => Base::HalfPlane { soil: soil.0, damping: law(base_damping) },
-            None => Base::Rigid,
-        };
-        Ok(Self(SoilProfile::new(layers, base).or_raise()?))
-    }
-
     fn _repr_html_(&self) -> String {
         preformatted(&self.0.to_string())
     }

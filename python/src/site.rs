@@ -21,8 +21,8 @@ fn checked(curves: StrainCurves) -> PyResult<PyStrainCurves> {
     Ok(PyStrainCurves(curves))
 }
 
-makers! {
-    PyStrainCurves;
+members! {
+    PyStrainCurves, own;
     /// A soil or rock that stays linear, with this ``damping`` ratio.
     linear(damping: f64) = checked(StrainCurves::Linear { damping });
     /// Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
@@ -121,7 +121,7 @@ impl PyColumn {
 #[pyclass(name = "EquivalentLinear", module = "basemat", frozen, dict)]
 pub(crate) struct PyEquivalentLinear(EquivalentLinear);
 
-getters! {
+members! {
     PyEquivalentLinear, own;
     /// Depth of the tops of the layers: array of shape (layers,), m.
     depth: Array = own.0.layers.iter().map(|layer| layer.depth).collect();

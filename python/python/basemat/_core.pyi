@@ -51,6 +51,29 @@ _Direction: TypeAlias = Literal["x", "y", "rotation"]
 _SpringDirection: TypeAlias = Literal["x", "y", "rotation", "axial"]
 
 _Interface: TypeAlias = Union["InterfaceLaw", UserLaw, UserPlanLaw]
+_Quantity: TypeAlias = Literal[
+    "base_shear",
+    "base_moment",
+    "normal_force",
+    "uplifted_fraction",
+    "mean_slip",
+    "largest_slip",
+    "base_rotation",
+    "free_field_horizontal",
+    "free_field_vertical",
+    "sliding_safety",
+    "overturning_safety",
+    "shear_across",
+    "horizontal_force",
+    "moment_across",
+    "torque",
+    "uplifted_area",
+    "mean_slip_across",
+    "rotation_across",
+    "twist",
+    "free_field_across",
+    "overturning_safety_across",
+]
 _Structure: TypeAlias = Union["Structure", UserStructure, UserPlanStructure]
 _RowLike: TypeAlias = Union[
     "DofCombination", int, Mapping[int, float], Sequence[tuple[int, float]], NDArray[np.float64]
@@ -918,7 +941,7 @@ class Summary:
     Forces are those of the structure on the soil, per metre of thickness.
     """
 
-    def extremes(self, quantity: str) -> Extremes:
+    def extremes(self, quantity: _Quantity) -> Extremes:
         """The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
         "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
         """
@@ -1689,7 +1712,7 @@ class State:
     @property
     def shear_across(self) -> NDArray[np.float64]:
         """In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane."""
-    def value(self, quantity: str) -> float:
+    def value(self, quantity: _Quantity) -> float:
         """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
         also "torque" or "uplifted_area".
         """

@@ -100,8 +100,7 @@ def foundation_frame(self: Run) -> Any:
     rows = []
     for own, peaks in zip(self.foundations, self._foundation_peaks):
         row: dict[str, float | None] = {"left": own.ends[0], "right": own.ends[1]}
-        row["static_normal_force"] = own.static_normal_force
-        row.update(peaks, residual_slip=own.residual_slip)
+        row.update(peaks, static_normal_force=own.static_normal_force, residual_slip=own.residual_slip)
         if self.in_plan:
             row["front"], row["back"] = own.depth
             row["residual_slip_across"] = own.residual_slip_across

@@ -114,10 +114,13 @@ def _noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[...
 
 
 def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Callable[..., Any]:
-    """``make``, which leaves in its result how it was made: by the ``owner``, or by itself."""
+    """``make``, which leaves in its result how it was made: by the ``owner``, by itself without a name, or else by
+    the object whose method it is."""
 
     def note(found: Any, arguments: Any, keywords: Any) -> None:
-        if hasattr(found, "__dict__"):
+        if owner is None and name is not None:
+            vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
+        elif hasattr(found, "__dict__"):
             vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
 
     remember = _noting(make, note)
@@ -194,15 +197,6 @@ def _prepare(described: Any) -> None:
     described.__init__ = __init__
 
 
-def _prepare_method(owner: Any, name: str) -> None:
-    """A method that returns a description."""
-
-    def note(found: Any, arguments: Any, keywords: Any) -> None:
-        vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
-
-    setattr(owner, name, _noting(getattr(owner, name), note))
-
-
 def _layer(profile: _core.SoilProfile, number: int) -> _core.SoilLayer:
     return profile.layers[number]
 
@@ -246,7 +240,7 @@ def _prepare_all() -> None:
     # What was added to a mesh is kept with it.
     _PLAIN.remove(_core.Mesh)
     for owner, name in _RETURNING:
-        _prepare_method(owner, name)
+        setattr(owner, name, _remembering(getattr(owner, name), None, name))
     for name in [name for name in vars(_core.Mesh) if name.startswith("add_")]:
         _prepare_call(name)
     _prepare_layers()

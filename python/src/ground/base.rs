@@ -32,7 +32,7 @@ impl PyGround {
     }
 }
 
-getters! {
+members! {
     PyGround, own;
     /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
     elements: Rows = Rows(own.elements.iter().map(|e| vec![e.left, e.right]).collect());
@@ -51,7 +51,7 @@ pub(super) fn contact(name: &str) -> PyResult<StripContact> {
     choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
 
-getters! {
+members! {
     PyImpedances, own;
     /// Frequencies: array of shape (m,), Hz.
     frequency: Array = own.0.iter().map(|at| at.frequency).collect();

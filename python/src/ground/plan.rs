@@ -16,18 +16,16 @@ use crate::ticker::watched;
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
 
-getters! {
+members! {
     PyPlan, own;
-    /// Sides of a cell along x and y, m.
-    pitch: [f64; 2] = own.0.pitch();
-    /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
-    middle: [f64; 2] = own.0.middle();
-    /// Area of the cells inside the outline less that of the faces, relative to it.
-    area_error: f64 = own.0.area_error();
-}
-
-makers! {
-    PyPlan;
+    new(faces: Bound<'_, PyAny>, cells: Count) = {
+        // One face may be given by itself.
+        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
+        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
+        let all = faces.extract().or_else(one);
+        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
+        Ok(Self(Plan::on_faces(&faces, cells.0).or_raise()?))
+    };
     /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
     disc(center: (f64, f64), radius: f64, cells: Count) =
         Plan::disc(center.into(), radius, cells.0).or_raise().map(Self);
@@ -42,20 +40,16 @@ makers! {
         let mask = mask.collect::<PyResult<Vec<_>>>()?;
         Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
     };
+    /// Sides of a cell along x and y, m.
+    pitch: [f64; 2] = own.0.pitch();
+    /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
+    middle: [f64; 2] = own.0.middle();
+    /// Area of the cells inside the outline less that of the faces, relative to it.
+    area_error: f64 = own.0.area_error();
 }
 
 #[pymethods]
 impl PyPlan {
-    #[new]
-    fn new(faces: Bound<'_, PyAny>, cells: Count) -> PyResult<Self> {
-        // One face may be given by itself.
-        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
-        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
-        let all = faces.extract().or_else(one);
-        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
-        Ok(Self(Plan::on_faces(&faces, cells.0).or_raise()?))
-    }
-
     /// The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
     /// ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
     fn with_unions(

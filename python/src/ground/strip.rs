@@ -20,31 +20,23 @@ pub(super) fn grading(name: &str) -> PyResult<Grading> {
     name.parse().or_raise()
 }
 
-makers! {
-    PyStrip;
+members! {
+    PyStrip, own;
+    #[pyo3(signature = (left, right, count, *, grading="cosine"))]
+    new(
+        left: f64,
+        right: f64,
+        #[pyo3(from_py_with = whole)] count: usize,
+        grading: &str,
+    ) = Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?));
     /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
     from_nodes(nodes: Numbers) = Strip::from_nodes(nodes.0).or_raise().map(Self);
-}
-
-getters! {
-    PyStrip, own;
     /// Ends of the elements: list of elements + 1 numbers, m.
     nodes: Vec<f64> = own.0.nodes().to_vec();
 }
 
 #[pymethods]
 impl PyStrip {
-    #[new]
-    #[pyo3(signature = (left, right, count, *, grading="cosine"))]
-    fn new(
-        left: f64,
-        right: f64,
-        #[pyo3(from_py_with = whole)] count: usize,
-        grading: &str,
-    ) -> PyResult<Self> {
-        Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
-    }
-
     fn __repr__(&self) -> String {
         format!("Strip.from_nodes({:?})", self.0.nodes())
     }

@@ -24,7 +24,7 @@ impl PyInterfaceLaw {
     }
 }
 
-getters! {
+members! {
     PyInterfaceLaw, own;
     /// List of the names of the modes that this law uses; the first is that of an element at rest.
     modes: PyResult<Vec<&'static str>> = {

@@ -18,12 +18,9 @@ use crate::user::PyPreviousContact;
 #[pyclass(name = "Bonded", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyBonded;
 
-#[pymethods]
-impl PyBonded {
-    #[new]
-    fn new() -> PyClassInitializer<Self> {
-        PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self)
-    }
+members! {
+    PyBonded, own;
+    new() = Ok(PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self));
 }
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
@@ -35,15 +32,14 @@ impl PyBonded {
 #[pyclass(name = "Coulomb", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCoulomb(Coulomb);
 
-#[pymethods]
-impl PyCoulomb {
-    #[new]
+members! {
+    PyCoulomb, own;
     #[pyo3(signature = (friction, *, tensile_strength=0.0, closed_below=None))]
-    fn new(
+    new(
         friction: f64,
         tensile_strength: f64,
         closed_below: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let condition =
             closed_below.map(|closed_below| UnilateralCondition::Velocity { closed_below });
         let law = Coulomb::new(friction)
@@ -51,11 +47,7 @@ impl PyCoulomb {
             .with(condition, Coulomb::with_unilateral_condition)
             .or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
-    }
-}
-
-getters! {
-    PyCoulomb, own;
+    };
     /// Friction coefficient, a number.
     friction: f64 = own.0.friction();
 }
@@ -65,26 +57,24 @@ getters! {
 #[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCohesive;
 
-#[pymethods]
-impl PyCohesive {
-    #[new]
-    fn new(tension: f64, cohesion: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
+members! {
+    PyCohesive, own;
+    new(tension: f64, cohesion: f64, friction: f64) = {
         let law = Cohesive::new(tension, cohesion, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
-    }
+    };
 }
 
 /// Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa).
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
-#[pymethods]
-impl PyYielding {
-    #[new]
-    fn new(bearing_pressure: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
+members! {
+    PyYielding, own;
+    new(bearing_pressure: f64, friction: f64) = {
         let law = Yielding::new(bearing_pressure, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
-    }
+    };
 }
 
 /// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
@@ -118,8 +108,24 @@ impl PyThinLayer {
     }
 }
 
-makers! {
-    PyThinLayer;
+members! {
+    PyThinLayer, own;
+    #[pyo3(signature = (soil, neighbour_height, friction, *, thickness_ratio=None, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
+    new(
+        soil: &PySoil,
+        neighbour_height: f64,
+        friction: f64,
+        thickness_ratio: Option<f64>,
+        debonded_share: Option<f64>,
+        slip_stiffness_share: Option<f64>,
+        friction_limit: Option<&str>,
+        slip_sense: Option<&str>,
+    ) = {
+        let law = ThinLayer::new(soil.0, neighbour_height, friction)
+            .with(thickness_ratio, ThinLayer::with_thickness_ratio);
+        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)?
+            .initializer()
+    };
     /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
     /// ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
     /// four if given.
@@ -136,31 +142,6 @@ makers! {
         let law = ThinLayer::from_stiffness(normal, shear, friction);
         Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
     };
-}
-
-#[pymethods]
-impl PyThinLayer {
-    #[new]
-    #[pyo3(signature = (soil, neighbour_height, friction, *, thickness_ratio=None, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
-    fn new(
-        soil: &PySoil,
-        neighbour_height: f64,
-        friction: f64,
-        thickness_ratio: Option<f64>,
-        debonded_share: Option<f64>,
-        slip_stiffness_share: Option<f64>,
-        friction_limit: Option<&str>,
-        slip_sense: Option<&str>,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let law = ThinLayer::new(soil.0, neighbour_height, friction)
-            .with(thickness_ratio, ThinLayer::with_thickness_ratio);
-        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)?
-            .initializer()
-    }
-}
-
-getters! {
-    PyThinLayer, own;
     /// Normal and shear stiffness, Pa/m.
     stiffness: [f64; 2] = own.0.stiffness();
 }
@@ -171,14 +152,13 @@ getters! {
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
 
-#[pymethods]
-impl PyVariableFriction {
-    #[new]
+members! {
+    PyVariableFriction, own;
     #[pyo3(signature = (coefficient, *, tensile_strength=0.0))]
-    fn new(
+    new(
         coefficient: Bound<'_, PyAny>,
         tensile_strength: f64,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         if !coefficient.is_callable() {
             return Err(refuse("the coefficient must be a function of the start of a step"));
         }
@@ -197,5 +177,5 @@ impl PyVariableFriction {
                 as Box<_>)
         };
         Ok(PyClassInitializer::from(PyInterfaceLaw { make: Arc::new(make) }).add_subclass(Self))
-    }
+    };
 }

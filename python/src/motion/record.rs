@@ -43,8 +43,28 @@ pub(crate) fn el_centro_1940() -> PyResult<PyRecord> {
     PyRecord::of(Ok(basemat::motion::el_centro_1940()))
 }
 
-getters! {
+members! {
     PyRecord, own;
+    // Python's own reader of signatures knows ASCII only.
+    #[pyo3(
+        signature = (time_step, acceleration, *, unit="m/s²"),
+        text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#
+    )]
+    new(
+        time_step: f64,
+        acceleration: Numbers,
+        unit: &str,
+    ) = {
+        let samples = acceleration.0.len();
+        if samples < 2 {
+            return Err(refuse(format!(
+                "acceleration has {samples} samples, but must have 2 or more"
+            )));
+        }
+        let unit = self::unit(unit)?.in_metres_per_second_squared();
+        let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
+        Self::of(Record::new(time_step, samples))?.initializer()
+    };
     /// Time step, s.
     time_step: f64 = own.0.time_step();
     /// Time of the last sample, s.
@@ -69,28 +89,6 @@ getters! {
 
 #[pymethods]
 impl PyRecord {
-    #[new]
-    // Python's own reader of signatures knows ASCII only.
-    #[pyo3(
-        signature = (time_step, acceleration, *, unit="m/s²"),
-        text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#
-    )]
-    fn new(
-        time_step: f64,
-        acceleration: Numbers,
-        unit: &str,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let samples = acceleration.0.len();
-        if samples < 2 {
-            return Err(refuse(format!(
-                "acceleration has {samples} samples, but must have 2 or more"
-            )));
-        }
-        let unit = self::unit(unit)?.in_metres_per_second_squared();
-        let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
-        Self::of(Record::new(time_step, samples))?.initializer()
-    }
-
     /// Reads a file at ``path``.
     ///
     /// ``format``: "columns" (the default: text, time in s and acceleration), "peer" (.AT2), "cosmos"
@@ -249,7 +247,7 @@ pub(crate) fn log_spaced(
     Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
 }
 
-getters! {
+members! {
     PySpectrum, own;
     /// Natural periods: array of shape (m,), s.
     period: Array = own.0.iter().map(|ordinate| ordinate.period).collect();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use basemat::Complex;
 use basemat::motion::{
-    FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
+    PlaneWave, Record, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
 };
 use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
@@ -12,20 +12,13 @@ use basemat::site::{
 use numpy::Complex64;
 use pyo3::prelude::*;
 
+use super::function::field;
 use super::{PyFreeField, PyRecord, given};
 use crate::array::{Array, Numbers, complex};
 use crate::error::{OrRaise, refuse};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
-
-/// A free field of this package from what makes it, which is tried once.
-fn field<F: FreeField + 'static>(
-    make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
-) -> PyResult<PyFreeField> {
-    make().or_raise()?;
-    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None })
-}
 
 /// Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
 /// same everywhere at once; the one that is None rests.
@@ -123,8 +116,8 @@ pub(crate) fn ricker(
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
-makers! {
-    PyPlaneWave;
+members! {
+    PyPlaneWave, own;
     /// SV wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
     /// right if positive.
     sv(soil: &PySoil, angle: f64) = PlaneWave::sv(soil.0, angle).or_raise().map(Self);
@@ -136,10 +129,6 @@ makers! {
     p(soil: &PySoil, angle: f64) = PlaneWave::p(soil.0, angle).or_raise().map(Self);
     /// Rayleigh wave to the right on a half-plane of this ``soil``.
     rayleigh(soil: &PySoil) = Ok(Self(PlaneWave::rayleigh(soil.0)));
-}
-
-getters! {
-    PyPlaneWave, own;
     /// Apparent velocity along the surface, m/s.
     apparent_velocity: f64 = own.0.apparent_velocity();
 }
@@ -274,8 +263,8 @@ impl PyColumn {
 #[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
-makers! {
-    PyInclinedWave;
+members! {
+    PyInclinedWave, own;
     /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
     /// positive.
     sv(profile: &PySoilProfile, angle: f64) =
@@ -288,10 +277,6 @@ makers! {
     /// positive.
     p(profile: &PySoilProfile, angle: f64) =
         InclinedWave::p(profile.0.clone(), angle).or_raise().map(Self);
-}
-
-getters! {
-    PyInclinedWave, own;
     /// Apparent velocity along the surface, m/s.
     apparent_velocity: f64 = own.0.apparent_velocity();
 }

@@ -11,7 +11,7 @@ use crate::array::Named;
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
-getters! {
+members! {
     PyEnergyBalance, own;
     /// Kinetic energy ½ v·M v, J/m.
     kinetic: f64 = own.0.kinetic;

@@ -59,7 +59,7 @@ impl PyRun {
     }
 }
 
-getters! {
+members! {
     PyRun, own;
     /// Number of steps made.
     steps: usize = own.run.steps;

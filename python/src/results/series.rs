@@ -19,15 +19,13 @@ pub(super) fn named(histories: &TimeSeries, name: &str) -> PyResult<Array> {
         return Ok(Array::from(values));
     }
     let in_plan = !histories.depths().is_empty();
-    let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
-    match words.iter().zip(Quantity::of(in_plan)).find(|(word, _)| *word == name) {
-        Some((_, quantity)) => Ok(Array::from(histories.series(quantity))),
-        None => Err(pyo3::exceptions::PyKeyError::new_err(format!(
-            "'{name}' is neither a time series ({}) nor a probe ({})",
-            words.join(", "),
-            names(histories).join(", ")
-        ))),
+    if let Some(quantity) = Quantity::of(in_plan).find(|own| own.to_string() == name) {
+        return Ok(Array::from(histories.series(quantity)));
     }
+    let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
+    let (words, names) = (words.join(", "), names(histories).join(", "));
+    let text = format!("'{name}' is neither a time series ({words}) nor a probe ({names})");
+    Err(pyo3::exceptions::PyKeyError::new_err(text))
 }
 
 /// Names of the probes.

@@ -101,7 +101,7 @@ fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
     recipe().or_raise()
 }
 
-getters! {
+members! {
     PySimulation, own;
     /// The :class:`State` at the end of the last accepted step (at first: the static state).
     state: PyResult<PyState> = Ok(PyState(own.lock()?.state().clone()));

@@ -28,10 +28,9 @@ impl PyLoad {
     }
 }
 
-#[pymethods]
-impl PyLoad {
-    #[new]
-    fn new(row: RowLike, value: Bound<'_, PyAny>) -> PyResult<Self> {
+members! {
+    PyLoad, own;
+    new(row: RowLike, value: Bound<'_, PyAny>) = {
         if !value.is_callable() {
             return Err(refuse("the value of a load must be a function of time"));
         }
@@ -44,11 +43,7 @@ impl PyLoad {
                 })
             }))
         }))
-    }
-}
-
-makers! {
-    PyLoad;
+    };
     /// The same ``force`` (N/m) on the ``row`` at any time, the static state included.
     constant(row: RowLike, force: f64) =
         Ok(Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force))));

@@ -21,8 +21,8 @@ fn scheme(
     Ok(PyTimeScheme { make: Arc::new(move || Ok(Box::new(scheme.clone()))) })
 }
 
-makers! {
-    PyTimeScheme;
+members! {
+    PyTimeScheme, own;
     /// The midpoint rule: conserves energy.
     midpoint() = scheme(Ok(Midpoint));
     /// The midpoint rule that damps high frequencies: second order, makes no energy with the soil.

@@ -22,7 +22,7 @@ pub(crate) struct PyState(pub(super) State);
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundation(Foundation);
 
-getters! {
+members! {
     PyFoundation, own;
     /// Numbers of its first element and of the one after its last.
     elements: (usize, usize) = (own.0.elements.start, own.0.elements.end);
@@ -52,7 +52,7 @@ getters! {
     twist: f64 = own.0.twist;
 }
 
-getters! {
+members! {
     PyState, own;
     /// Number of steps made.
     step: usize = own.0.step;
@@ -174,20 +174,18 @@ impl PySteps {
 #[derive(PartialEq)]
 pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
 
-getters! {
+members! {
     PyCheckpoint, own;
+    new(data: &[u8]) = {
+        let read = postcard::from_bytes(data);
+        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
+    };
     /// Steps made before it.
     steps: usize = own.0.steps();
 }
 
 #[pymethods]
 impl PyCheckpoint {
-    #[new]
-    fn new(data: &[u8]) -> PyResult<Self> {
-        let read = postcard::from_bytes(data);
-        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
-    }
-
     /// All of it as bytes, for a file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = postcard::to_allocvec(&self.0);

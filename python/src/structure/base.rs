@@ -130,7 +130,7 @@ fn array<'py>(
     Ok(array)
 }
 
-getters! {
+members! {
     PyStructure, own;
     /// Number n of degrees of freedom.
     dofs: PyResult<usize> = Ok((own.make)().or_raise()?.dofs());

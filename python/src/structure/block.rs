@@ -30,8 +30,16 @@ fn placed(
     block.with(p_delta, RigidBlock::with_p_delta).or_raise().map(PyRigidBlock)
 }
 
-makers! {
-    PyRigidBlock;
+members! {
+    PyRigidBlock, own;
+    #[pyo3(signature = (width, height, density, *, center=0.0, p_delta=None))]
+    new(
+        width: f64,
+        height: f64,
+        density: f64,
+        center: f64,
+        p_delta: Option<f64>,
+    ) = placed(RigidBlock::new(width, height, density), center, p_delta)?.initializer();
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
     /// centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
     /// those of the class, if given.
@@ -47,10 +55,6 @@ makers! {
         let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
         placed(block, center, p_delta)
     };
-}
-
-getters! {
-    PyRigidBlock, own;
     /// Mass, kg/m.
     total_mass: f64 = own.0.total_mass();
     /// Rotary inertia about the middle of the base, kg m²/m.
@@ -59,18 +63,6 @@ getters! {
 
 #[pymethods]
 impl PyRigidBlock {
-    #[new]
-    #[pyo3(signature = (width, height, density, *, center=0.0, p_delta=None))]
-    fn new(
-        width: f64,
-        height: f64,
-        density: f64,
-        center: f64,
-        p_delta: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        placed(RigidBlock::new(width, height, density), center, p_delta)?.initializer()
-    }
-
     /// Number of the degree of freedom of the displacement to the right.
     #[classattr]
     const HORIZONTAL: usize = RigidBlock::HORIZONTAL;
@@ -101,28 +93,8 @@ pub(crate) struct PyRigidBody(pub(super) RigidBody);
 /// Names of the degrees of freedom of a rigid body.
 pub(super) const SIX: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-getters! {
+members! {
     PyRigidBody, own;
-    /// Mass, kg.
-    total_mass: f64 = own.0.total_mass();
-}
-
-extends!(PyRigidBody, own => {
-    let names = SIX.map(String::from).to_vec();
-    PyStructure::copied(own.0.clone()).named(Some(DofNames::new(names, 6)?))
-});
-
-fn body(
-    made: basemat::Result<RigidBody>,
-    center: (f64, f64),
-    p_delta: Option<f64>,
-) -> PyResult<PyRigidBody> {
-    let body = made.and_then(|body| body.centered_at(center.into()));
-    body.with(p_delta, RigidBody::with_p_delta).or_raise().map(PyRigidBody)
-}
-
-makers! {
-    PyRigidBody;
     /// Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
     /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
     /// weight tips it once it leans; none unless given.
@@ -162,6 +134,22 @@ makers! {
         center: (f64, f64),
         p_delta: Option<f64>,
     ) = body(RigidBody::from_mass(outline, mass, inertia, gravity_center), center, p_delta);
+    /// Mass, kg.
+    total_mass: f64 = own.0.total_mass();
+}
+
+extends!(PyRigidBody, own => {
+    let names = SIX.map(String::from).to_vec();
+    PyStructure::copied(own.0.clone()).named(Some(DofNames::new(names, 6)?))
+});
+
+fn body(
+    made: basemat::Result<RigidBody>,
+    center: (f64, f64),
+    p_delta: Option<f64>,
+) -> PyResult<PyRigidBody> {
+    let body = made.and_then(|body| body.centered_at(center.into()));
+    body.with(p_delta, RigidBody::with_p_delta).or_raise().map(PyRigidBody)
 }
 
 #[pymethods]

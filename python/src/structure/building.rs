@@ -25,13 +25,11 @@ use crate::row::{PyDofCombination, PySectionRows, rows};
 #[derive(Clone, Copy)]
 pub(crate) struct PyStorey(pub(crate) Storey);
 
-#[pymethods]
-impl PyStorey {
-    #[new]
+members! {
+    PyStorey, own;
     #[pyo3(signature = (height, mass, stiffness, *, rotary_inertia=0.0, damping=0.0))]
-    fn new(height: f64, mass: f64, stiffness: f64, rotary_inertia: f64, damping: f64) -> Self {
-        Self(Storey { height, mass, rotary_inertia, stiffness, damping })
-    }
+    new(height: f64, mass: f64, stiffness: f64, rotary_inertia: f64, damping: f64) =
+        Ok(Self(Storey { height, mass, rotary_inertia, stiffness, damping }));
 }
 
 type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
@@ -47,8 +45,8 @@ fn recipes(laws: GivenLaws) -> PyResult<Laws> {
 
 /// Number of the storey of a law.
 fn number(storey: i64) -> PyResult<usize> {
-    let text = || refuse(format!("laws: storey is {storey}, but must be 0 or more"));
-    usize::try_from(storey).map_err(|_| text())
+    usize::try_from(storey)
+        .map_err(|_| refuse(format!("laws: storey is {storey}, but must be 0 or more")))
 }
 
 /// The building with its laws.
@@ -87,18 +85,30 @@ impl PyShearBuilding {
     }
 }
 
-getters! {
+members! {
     PyShearBuilding, own;
-    /// Mass, kg/m.
-    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
-    /// First natural frequency on a fixed base without P–Δ, Hz.
-    fixed_base_frequency: PyResult<f64> = Ok(own.made()?.fixed_base_frequency());
-    /// Number of the degree of freedom of the topmost floor.
-    roof: PyResult<usize> = Ok(own.made()?.roof());
-}
-
-makers! {
-    PyShearBuilding;
+    #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None, laws=None))]
+    new(
+        width: f64,
+        base_mass: f64,
+        base_inertia: f64,
+        storeys: Vec<Bound<'_, PyStorey>>,
+        damping: Option<f64>,
+        center: f64,
+        p_delta: Option<f64>,
+        laws: GivenLaws,
+    ) = {
+        let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
+        let laws = recipes(laws)?;
+        let make = move || {
+            let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
+                .centered_at(center)
+                .with(damping, ShearBuilding::with_stiffness_damping)
+                .with(p_delta, ShearBuilding::with_p_delta)?;
+            following(building, &laws)
+        };
+        Self(Arc::new(make)).initializer()
+    };
     /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
     /// (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
     ///
@@ -119,34 +129,16 @@ makers! {
         let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
         Ok(Self(Arc::new(move || following(make()?.isolated(level, own()?)?, &laws))))
     };
+    /// Mass, kg/m.
+    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
+    /// First natural frequency on a fixed base without P–Δ, Hz.
+    fixed_base_frequency: PyResult<f64> = Ok(own.made()?.fixed_base_frequency());
+    /// Number of the degree of freedom of the topmost floor.
+    roof: PyResult<usize> = Ok(own.made()?.roof());
 }
 
 #[pymethods]
 impl PyShearBuilding {
-    #[new]
-    #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None, laws=None))]
-    fn new(
-        width: f64,
-        base_mass: f64,
-        base_inertia: f64,
-        storeys: Vec<Bound<'_, PyStorey>>,
-        damping: Option<f64>,
-        center: f64,
-        p_delta: Option<f64>,
-        laws: GivenLaws,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
-        let laws = recipes(laws)?;
-        let make = move || {
-            let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
-                .centered_at(center)
-                .with(damping, ShearBuilding::with_stiffness_damping)
-                .with(p_delta, ShearBuilding::with_p_delta)?;
-            following(building, &laws)
-        };
-        Self(Arc::new(make)).initializer()
-    }
-
     /// Number of the degree of freedom of the floor above a ``storey`` (0: the lowest).
     fn floor(&self, storey: Count) -> PyResult<usize> {
         self.made()?.floor(storey.0).or_raise()
@@ -180,14 +172,13 @@ impl PyShearBuilding {
 #[pyclass(name = "PlanStorey", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlanStorey(PlanStorey);
 
-#[pymethods]
-impl PyPlanStorey {
-    #[new]
+members! {
+    PyPlanStorey, own;
     #[pyo3(
         signature = (height, mass, sides, stiffness, *, inertia=None, mass_center=[0.0; 2], stiffness_center=[0.0; 2], damping=[0.0; 3]),
         text_signature = "(height, mass, sides, stiffness, *, inertia=None, mass_center=(0.0, 0.0), stiffness_center=(0.0, 0.0), damping=(0.0, 0.0, 0.0))"
     )]
-    fn new(
+    new(
         height: f64,
         mass: f64,
         sides: [f64; 2],
@@ -196,11 +187,11 @@ impl PyPlanStorey {
         mass_center: [f64; 2],
         stiffness_center: [f64; 2],
         damping: [f64; 3],
-    ) -> Self {
+    ) = {
         let own = PlanStorey::new(height, mass, sides, stiffness);
         let inertia = inertia.unwrap_or(own.inertia);
-        Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own })
-    }
+        Ok(Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own }))
+    };
 }
 
 /// Directions of the laws of storeys in plan.
@@ -233,22 +224,15 @@ impl PyStoreyBuilding {
     }
 }
 
-getters! {
+members! {
     PyStoreyBuilding, own;
-    /// Mass of mat and floors, kg.
-    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
-}
-
-#[pymethods]
-impl PyStoreyBuilding {
-    #[new]
     #[pyo3(signature = (mat, storeys, *, p_delta=None, laws=None))]
-    fn new(
+    new(
         mat: &PyRigidBody,
         storeys: Vec<Bound<'_, PyPlanStorey>>,
         p_delta: Option<f64>,
         laws: Option<BTreeMap<(i64, String), LawLike>>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let storeys: Vec<PlanStorey> = storeys.iter().map(|storey| storey.get().0).collect();
         let mat = mat.0.clone();
         let laws = laws.into_iter().flatten().map(|((storey, direction), LawLike(law))| {
@@ -265,8 +249,13 @@ impl PyStoreyBuilding {
             Ok(building)
         };
         Self(Arc::new(make)).initializer()
-    }
+    };
+    /// Mass of mat and floors, kg.
+    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
+}
 
+#[pymethods]
+impl PyStoreyBuilding {
     /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]

@@ -18,28 +18,20 @@ use crate::row::{PyDofCombination, RowLike};
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
-getters! {
+members! {
     PyRayleighDamping, own;
+    new(mass: f64, stiffness: f64) = Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?));
+    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
+    from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) =
+        RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self);
     /// Factor of the mass, 1/s.
     mass: f64 = own.0.mass();
     /// Factor of the stiffness, s.
     stiffness: f64 = own.0.stiffness();
 }
 
-makers! {
-    PyRayleighDamping;
-    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
-    from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) =
-        RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self);
-}
-
 #[pymethods]
 impl PyRayleighDamping {
-    #[new]
-    fn new(mass: f64, stiffness: f64) -> PyResult<Self> {
-        Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
-    }
-
     /// Damping ratio at a ``frequency`` (Hz).
     fn ratio(&self, frequency: f64) -> f64 {
         self.0.ratio(frequency)
@@ -52,22 +44,15 @@ impl PyRayleighDamping {
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel(Arc<ReducedModel>);
 
-getters! {
+members! {
     PyReducedModel, own;
-    /// Frequencies of the modes: array of shape (modes,), Hz.
-    frequencies: Array = own.0.frequencies().into();
-}
-
-#[pymethods]
-impl PyReducedModel {
-    #[new]
     #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
-    fn new(
+    new(
         structure: Bound<'_, PyAny>,
         modes: Count,
         #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let py = structure.py();
         let full = recipe(&structure)?().or_raise()?;
         let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
@@ -77,8 +62,13 @@ impl PyReducedModel {
         let reduced = Arc::new(reduced.or_raise()?);
         let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
-    }
+    };
+    /// Frequencies of the modes: array of shape (modes,), Hz.
+    frequencies: Array = own.0.frequencies().into();
+}
 
+#[pymethods]
+impl PyReducedModel {
     /// A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
     /// load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
@@ -146,15 +136,14 @@ impl PyStructureGroup {
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithModalDamping(Vec<f64>);
 
-#[pymethods]
-impl PyWithModalDamping {
-    #[new]
+members! {
+    PyWithModalDamping, own;
     #[pyo3(signature = (structure, ratios, *, fixed_base = false))]
-    fn new(
+    new(
         structure: Bound<'_, PyAny>,
         ratios: Numbers,
         fixed_base: bool,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let own = structure().or_raise()?;
         let names = DofNames::of(&object, own.dofs())?;
@@ -165,11 +154,7 @@ impl PyWithModalDamping {
         let frequencies = damped(own).or_raise()?.frequencies().to_vec();
         let base = PyStructure::new(move || damped(structure()?)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
-    }
-}
-
-getters! {
-    PyWithModalDamping, own;
+    };
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
     frequencies: Array = own.0.as_slice().into();
 }

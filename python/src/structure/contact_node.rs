@@ -19,8 +19,16 @@ impl From<ContactNode> for PyContactNode {
     }
 }
 
-getters! {
+members! {
     PyContactNode, own;
+    new(x: f64, horizontal: RowLike, vertical: RowLike) = {
+        let order = horizontal.1.and(vertical.1)?;
+        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
+    };
+    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+    /// numbers ``dofs`` (horizontal, vertical, rotation).
+    rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) =
+        Ok(ContactNode::rigid(x, center, dofs).into());
     /// Coordinate to the right, m.
     x: f64 = own.0.x;
     /// The :class:`DofCombination` of its displacement to the right.
@@ -29,22 +37,8 @@ getters! {
     vertical: PyDofCombination = PyDofCombination(own.0.vertical.clone(), own.1);
 }
 
-makers! {
-    PyContactNode;
-    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
-    /// numbers ``dofs`` (horizontal, vertical, rotation).
-    rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) =
-        Ok(ContactNode::rigid(x, center, dofs).into());
-}
-
 #[pymethods]
 impl PyContactNode {
-    #[new]
-    fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
-        let order = horizontal.1.and(vertical.1)?;
-        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
-    }
-
     /// The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
     /// at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
@@ -75,8 +69,19 @@ impl From<FaceNode> for PyFaceNode {
     }
 }
 
-getters! {
+members! {
     PyFaceNode, own;
+    new(
+        x: f64,
+        y: f64,
+        horizontal: RowLike,
+        across: RowLike,
+        vertical: RowLike,
+    ) = {
+        let order = horizontal.1.and(across.1)?.and(vertical.1)?;
+        let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
+        Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
+    };
     /// Coordinate to the right, m.
     x: f64 = own.0.x;
     /// Coordinate away from the reader, m.
@@ -91,19 +96,6 @@ getters! {
 
 #[pymethods]
 impl PyFaceNode {
-    #[new]
-    fn new(
-        x: f64,
-        y: f64,
-        horizontal: RowLike,
-        across: RowLike,
-        vertical: RowLike,
-    ) -> PyResult<Self> {
-        let order = horizontal.1.and(across.1)?.and(vertical.1)?;
-        let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
-        Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
-    }
-
     /// The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
     /// whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
     #[staticmethod]

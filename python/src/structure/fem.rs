@@ -124,8 +124,9 @@ impl PyFemModel {
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 
-getters! {
+members! {
     PyGmshMesh, own;
+    new(path: PathBuf) = Ok(Self(GmshMesh::read(path).or_raise()?));
     /// List of the names of the groups of quadrilaterals.
     surfaces: Vec<&str> = own.0.surfaces();
     /// List of the names of the groups of lines.
@@ -134,11 +135,6 @@ getters! {
 
 #[pymethods]
 impl PyGmshMesh {
-    #[new]
-    fn new(path: PathBuf) -> PyResult<Self> {
-        Ok(Self(GmshMesh::read(path).or_raise()?))
-    }
-
     /// The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
     /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
     #[pyo3(signature = (materials, *, formulation="incompatible modes", hourglass_percent=5))]

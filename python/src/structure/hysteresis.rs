@@ -54,13 +54,12 @@ impl PyHysteresis {
 #[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBilinear;
 
-#[pymethods]
-impl PyBilinear {
-    #[new]
-    fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
+members! {
+    PyBilinear, own;
+    new(stiffness: f64, yield_force: f64, hardening: f64) = {
         let base = copied(Bilinear::new(stiffness, yield_force, hardening).or_raise()?);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    }
+    };
 }
 
 /// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
@@ -69,17 +68,16 @@ impl PyBilinear {
 #[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBoucWen;
 
-#[pymethods]
-impl PyBoucWen {
-    #[new]
+members! {
+    PyBoucWen, own;
     #[pyo3(signature = (stiffness, yield_force, hardening, *, exponent=None, beta=None))]
-    fn new(
+    new(
         stiffness: f64,
         yield_force: f64,
         hardening: f64,
         exponent: Option<f64>,
         beta: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let mut own = BoucWen::new(stiffness, yield_force, hardening).or_raise()?;
         match (exponent, beta) {
             (None, None) => {}
@@ -87,7 +85,7 @@ impl PyBoucWen {
             _ => return Err(crate::error::refuse("give both exponent and beta, or neither")),
         }
         Ok(PyClassInitializer::from(copied(own)).add_subclass(Self))
-    }
+    };
 }
 
 /// Friction pendulum under a ``weight`` (N/m): ``radius`` of its dish (m), ``friction`` coefficient,
@@ -125,8 +123,24 @@ impl PyFrictionPendulum {
 #[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyLeadRubber(LeadRubber);
 
-getters! {
+members! {
     PyLeadRubber, own;
+    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    new(
+        shear_modulus: f64,
+        rubber_area: f64,
+        rubber_thickness: f64,
+        lead_area: f64,
+        stiffness_ratio: f64,
+    ) = {
+        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
+        bearing(own, stiffness_ratio)?.initializer()
+    };
+    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
+    /// ``stiffness_ratio`` is that of the class.
+    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) =
+        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio);
     /// Strength: force at zero deformation, N/m.
     strength: f64 = own.0.strength();
     /// Stiffness after yielding, N/m per metre.
@@ -140,43 +154,17 @@ fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<P
     own.or_raise().map(PyLeadRubber)
 }
 
-makers! {
-    PyLeadRubber;
-    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
-    /// ``stiffness_ratio`` is that of the class.
-    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) =
-        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio);
-}
-
-#[pymethods]
-impl PyLeadRubber {
-    #[new]
-    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    fn new(
-        shear_modulus: f64,
-        rubber_area: f64,
-        rubber_thickness: f64,
-        lead_area: f64,
-        stiffness_ratio: f64,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
-        bearing(own, stiffness_ratio)?.initializer()
-    }
-}
-
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
 /// freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings;
 
-#[pymethods]
-impl PyWithSprings {
-    #[new]
-    fn new(
+members! {
+    PyWithSprings, own;
+    new(
         structure: Bound<'_, PyAny>,
         springs: Vec<(RowLike, LawLike)>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
         let names = DofNames::of(&object, dofs)?;
@@ -197,5 +185,5 @@ impl PyWithSprings {
         make().or_raise()?;
         let base = PyStructure::new(make).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    }
+    };
 }

@@ -34,12 +34,10 @@ pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulatio
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 
-#[pymethods]
-impl PyMaterial {
-    #[new]
-    fn new(young_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?))
-    }
+members! {
+    PyMaterial, own;
+    new(young_modulus: f64, poisson: f64, density: f64) =
+        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?));
 }
 
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
@@ -51,20 +49,19 @@ impl PyMaterial {
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(Layer);
 
-#[pymethods]
-impl PyLayer {
-    #[new]
+members! {
+    PyLayer, own;
     #[pyo3(signature = (height, rows, material, *, formulation="incompatible modes", hourglass_percent=5))]
-    fn new(
+    new(
         height: f64,
         #[pyo3(from_py_with = whole)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
         #[pyo3(from_py_with = whole)] hourglass_percent: usize,
-    ) -> PyResult<Self> {
+    ) = {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(Self(Layer { height, rows, material: material.0, formulation }))
-    }
+    };
 }
 
 /// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
@@ -167,8 +164,16 @@ fn layers(given: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
     given.iter().map(|layer| layer.get().0).collect()
 }
 
-makers! {
-    PyMesh;
+members! {
+    PyMesh, own;
+    #[pyo3(signature = (nodes=None))]
+    new(nodes: Option<Pairs>) = {
+        let mut mesh = Mesh::new();
+        for [x, y] in nodes.map_or_else(Vec::new, |nodes| nodes.0) {
+            mesh.add_node(x, y).or_raise()?;
+        }
+        Ok(Self(mesh))
+    };
     /// Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
     /// :class:`Layer` from y = 0 upwards.
     layered_block(left: f64, right: f64, columns: Count, layers: Vec<Bound<'_, PyLayer>>) =
@@ -177,26 +182,12 @@ makers! {
     /// ``layers`` is a list of :class:`Layer` from y = 0 upwards.
     graded_block(grid: Numbers, layers: Vec<Bound<'_, PyLayer>>) =
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self);
-}
-
-getters! {
-    PyMesh, own;
     /// Coordinates of the nodes: array of shape (nodes, 2), m.
     nodes: Rows = Rows(own.0.nodes().iter().map(|node| node.to_vec()).collect());
 }
 
 #[pymethods]
 impl PyMesh {
-    #[new]
-    #[pyo3(signature = (nodes=None))]
-    fn new(nodes: Option<Pairs>) -> PyResult<Self> {
-        let mut mesh = Mesh::new();
-        for [x, y] in nodes.map_or_else(Vec::new, |nodes| nodes.0) {
-            mesh.add_node(x, y).or_raise()?;
-        }
-        Ok(Self(mesh))
-    }
-
     /// Adds a node at (``x``, ``y``), m; returns its number.
     fn add_node(&mut self, x: f64, y: f64) -> PyResult<usize> {
         self.0.add_node(x, y).or_raise()

@@ -21,8 +21,19 @@ use crate::names::{mode, mode_name};
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
-getters! {
+members! {
     PyCondition, own;
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, value=0.0))]
+    new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) =
+        Ok(Self(Condition { gap, slip, pressure, shear, value }));
+    /// The gap is ``value``, m.
+    gap_is(value: f64) = Ok(Self(Condition::gap_is(value)));
+    /// The slip is ``value``, m.
+    slip_is(value: f64) = Ok(Self(Condition::slip_is(value)));
+    /// The pressure is ``value``, Pa.
+    pressure_is(value: f64) = Ok(Self(Condition::pressure_is(value)));
+    /// The shear traction is ``value``, Pa.
+    shear_is(value: f64) = Ok(Self(Condition::shear_is(value)));
     /// Coefficient of the gap.
     gap: f64 = own.0.gap;
     /// Coefficient of the slip.
@@ -35,47 +46,19 @@ getters! {
     value: f64 = own.0.value;
 }
 
-makers! {
-    PyCondition;
-    /// The gap is ``value``, m.
-    gap_is(value: f64) = Ok(Self(Condition::gap_is(value)));
-    /// The slip is ``value``, m.
-    slip_is(value: f64) = Ok(Self(Condition::slip_is(value)));
-    /// The pressure is ``value``, Pa.
-    pressure_is(value: f64) = Ok(Self(Condition::pressure_is(value)));
-    /// The shear traction is ``value``, Pa.
-    shear_is(value: f64) = Ok(Self(Condition::shear_is(value)));
-}
-
-#[pymethods]
-impl PyCondition {
-    #[new]
-    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, value=0.0))]
-    fn new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) -> Self {
-        Self(Condition { gap, slip, pressure, shear, value })
-    }
-}
-
 /// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
 /// pressure and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyTolerance(pub(crate) Tolerance);
 
-getters! {
+members! {
     PyTolerance, own;
+    new(length: f64, traction: f64) = Ok(Self(Tolerance::new(length, traction)));
     /// Difference of gaps and slips, m.
     length: f64 = own.0.length;
     /// Difference of tractions, Pa.
     traction: f64 = own.0.traction;
-}
-
-#[pymethods]
-impl PyTolerance {
-    #[new]
-    fn new(length: f64, traction: f64) -> Self {
-        Self(Tolerance::new(length, traction))
-    }
 }
 
 /// A Python object with `modes`, `conditions(mode, start)` and

@@ -12,8 +12,17 @@ use crate::names::mode_name;
 #[pyclass(name = "ContactState", module = "basemat", frozen, subclass)]
 pub(crate) struct PyContactState(pub(crate) ContactState);
 
-getters! {
+members! {
     PyContactState, own;
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, slip_across=0.0, shear_across=0.0))]
+    new(
+        gap: f64,
+        slip: f64,
+        pressure: f64,
+        shear: f64,
+        slip_across: f64,
+        shear_across: f64,
+    ) = Ok(Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across }));
     /// Gap, m; positive when open.
     gap: f64 = own.0.gap;
     /// Slip since the static state, m; positive to the right.
@@ -26,22 +35,6 @@ getters! {
     slip_across: f64 = own.0.slip_across;
     /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
     shear_across: f64 = own.0.shear_across;
-}
-
-#[pymethods]
-impl PyContactState {
-    #[new]
-    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, slip_across=0.0, shear_across=0.0))]
-    fn new(
-        gap: f64,
-        slip: f64,
-        pressure: f64,
-        shear: f64,
-        slip_across: f64,
-        shear_across: f64,
-    ) -> Self {
-        Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across })
-    }
 }
 
 /// An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
@@ -74,8 +67,22 @@ impl PyPreviousContact {
     }
 }
 
-getters! {
+members! {
     PyPreviousContact, own;
+    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
+    new(
+        state: &PyContactState,
+        mode: &str,
+        time_step: f64,
+        slip_rate: f64,
+        memory: Option<Numbers>,
+    ) = {
+        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
+        own.slip_rate = slip_rate;
+        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
+        let base = PyClassInitializer::from(PyContactState(state.0));
+        Ok(base.add_subclass(Self { own, memory }))
+    };
     /// Mode of the step before, as in :data:`basemat.MODES`.
     mode: &'static str = mode_name(own.own.mode);
     /// Whether the element has been open.
@@ -90,25 +97,6 @@ getters! {
     memory: Vec<f64> = own.memory.clone();
 }
 
-#[pymethods]
-impl PyPreviousContact {
-    #[new]
-    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
-    fn new(
-        state: &PyContactState,
-        mode: &str,
-        time_step: f64,
-        slip_rate: f64,
-        memory: Option<Numbers>,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
-        own.slip_rate = slip_rate;
-        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
-        let base = PyClassInitializer::from(PyContactState(state.0));
-        Ok(base.add_subclass(Self { own, memory }))
-    }
-}
-
 /// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
 /// :meth:`UserPlanLaw.limits` returns.
 ///
@@ -121,8 +109,25 @@ impl PyPreviousContact {
 #[derive(PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyLimits(pub(crate) Limits);
 
-getters! {
+members! {
     PyLimits, own;
+    #[pyo3(
+        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
+        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
+    )]
+    new(
+        friction: f64,
+        attraction: f64,
+        shear_strength: f64,
+        tension: f64,
+        pressure_cap: f64,
+        gap_offset: f64,
+        bonded: bool,
+    ) = {
+        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
+        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
+        Ok(Self(Limits { bonded, ..own }))
+    };
     /// Friction coefficient; infinite where nothing slides.
     friction: f64 = own.0.friction;
     /// Pressure that friction acts on beside that of the contact, Pa.
@@ -137,27 +142,4 @@ getters! {
     gap_offset: f64 = own.0.gap_offset;
     /// Whether base and soil neither separate nor slide.
     bonded: bool = own.0.bonded;
-}
-
-#[pymethods]
-impl PyLimits {
-    #[new]
-    #[pyo3(
-        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
-        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
-    )]
-    fn new(
-        friction: f64,
-        attraction: f64,
-        shear_strength: f64,
-        tension: f64,
-        pressure_cap: f64,
-        gap_offset: f64,
-        bonded: bool,
-    ) -> Self {
-        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
-        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
-        own.bonded = bonded;
-        Self(own)
-    }
 }
