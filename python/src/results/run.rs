@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use basemat::coupled::EnergyTerm;
 use basemat::io::paraview;
-use basemat::results::{Quantity, Run, Summary, TimeSeries};
+use basemat::results::{DeformedShape, Quantity, Run, Summary, TimeSeries};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
@@ -13,7 +13,23 @@ use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, seri
 use crate::array::{Array, Named, Numbers};
 use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
-use crate::structure::shape;
+use crate::structure::{PyFemModel, PyShearBuilding, PyStoreyBuilding, recipe};
+
+/// The shape of a structure for pictures: its elements or storeys, of another one a box of this `height`.
+fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
+    if let Ok(own) = object.cast::<PyFemModel>() {
+        return Ok(DeformedShape::of_model(&own.get().0));
+    }
+    if let Ok(own) = object.cast::<PyShearBuilding>() {
+        return DeformedShape::of_building(&own.get().made()?).or_raise();
+    }
+    if let Ok(own) = object.cast::<PyStoreyBuilding>() {
+        return DeformedShape::of_storeys(&own.get().made()?).or_raise();
+    }
+    let needed = "height: give that of the box that stands for the structure";
+    let height = height.ok_or_else(|| refuse(needed))?;
+    DeformedShape::of_block(recipe(object)?().or_raise()?.as_ref(), height).or_raise()
+}
 
 /// A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///

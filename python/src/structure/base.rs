@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use basemat::results::DeformedShape;
 use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::{PyContactNode, PyFaceNode, PyFemModel, PyShearBuilding, PyStoreyBuilding};
+use super::{PyContactNode, PyFaceNode};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
@@ -75,22 +74,6 @@ pub(crate) fn made<'py>(
         return Ok((Box::new(own), copy));
     }
     Ok((recipe(object)?().or_raise()?, object.clone()))
-}
-
-/// The shape of a structure for pictures: its elements or storeys, of another one a box of this `height`.
-pub(crate) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
-    if let Ok(own) = object.cast::<PyFemModel>() {
-        return Ok(DeformedShape::of_model(&own.get().0));
-    }
-    if let Ok(own) = object.cast::<PyShearBuilding>() {
-        return DeformedShape::of_building(&own.get().made()?).or_raise();
-    }
-    if let Ok(own) = object.cast::<PyStoreyBuilding>() {
-        return DeformedShape::of_storeys(&own.get().made()?).or_raise();
-    }
-    let needed = "height: give that of the box that stands for the structure";
-    let height = height.ok_or_else(|| refuse(needed))?;
-    DeformedShape::of_block(recipe(object)?().or_raise()?.as_ref(), height).or_raise()
 }
 
 /// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.

@@ -80,7 +80,7 @@ extends!(PyShearBuilding, own => {
 });
 
 impl PyShearBuilding {
-    pub(super) fn made(&self) -> PyResult<ShearBuilding> {
+    pub(crate) fn made(&self) -> PyResult<ShearBuilding> {
         (self.0)().or_raise()
     }
 }
@@ -219,7 +219,7 @@ extends!(PyStoreyBuilding, own => {
 });
 
 impl PyStoreyBuilding {
-    pub(super) fn made(&self) -> PyResult<StoreyBuilding> {
+    pub(crate) fn made(&self) -> PyResult<StoreyBuilding> {
         (self.0)().or_raise()
     }
 }

@@ -27,7 +27,7 @@ use crate::row::{PyDofCombination, PySectionRows};
 /// unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
 /// given. ``active_damping``: whether dashpots may feed energy in, which is refused by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyFemModel(pub(super) Arc<FemModel>);
+pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 
 /// Nodes of the base, or of each foundation.
 enum Contact {

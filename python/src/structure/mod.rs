@@ -11,7 +11,7 @@ mod hysteresis;
 mod matrices;
 mod mesh;
 
-pub(crate) use base::{PyStructure, made, recipe, shape};
+pub(crate) use base::{PyStructure, made, recipe};
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
