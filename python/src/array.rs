@@ -2,9 +2,9 @@
 
 use basemat::structure::Triplets;
 use numpy::ndarray::{Ix1, Ix2};
-use numpy::{Complex64, Element, PyArray, PyArray1, PyArrayMethods, PyReadonlyArray};
+use numpy::{Complex64, Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
-use pyo3::types::PyFloat;
+use pyo3::types::{IntoPyDict, PyDict, PyFloat};
 
 use crate::error::refuse;
 
@@ -114,42 +114,59 @@ pub(crate) fn complex(value: basemat::Complex) -> Complex64 {
     Complex64::new(value.re, value.im)
 }
 
-/// A count that user code gives.
-pub(crate) struct Count(pub(crate) usize);
+/// Rows that Python gets as an array of two axes.
+pub(crate) struct Rows(pub(crate) Vec<Vec<f64>>);
 
-impl<'py> FromPyObject<'_, 'py> for Count {
+impl<'py> IntoPyObject<'py> for Rows {
+    type Target = PyArray2<f64>;
+    type Output = Bound<'py, Self::Target>;
     type Error = PyErr;
 
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        Ok(Self(whole(&object)?))
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        Ok(PyArray2::from_vec2(py, &self.0)?)
     }
 }
+
+/// What Python gets as a dict, in this order.
+pub(crate) struct Named<K, V>(pub(crate) Vec<(K, V)>);
+
+impl<K, V> FromIterator<(K, V)> for Named<K, V> {
+    fn from_iter<I: IntoIterator<Item = (K, V)>>(pairs: I) -> Self {
+        Self(pairs.into_iter().collect())
+    }
+}
+
+impl<'py, K: IntoPyObject<'py>, V: IntoPyObject<'py>> IntoPyObject<'py> for Named<K, V> {
+    type Target = PyDict;
+    type Output = Bound<'py, PyDict>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        self.0.into_py_dict(py)
+    }
+}
+
+/// A number of a part, an index or a count.
+#[derive(Clone, Copy)]
+pub(crate) struct Count(pub(crate) usize);
+
+extracts!(Count, object => Ok(Self(whole(&object)?)));
 
 /// Numbers of anything that numpy takes for a list of them.
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
-impl<'py> FromPyObject<'_, 'py> for Numbers {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        Ok(Self(reals::<Ix1>(&object, "(n,)")?.as_array().to_vec()))
-    }
-}
+extracts!(Numbers, object => Ok(Self(reals::<Ix1>(&object, "(n,)")?.as_array().to_vec())));
 
 /// Pairs of numbers: anything that numpy takes for an array of shape (n, 2).
 pub(crate) struct Pairs(pub(crate) Vec<[f64; 2]>);
 
-impl<'py> FromPyObject<'_, 'py> for Pairs {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let Table { columns, rows } = Table::of(&object, "(n, 2)")?;
-        let pairs = rows.into_iter().map(<[f64; 2]>::try_from).collect::<Result<Vec<_>, _>>();
-        Ok(Self(pairs.map_err(|row| {
-            refuse(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
-        })?))
-    }
-}
+extracts!(Pairs, object => {
+    let Table { columns, rows } = Table::of(&object, "(n, 2)")?;
+    let pairs = rows.into_iter().map(<[f64; 2]>::try_from).collect::<Result<Vec<_>, _>>();
+    Ok(Self(pairs.map_err(|row| {
+        refuse(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
+    })?))
+});
 
 /// Rows of numbers: anything that numpy takes for an array of two axes.
 pub(crate) struct Table {
@@ -169,13 +186,9 @@ impl Table {
 /// A square matrix: dense, or any of `scipy.sparse`. Entries of zero are left out.
 pub(crate) struct Matrix(pub(crate) Triplets);
 
-impl<'py> FromPyObject<'_, 'py> for Matrix {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if object.hasattr("tocoo")? { sparse(&object) } else { dense(&object) }
-    }
-}
+extracts!(Matrix, object => {
+    if object.hasattr("tocoo")? { sparse(&object) } else { dense(&object) }
+});
 
 fn square(shape: (usize, usize)) -> PyResult<Triplets> {
     if shape.0 == shape.1 {

@@ -114,6 +114,8 @@ pub(crate) fn in_python(mut text: String) -> String {
         ("; `with_time_limit` allows more", ""),
         ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),
         ("take `Midpoint`,", "take TimeScheme.midpoint(),"),
+        ("tell the recorder to keep the contact", "give `contact_every` to `run`"),
+        ("tell the recorder to keep the motion", "give `motion_every` to `run`"),
     ] {
         text = text.replace(core, python);
     }

@@ -1,19 +1,85 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-/// Getters `name: type = value;` of a `$class`, whose values may ask for the object by the name `$own`.
-macro_rules! getters {
-    ($class:ident, $own:ident; $($(#[doc = $doc:tt])+ $name:ident: $type:ty = $value:expr;)+) => {
+/// Members of a `$class`: its constructor `new(arguments) = value;`, static methods `name(arguments) = value;` that make
+/// an object of it, and getters `name: type = value;`, whose values may ask for the object by the name `$own`.
+macro_rules! members {
+    (@ $class:ident $own:ident { $($made:tt)* }) => {
         #[pyo3::pymethods]
+        impl $class { $($made)* }
+    };
+    (
+        @ $class:ident $own:ident { $($made:tt)* }
+        $(#[$($attribute:tt)*])* new($($arguments:tt)*) = $value:expr; $($others:tt)*
+    ) => {
+        members! { @ $class $own { $($made)*
+            $(#[$($attribute)*])*
+            #[new]
+            #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
+            fn new($($arguments)*) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
+                let made: pyo3::PyResult<_> = $value;
+                made.map(Into::into)
+            }
+        } $($others)* }
+    };
+    (
+        @ $class:ident $own:ident { $($made:tt)* }
+        $(#[$($attribute:tt)*])* $name:ident($($arguments:tt)*) = $value:expr; $($others:tt)*
+    ) => {
+        members! { @ $class $own { $($made)*
+            $(#[$($attribute)*])*
+            #[staticmethod]
+            #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
+            fn $name($($arguments)*) -> pyo3::PyResult<Self> { $value }
+        } $($others)* }
+    };
+    (
+        @ $class:ident $own:ident { $($made:tt)* }
+        $(#[$($attribute:tt)*])* $name:ident: $type:ty = $value:expr; $($others:tt)*
+    ) => {
+        members! { @ $class $own { $($made)*
+            $(#[$($attribute)*])*
+            #[getter]
+            pub(crate) fn $name(&self) -> $type { let $own = self; $value }
+        } $($others)* }
+    };
+    ($class:ident, $own:ident; $($members:tt)+) => {
+        members! { @ $class $own {} $($members)+ }
+    };
+}
+
+/// Objects of a `$class` with that of the class it extends, which follows from its own by the name `$own`.
+macro_rules! extends {
+    ($class:ty, $own:ident => $base:expr) => {
         impl $class {
-            $(
-                $(#[doc = $doc])+
-                #[getter]
-                pub(crate) fn $name(&self) -> $type {
-                    let $own = self;
-                    $value
-                }
-            )+
+            fn initializer(self) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
+                let $own = &self;
+                let base = $base;
+                Ok(pyo3::PyClassInitializer::from(base).add_subclass(self))
+            }
+        }
+
+        impl<'py> pyo3::IntoPyObject<'py> for $class {
+            type Target = Self;
+            type Output = pyo3::Bound<'py, Self>;
+            type Error = pyo3::PyErr;
+
+            fn into_pyobject(self, py: pyo3::Python<'py>) -> pyo3::PyResult<Self::Output> {
+                pyo3::Bound::new(py, self.initializer()?)
+            }
+        }
+    };
+}
+
+/// How an `$object` of Python is taken as a `$type`.
+macro_rules! extracts {
+    ($type:ty, $object:ident => $value:expr) => {
+        impl<'py> pyo3::FromPyObject<'_, 'py> for $type {
+            type Error = pyo3::PyErr;
+
+            fn extract($object: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
+                $value
+            }
         }
     };
 }
@@ -88,7 +154,8 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("MODES", crate::names::MODES.map(|(_, name)| name))?;
+        module.add("MODES", &*crate::names::MODES)?;
+        module.add("_ELEMENT_UNITS", crate::results::element_units())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

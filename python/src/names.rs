@@ -1,41 +1,24 @@
 //! Names of the core's choices in Python.
 
-use basemat::interface::Mode;
-use pyo3::prelude::*;
+use std::sync::LazyLock;
 
-use crate::error::{OrRaise, refuse};
+use basemat::interface::Mode;
+use pyo3::PyResult;
+
+use crate::error::refuse;
 
 /// All modes, in the order of their numbers in arrays.
-pub(crate) const MODES: [(Mode, &str); 9] = [
-    (Mode::Stick, "stick"),
-    (Mode::SlipLeft, "slip left"),
-    (Mode::SlipRight, "slip right"),
-    (Mode::Open, "open"),
-    (Mode::Yield, "yield"),
-    (Mode::YieldLeft, "yield left"),
-    (Mode::YieldRight, "yield right"),
-    (Mode::Slip, "slip"),
-    (Mode::YieldSlip, "yield slip"),
-];
+pub(crate) static MODES: LazyLock<Vec<String>> =
+    LazyLock::new(|| Mode::ALL.iter().map(|mode| mode.to_string().replace('_', " ")).collect());
 
-/// Its number in arrays, and its name.
-fn known(mode: Mode) -> PyResult<(u8, &'static str)> {
-    let mut all = (0..).zip(MODES);
-    let found = all.find_map(|(number, (own, name))| (own == mode).then_some((number, name)));
-    found.ok_or_else(|| refuse(format!("mode '{mode}' has no number")))
-}
-
-pub(crate) fn mode_name(mode: Mode) -> PyResult<&'static str> {
-    known(mode).map(|(_, name)| name)
-}
-
-pub(crate) fn mode_number(mode: Mode) -> PyResult<u8> {
-    known(mode).map(|(number, _)| number)
+pub(crate) fn mode_name(mode: Mode) -> &'static str {
+    &MODES[mode as usize]
 }
 
 /// The mode of a name.
 pub(crate) fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().or_raise()
+    let unknown = || format!("there is no contact mode '{name}', only {}", MODES.join(", "));
+    name.parse().map_err(|_| refuse(unknown()))
 }
 
 /// The choice of a name among `all`; `what` names the argument.

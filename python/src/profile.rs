@@ -17,54 +17,34 @@ use crate::soil::PySoil;
 #[pyclass(name = "DampingLaw", module = "basemat", frozen, dict)]
 pub(crate) struct PyDampingLaw(Arc<dyn Relaxation>);
 
-#[pymethods]
-impl PyDampingLaw {
-    /// No damping.
-    #[staticmethod]
-    fn elastic() -> Self {
-        Self(Arc::new(Elastic))
-    }
+/// Any of the core's laws.
+fn damping(law: basemat::Result<impl Relaxation + 'static>) -> PyResult<PyDampingLaw> {
+    Ok(PyDampingLaw(Arc::new(law.or_raise()?)))
+}
 
+members! {
+    PyDampingLaw, own;
+    /// No damping.
+    elastic() = damping(Ok(Elastic));
     /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
     /// frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
     /// default): the usual choice in time.
-    #[staticmethod]
     #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0))]
-    fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> PyResult<Self> {
-        Ok(Self(Arc::new(GeneralizedMaxwell::constant_q(ratio, band, reference).or_raise()?)))
-    }
-
+    constant_q(ratio: f64, band: [f64; 2], reference: f64) =
+        damping(GeneralizedMaxwell::constant_q(ratio, band, reference));
     /// Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``shares`` of the rest
     /// (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
-    #[staticmethod]
-    fn maxwell(long_term: f64, shares: Numbers, rates: Numbers) -> PyResult<Self> {
-        Ok(Self(Arc::new(GeneralizedMaxwell::new(long_term, shares.0, rates.0).or_raise()?)))
-    }
-
+    maxwell(long_term: f64, shares: Numbers, rates: Numbers) =
+        damping(GeneralizedMaxwell::new(long_term, shares.0, rates.0));
     /// Kelvin–Voigt body with the damping ``ratio`` at ``frequency`` (Hz).
-    #[staticmethod]
-    fn kelvin_voigt(ratio: f64, frequency: f64) -> PyResult<Self> {
-        Ok(Self(Arc::new(KelvinVoigt::with_ratio(ratio, frequency).or_raise()?)))
-    }
-
+    kelvin_voigt(ratio: f64, frequency: f64) = damping(KelvinVoigt::with_ratio(ratio, frequency));
     /// Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;
     /// 1 by default).
-    #[staticmethod]
     #[pyo3(signature = (ratio, reference=1.0))]
-    fn kjartansson(ratio: f64, reference: f64) -> PyResult<Self> {
-        Ok(Self(Arc::new(Kjartansson::new(ratio, reference).or_raise()?)))
-    }
-
+    kjartansson(ratio: f64, reference: f64) = damping(Kjartansson::new(ratio, reference));
     /// The frequency domain's usual damping ``ratio``, the same at all frequencies: not causal, for
     /// impedances only.
-    #[staticmethod]
-    fn hysteretic(ratio: f64) -> PyResult<Self> {
-        Ok(Self(Arc::new(Hysteretic::new(ratio).or_raise()?)))
-    }
-
-    fn __repr__(&self) -> String {
-        format!("DampingLaw({})", self.0.describe())
-    }
+    hysteretic(ratio: f64) = damping(Hysteretic::new(ratio));
 }
 
 /// A horizontal layer: its ``soil`` (:class:`Soil`), its ``thickness`` (m), its ``damping``
@@ -72,21 +52,15 @@ impl PyDampingLaw {
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
-getters! {
+members! {
     PySoilLayer, own;
+    #[pyo3(signature = (soil, thickness, damping=None))]
+    new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) =
+        Ok(Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) }));
     /// Its :class:`Soil`.
     soil: PySoil = PySoil(own.0.soil);
     /// Its thickness, m.
     thickness: f64 = own.0.thickness;
-}
-
-#[pymethods]
-impl PySoilLayer {
-    #[new]
-    #[pyo3(signature = (soil, thickness, damping=None))]
-    fn new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
-        Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) })
-    }
 }
 
 fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
@@ -99,12 +73,28 @@ fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
 
-getters! {
+members! {
     PySoilProfile, own;
+    #[pyo3(signature = (layers, base=None, *, base_damping=None))]
+    new(
+        layers: Vec<Bound<'_, PySoilLayer>>,
+        base: Option<&PySoil>,
+        base_damping: Option<&PyDampingLaw>,
+    ) = {
+        let layers = layers.iter().map(|layer| layer.get().0.clone()).collect();
+        let base = match base {
+            Some(soil) => Base::HalfPlane { soil: soil.0, damping: law(base_damping) },
+            None => Base::Rigid,
+        };
+        Ok(Self(SoilProfile::new(layers, base).or_raise()?))
+    };
     /// The layers from the surface down: list of :class:`SoilLayer`.
     layers: Vec<PySoilLayer> = own.0.layers().iter().cloned().map(PySoilLayer).collect();
     /// The :class:`Soil` of the half-plane under the layers; None on a rigid base.
-    base: Option<PySoil> = match own.0.base() { Base::HalfPlane { soil,.. } => Some(PySoil(*soil)), Base::Rigid => None, };
+    base: Option<PySoil> = match own.0.base() {
+        Base::HalfPlane { soil, .. } => Some(PySoil(*soil)),
+        Base::Rigid => None,
+    };
     /// Depth of all layers, m.
     depth: f64 = own.0.depth();
     /// First natural frequency of the layers, Hz; None without layers.
@@ -115,21 +105,6 @@ getters! {
 
 #[pymethods]
 impl PySoilProfile {
-    #[new]
-    #[pyo3(signature = (layers, base=None, *, base_damping=None))]
-    fn new(
-        layers: Vec<Bound<'_, PySoilLayer>>,
-        base: Option<&PySoil>,
-        base_damping: Option<&PyDampingLaw>,
-    ) -> PyResult<Self> {
-        let layers = layers.iter().map(|layer| layer.get().0.clone()).collect();
-        let base = match base {
-            Some(soil) => Base::HalfPlane { soil: soil.0, damping: law(base_damping) },
-            None => Base::Rigid,
-        };
-        Ok(Self(SoilProfile::new(layers, base).or_raise()?))
-    }
-
     fn _repr_html_(&self) -> String {
         preformatted(&self.0.to_string())
     }
@@ -147,16 +122,12 @@ impl PySoilProfile {
 #[derive(Clone)]
 pub(crate) struct Profile(pub(crate) SoilProfile);
 
-impl<'py> FromPyObject<'_, 'py> for Profile {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(soil) = object.cast::<PySoil>() {
-            return Ok(Self(soil.get().0.into()));
-        }
-        match object.cast::<PySoilProfile>() {
-            Ok(profile) => Ok(Self(profile.get().0.clone())),
-            Err(_) => Err(no_such(&object, "a Soil or a SoilProfile")),
-        }
+extracts!(Profile, object => {
+    if let Ok(soil) = object.cast::<PySoil>() {
+        return Ok(Self(soil.get().0.into()));
     }
-}
+    match object.cast::<PySoilProfile>() {
+        Ok(profile) => Ok(Self(profile.get().0.clone())),
+        Err(_) => Err(no_such(&object, "a Soil or a SoilProfile")),
+    }
+});

@@ -8,8 +8,11 @@ use basemat::structure::{ContactNode, FaceNode, Structure, Triplets};
 
 use crate::dof_names::DofNames;
 
+/// Makes a value, always the same.
+pub(crate) type Make<T> = Arc<dyn Fn() -> Result<T> + Send + Sync>;
+
 /// Makes a part for one simulation.
-pub(crate) type Recipe<T> = Arc<dyn Fn() -> Result<Box<T>> + Send + Sync>;
+pub(crate) type Recipe<T> = Make<Box<T>>;
 
 /// A linear structure that several simulations read, and names of its degrees of freedom.
 pub(crate) struct Shared<T>(pub(crate) Arc<T>, pub(crate) Option<DofNames>);
@@ -20,37 +23,26 @@ impl<T> Clone for Shared<T> {
     }
 }
 
+/// Methods that the shared structure answers.
+macro_rules! forward {
+    ($($name:ident($($argument:ident: $type:ty),*) -> $out:ty;)+) => {
+        $(fn $name(&self $(, $argument: $type)*) -> $out {
+            self.0.$name($($argument),*)
+        })+
+    };
+}
+
 impl<T: Structure + Sync> Structure for Shared<T> {
-    fn dofs(&self) -> usize {
-        self.0.dofs()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.0.contact_nodes()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.0.foundation_ends()
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
-        self.0.contact_faces()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.mass(matrix)
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.stiffness(matrix)
-    }
-
-    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.damping(matrix)
-    }
-
-    fn has_active_damping(&self) -> bool {
-        self.0.has_active_damping()
+    forward! {
+        dofs() -> usize;
+        contact_nodes() -> Vec<ContactNode>;
+        foundation_ends() -> Vec<usize>;
+        contact_faces() -> Vec<Vec<FaceNode>>;
+        mass(matrix: &mut Triplets) -> Result<()>;
+        stiffness(matrix: &mut Triplets) -> Result<()>;
+        damping(matrix: &mut Triplets) -> Result<()>;
+        has_active_damping() -> bool;
+        load(time: f64, load: &mut [f64]) -> Result<()>;
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
@@ -58,9 +50,5 @@ impl<T: Structure + Sync> Structure for Shared<T> {
             Some(names) => names.describe(dofs),
             None => self.0.describe(dofs),
         }
-    }
-
-    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        self.0.load(time, load)
     }
 }

@@ -37,7 +37,7 @@ pub(crate) fn refine(
     heard(|| basemat::coupled::refine(elements, time_step, results).or_raise()).map(PyRefinement)
 }
 
-getters! {
+members! {
     PyRefinement, own;
     /// Results of the settings, in the units of the scene: list of 6 arrays of shape (results,).
     results: Vec<Array> = own.0.settings.iter().map(|setting| setting.results.as_slice().into()).collect();

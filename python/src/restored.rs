@@ -1,9 +1,9 @@
 //! Results and small values as bytes, for pickles and files.
 
-use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
 use pyo3::types::PyBytes;
+use pyo3::{IntoPyObjectExt, PyClass};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -16,6 +16,7 @@ use crate::row::PyDofCombination;
 use crate::simulation::PyFoundation;
 use crate::soil::PySoil;
 use crate::structure::{PyContactNode, PyFaceNode};
+use crate::user::{PyCondition, PyLimits, PyTolerance};
 
 /// The function that makes a result again, the name of its class, and its bytes.
 type Reduced<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
@@ -37,7 +38,7 @@ fn read<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
 }
 
 /// Classes that pickle.
-macro_rules! reduces {
+macro_rules! results {
     ($($class:ident)+) => {
         $(#[pymethods]
         impl $class {
@@ -45,20 +46,12 @@ macro_rules! reduces {
                 reduced(slf)
             }
         })+
-    };
-}
-
-/// The results beside a run.
-macro_rules! results {
-    ($($class:ident)+) => {
-        reduces! { PyRun $($class)+ }
 
         /// The result of the class ``kind`` from the bytes ``data`` that its pickle holds.
         #[pyfunction(name = "_restored")]
         pub(crate) fn restored(py: Python<'_>, kind: &str, data: &[u8]) -> PyResult<Py<PyAny>> {
             match kind {
-                <PyRun as PyClass>::NAME => Ok(read::<PyRun>(data)?.create(py)?.into_any()),
-                $(<$class as PyClass>::NAME => Ok(Py::new(py, read::<$class>(data)?)?.into_any()),)+
+                $(<$class as PyClass>::NAME => read::<$class>(data)?.into_py_any(py),)+
                 _ => Err(refuse(format!("kind is '{kind}', which is not kept as bytes"))),
             }
         }
@@ -66,6 +59,6 @@ macro_rules! results {
 }
 
 results! {
-    PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
-    PySoil PyContactNode PyFaceNode PyDofCombination
+    PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
+    PySoil PyContactNode PyFaceNode PyDofCombination PyCondition PyLimits PyTolerance
 }

@@ -118,8 +118,20 @@ impl From<SectionRows> for PySectionRows {
     }
 }
 
-getters! {
+members! {
     PySectionRows, own;
+    #[pyo3(signature = (displacement, velocity, acceleration, *, unit="N/m"))]
+    new(
+        displacement: RowLike,
+        velocity: RowLike,
+        acceleration: RowLike,
+        unit: &str,
+    ) = {
+        let unit = choice("unit", unit, &["N/m", "N·m/m", "N", "N·m"].map(|own| (own, own)))?;
+        let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
+        let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
+        Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))
+    };
     /// SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m".
     unit: &'static str = own.0.unit;
     /// The :class:`DofCombination` of displacements.
@@ -132,20 +144,6 @@ getters! {
 
 #[pymethods]
 impl PySectionRows {
-    #[new]
-    #[pyo3(signature = (displacement, velocity, acceleration, *, unit="N/m"))]
-    fn new(
-        displacement: RowLike,
-        velocity: RowLike,
-        acceleration: RowLike,
-        unit: &str,
-    ) -> PyResult<Self> {
-        let unit = choice("unit", unit, &["N/m", "N·m/m", "N", "N·m"].map(|own| (own, own)))?;
-        let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
-        let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
-        Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))
-    }
-
     fn __getnewargs_ex__<'py>(
         &self,
         py: Python<'py>,

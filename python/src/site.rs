@@ -1,13 +1,14 @@
 //! Strain curves of soils, and the equivalent-linear response of a site.
 
-use basemat::site::{ControlPoint, EquivalentLinear, EquivalentLinearOptions, SoilColumn};
+use std::sync::Arc;
+
+use basemat::site::{EquivalentLinear, EquivalentLinearOptions};
 use basemat::soil::StrainCurves;
-use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::array::{Array, Numbers};
+use crate::array::{Array, Numbers, Rows, whole};
 use crate::error::{OrRaise, refuse};
-use crate::motion::PyRecord;
+use crate::motion::{PyColumn, PyRecord, control};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
 
@@ -20,57 +21,41 @@ fn checked(curves: StrainCurves) -> PyResult<PyStrainCurves> {
     Ok(PyStrainCurves(curves))
 }
 
-#[pymethods]
-impl PyStrainCurves {
+members! {
+    PyStrainCurves, own;
     /// A soil or rock that stays linear, with this ``damping`` ratio.
-    #[staticmethod]
-    fn linear(damping: f64) -> PyResult<Self> {
-        checked(StrainCurves::Linear { damping })
-    }
-
+    linear(damping: f64) = checked(StrainCurves::Linear { damping });
     /// Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
     /// damping.
-    #[staticmethod]
     #[pyo3(signature = (bound="mean"))]
-    fn seed_idriss(bound: &str) -> PyResult<Self> {
-        let all =
-            [("mean", StrainCurves::SeedIdrissMean), ("upper", StrainCurves::SeedIdrissUpper)];
-        checked(choice("bound", bound, &all)?)
-    }
-
+    seed_idriss(bound: &str) = {
+        let [mean, upper] = [StrainCurves::SeedIdrissMean, StrainCurves::SeedIdrissUpper];
+        checked(choice("bound", bound, &[("mean", mean), ("upper", upper)])?)
+    };
     /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
-    #[staticmethod]
-    fn vucetic_dobry(plasticity_index: f64) -> PyResult<Self> {
-        checked(StrainCurves::VuceticDobry { plasticity_index })
-    }
-
+    vucetic_dobry(plasticity_index: f64) = checked(StrainCurves::VuceticDobry { plasticity_index });
     /// Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993).
-    #[staticmethod]
-    fn epri(depth: f64) -> PyResult<Self> {
-        checked(StrainCurves::Epri { depth })
-    }
-
+    epri(depth: f64) = checked(StrainCurves::Epri { depth });
     /// Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
     /// ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
-    #[staticmethod]
     #[pyo3(signature = (plasticity_index, overconsolidation, mean_stress, *, frequency=1.0, cycles=10.0))]
-    fn darendeli(
+    darendeli(
         plasticity_index: f64,
         overconsolidation: f64,
         mean_stress: f64,
         frequency: f64,
         cycles: f64,
-    ) -> PyResult<Self> {
-        let state = StrainCurves::Darendeli {
-            plasticity_index,
-            overconsolidation,
-            mean_stress,
-            frequency,
-            cycles,
-        };
-        checked(state)
-    }
+    ) = checked(StrainCurves::Darendeli {
+        plasticity_index,
+        overconsolidation,
+        mean_stress,
+        frequency,
+        cycles,
+    });
+}
 
+#[pymethods]
+impl PyStrainCurves {
     /// A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
     /// ratios, ``dampings``.
     #[staticmethod]
@@ -96,35 +81,39 @@ impl PyStrainCurves {
     }
 }
 
-/// Options of an iteration; what is not given is the core's.
-pub(crate) struct Iteration {
-    pub(crate) control: ControlPoint,
-    pub(crate) strain_ratio: Option<f64>,
-    pub(crate) tolerance: Option<f64>,
-    pub(crate) most_iterations: Option<usize>,
-    pub(crate) band: Option<[f64; 2]>,
-}
-
-/// The response of a column with strain-compatible properties.
-pub(crate) fn iterate(
-    py: Python<'_>,
-    column: &SoilColumn,
-    record: &PyRecord,
-    curves: &[Bound<'_, PyStrainCurves>],
-    given: &Iteration,
-) -> PyResult<PyEquivalentLinear> {
-    let usual = EquivalentLinearOptions::default();
-    let options = EquivalentLinearOptions {
-        control: given.control,
-        strain_ratio: given.strain_ratio.unwrap_or(usual.strain_ratio),
-        tolerance: given.tolerance.unwrap_or(usual.tolerance),
-        most_iterations: given.most_iterations.unwrap_or(usual.most_iterations),
-        band: given.band.unwrap_or(usual.band),
-    };
-    let curves: Vec<StrainCurves> = curves.iter().map(|curves| curves.get().0.clone()).collect();
-    let record = &record.0;
-    let found = py.detach(|| column.equivalent_linear(record, &curves, &options));
-    Ok(PyEquivalentLinear(found.or_raise()?))
+#[pymethods]
+impl PyColumn {
+    /// Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
+    /// point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
+    ///
+    /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
+    /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
+    /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
+    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None))]
+    fn equivalent_linear(
+        &self,
+        py: Python<'_>,
+        record: &PyRecord,
+        curves: Vec<Bound<'_, PyStrainCurves>>,
+        control: &str,
+        strain_ratio: Option<f64>,
+        tolerance: Option<f64>,
+        #[pyo3(from_py_with = whole)] most_iterations: Option<usize>,
+        band: Option<[f64; 2]>,
+    ) -> PyResult<PyEquivalentLinear> {
+        let usual = EquivalentLinearOptions::default();
+        let options = EquivalentLinearOptions {
+            control: self::control(control)?,
+            strain_ratio: strain_ratio.unwrap_or(usual.strain_ratio),
+            tolerance: tolerance.unwrap_or(usual.tolerance),
+            most_iterations: most_iterations.unwrap_or(usual.most_iterations),
+            band: band.unwrap_or(usual.band),
+        };
+        let curves: Vec<_> = curves.iter().map(|curves| curves.get().0.clone()).collect();
+        let (column, record) = (&self.0, &record.0);
+        let found = py.detach(|| column.equivalent_linear(record, &curves, &options));
+        Ok(PyEquivalentLinear(found.or_raise()?))
+    }
 }
 
 /// Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
@@ -132,7 +121,7 @@ pub(crate) fn iterate(
 #[pyclass(name = "EquivalentLinear", module = "basemat", frozen, dict)]
 pub(crate) struct PyEquivalentLinear(EquivalentLinear);
 
-getters! {
+members! {
     PyEquivalentLinear, own;
     /// Depth of the tops of the layers: array of shape (layers,), m.
     depth: Array = own.0.layers.iter().map(|layer| layer.depth).collect();
@@ -154,6 +143,10 @@ getters! {
     last_change: f64 = own.0.last_change;
     /// Warnings, in words.
     warnings: Vec<String> = own.0.warnings.iter().map(ToString::to_string).collect();
+    /// Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s².
+    accelerations: Rows = Rows(own.0.accelerations.clone());
+    /// Record of the free surface.
+    surface: PyRecord = PyRecord(Arc::new(own.0.surface.clone()));
 }
 
 #[pymethods]
@@ -161,18 +154,6 @@ impl PyEquivalentLinear {
     /// The site for a ground: strain-compatible moduli at its first frequency, damping constant over the band.
     fn profile(&self) -> PySoilProfile {
         PySoilProfile(self.0.profile.clone())
-    }
-
-    /// Record of the free surface.
-    #[getter]
-    fn surface(&self, py: Python<'_>) -> PyResult<Py<PyRecord>> {
-        PyRecord::create(py, Ok(self.0.surface.clone()))
-    }
-
-    /// Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s².
-    #[getter]
-    fn accelerations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        Ok(PyArray2::from_vec2(py, &self.0.accelerations)?)
     }
 
     fn __str__(&self) -> String {

@@ -12,8 +12,17 @@ use crate::error::OrRaise;
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySoil(pub(crate) Soil);
 
-getters! {
+members! {
     PySoil, own;
+    new(shear_modulus: f64, poisson: f64, density: f64) =
+        Ok(Self(Soil::new(shear_modulus, poisson, density).or_raise()?));
+    /// Soil from the ``speed`` of its shear waves (m/s), Poisson's ratio ``poisson`` and ``density``
+    /// (kg/m³).
+    from_shear_wave_speed(speed: f64, poisson: f64, density: f64) =
+        Soil::from_shear_wave_speed(speed, poisson, density).or_raise().map(Self);
+    /// Soil from the speeds of ``shear`` and ``pressure`` waves (m/s) and its ``density`` (kg/m³).
+    from_wave_speeds(shear: f64, pressure: f64, density: f64) =
+        Soil::from_wave_speeds(shear, pressure, density).or_raise().map(Self);
     /// Shear modulus, Pa.
     shear_modulus: f64 = own.0.shear_modulus();
     /// Poisson's ratio, a number.
@@ -28,24 +37,6 @@ getters! {
 
 #[pymethods]
 impl PySoil {
-    #[new]
-    fn new(shear_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Soil::new(shear_modulus, poisson, density).or_raise()?))
-    }
-
-    /// Soil from the ``speed`` of its shear waves (m/s), Poisson's ratio ``poisson`` and ``density``
-    /// (kg/m³).
-    #[staticmethod]
-    fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Soil::from_shear_wave_speed(speed, poisson, density).or_raise()?))
-    }
-
-    /// Soil from the speeds of ``shear`` and ``pressure`` waves (m/s) and its ``density`` (kg/m³).
-    #[staticmethod]
-    fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Soil::from_wave_speeds(shear, pressure, density).or_raise()?))
-    }
-
     fn __repr__(&self) -> String {
         let Self(soil) = self;
         format!(

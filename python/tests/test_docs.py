@@ -211,6 +211,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     ),
     "_Mass": lambda word: bm.FemModel(mesh(), mass=word),
     "_Formulation": lambda word: bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3), formulation=word),
+    "_Quantity": lambda word: simulation().run(1).extremes(word),  # type: ignore[arg-type]
     "_Direction": lambda word: bm.FemModel(mesh()).dof_at(0, word),
     "_SpringDirection": lambda word: mesh().add_dashpots([[0, 1]], word, 1.0),
 }

@@ -136,6 +136,26 @@ def test_motions_laws_loads_and_probes() -> None:
         assert same_bits(*runs) and np.abs(runs[0]).max() > 0.0
 
 
+def test_layers_of_a_profile() -> None:
+    for profile in (PROFILE, copied(PROFILE)):
+        [layer] = profile.layers
+        assert repr(layer).startswith("SoilLayer(soil=Soil(") and repr(copied(layer)) == repr(layer)
+        again = bm.SoilProfile([copied(layer)], SOIL, base_damping=LAW)
+        assert str(again) == str(PROFILE)
+
+
+def test_what_laws_are_told() -> None:
+    start = bm.PreviousContact(bm.ContactState(slip=1e-3, shear_across=5.0), "slip left", 0.005)
+    assert isinstance(start, bm.ContactState) and (start.slip, start.shear_across) == (1e-3, 5.0)
+    condition = bm.Condition.slip_is(0.25)
+    assert (condition.slip, condition.gap, condition.value) == (1.0, 0.0, 0.25)
+    for own in (condition, bm.Tolerance(1e-9, 2.0), bm.Limits(0.4, pressure_cap=1e5, bonded=True)):
+        assert repr(copied(own)) == repr(own)
+    # They are of one step, and go nowhere.
+    with pytest.raises(TypeError, match="PreviousContact"):
+        pickle.dumps(start)
+
+
 def test_conditions_of_any_origin() -> None:
     start = bm.PreviousContact(bm.ContactState(pressure=1e5), "stick", 0.005)
     for own in (bm.Condition(gap=1.0, value=0.5), bm.Condition.shear_is(2.0), *bm.Coulomb(0.4).conditions("slip left", start)):

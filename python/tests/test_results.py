@@ -5,6 +5,7 @@ from __future__ import annotations
 import concurrent.futures
 import pickle
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -144,6 +145,44 @@ def test_a_run_is_the_summary_of_its_base(rocking) -> None:
             ask()
 
 
+def test_arrays_and_grids_for_other_programs(run: bm.Run, block: bm.RigidBlock, tmp_path: Path) -> None:
+    run.save_npz(tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz") as arrays:
+        assert same(arrays["base_shear_n_per_m"], run["base_shear"]) and same(arrays["roof_m_per_s2"], run["roof"])
+        assert same(arrays["contact_gap_m"], run.contact["gap"])
+        assert [word.replace("_", " ") for word in arrays["contact_mode_words"]] == bm.MODES
+    assert run.save_paraview(tmp_path, "base") == 101
+    assert run.save_paraview(tmp_path, "block", block, height=9.0) == 101 + 51
+    assert len(list(tmp_path.glob("block_base_*.vtu"))) == 101
+    grid = ElementTree.parse(tmp_path / "base_base_0060.vtu")
+    cells = {own.get("Name"): own.text for own in grid.iterfind(".//CellData/DataArray")}
+    assert [float(own) for own in (cells["pressure"] or "").split()] == run.contact["pressure"][60].tolist()
+    with pytest.raises(bm.InputError, match="height: give that of the box"):
+        run.save_paraview(tmp_path, "block", block)
+    with pytest.raises(bm.InputError, match="base: give `contact_every` to `run`"):
+        bm.Simulation(0.01, block, bm.SpringGround.under(block, 4, 1e8, 5e7), bm.Bonded()).run(2).save_paraview(tmp_path, "x")
+
+
+@pytest.mark.parametrize("kind", ["frame", "building", "plan"])
+def test_structures_have_shapes(kind: str, tmp_path: Path) -> None:
+    springs = (1e9, 5e8)
+    if kind == "frame":
+        mesh = bm.Mesh.layered_block(-2.0, 2.0, 4, [bm.Layer(6.0, 3, bm.Material(30e9, 0.2, 2400.0))])
+        structure: bm.Structure = bm.FemModel(mesh)
+        points = 5 * 4
+    elif kind == "building":
+        structure, points = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 40e6)] * 3), 2 * 4
+    else:
+        mat = bm.RigidBody.cuboid(8.0, 6.0, 1.0, 2400.0)
+        structure = bm.StoreyBuilding(mat, [bm.PlanStorey(3.0, 2e4, (8.0, 6.0), (4e7, 4e7, 1e9))])
+        points = 2 * 4
+    ground = bm.SpringGround.under(structure, 4, *springs)
+    run = bm.Simulation(0.01, structure, ground, bm.Bonded()).run(4, motion_every=2, warn=False)
+    assert run.save_paraview(tmp_path, kind, structure) == 3
+    piece = ElementTree.parse(tmp_path / f"{kind}_0002.vtu").find(".//Piece")
+    assert piece is not None and piece.get("NumberOfPoints") == str(points)
+
+
 def test_frames_have_units(run: bm.Run) -> None:
     pytest.importorskip("pandas")
     frame = run.to_frame()
@@ -154,8 +193,12 @@ def test_frames_have_units(run: bm.Run) -> None:
     envelope = run.envelope_frame()
     assert len(envelope) == 8 and envelope.attrs["units"]["open"] == "s"
     assert same(envelope["gap"].to_numpy(), run.envelope["gap"])
+    assert envelope["gap_time"].max() <= run.end and envelope.attrs["units"]["gap_time"] == "s"
     foundations = run.foundation_frame()
     assert foundations["base_shear"][0] == run.foundations[0].base_shear.largest.value
+    assert foundations["sliding_safety"][0] == run.foundations[0].least_sliding_safety.value
+    scalars = [name for name in run.series if name not in ("time", *run.probes)]
+    assert [name for name in foundations if name in scalars] == scalars
     energies = run.energy_frame()
     assert same(energies["soil"].to_numpy(), run.energy_balances["soil"])
     assert energies.attrs["units"]["soil"] == "J/m" and energies.attrs["units"]["residual"] == ""

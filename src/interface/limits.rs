@@ -24,6 +24,8 @@ use crate::error::{Error, Result, finite, not_negative};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Limits {
     /// Friction coefficient; infinite where nothing slides.
     pub friction: f64,

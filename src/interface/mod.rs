@@ -44,7 +44,20 @@ pub struct ContactState {
     pub shear_across: f64,
 }
 
+/// A number of an element: its word, its SI unit, whether it is one of grounds in plan only, and its value.
+type Number = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
+
 impl ContactState {
+    /// All numbers, in the order of columns in files: word, SI unit, whether only grounds in plan have it, value.
+    pub const NUMBERS: [Number; 6] = [
+        ("gap", "m", false, |own| own.gap),
+        ("slip", "m", false, |own| own.slip),
+        ("pressure", "Pa", false, |own| own.pressure),
+        ("shear", "Pa", false, |own| own.shear),
+        ("slip_across", "m", true, |own| own.slip_across),
+        ("shear_across", "Pa", true, |own| own.shear_across),
+    ];
+
     /// Gap, slip and tractions of an element by their components: down, along x, and in plan along y.
     #[inline]
     pub(crate) fn from_components(
@@ -77,6 +90,8 @@ impl ContactState {
 /// One linear condition on the end of a step:
 /// `gap·g + slip·s + pressure·p + shear·τ = value`, coefficients in the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Condition {
     /// Coefficient of the gap.
     pub gap: f64,
@@ -156,6 +171,8 @@ impl Condition {
 
 /// Differences below which a law should see equality.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Tolerance {
     /// For gaps and slips, m.

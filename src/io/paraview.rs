@@ -27,7 +27,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result, write_file};
 use crate::geometry::ContactElement;
-use crate::interface::Mode;
+use crate::interface::ContactState;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 
 /// Writes `name.pvd`, and for every frame of motion that `histories` keep a grid of the structure
@@ -127,29 +127,11 @@ fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) 
         [[left, *front], [right, *front], [right, *back], [left, *back]].map(|[x, y]| [x, y, 0.0])
     });
     let points = if histories.in_plan() { rectangles.collect() } else { ends.collect() };
-    let states = frame.states.iter();
-    let number = |mode: &Mode| match mode {
-        Mode::Stick => 0.0,
-        Mode::SlipLeft => 1.0,
-        Mode::SlipRight => 2.0,
-        Mode::Open => 3.0,
-        Mode::Yield => 4.0,
-        Mode::YieldLeft => 5.0,
-        Mode::YieldRight => 6.0,
-        Mode::Slip => 7.0,
-        Mode::YieldSlip => 8.0,
-    };
-    let mut cell_scalars = vec![
-        ("pressure", states.clone().map(|s| s.pressure).collect()),
-        ("shear", states.clone().map(|s| s.shear).collect()),
-        ("gap", states.clone().map(|s| s.gap).collect()),
-        ("slip", states.clone().map(|s| s.slip).collect()),
-        ("mode", frame.modes.iter().map(number).collect()),
-    ];
-    if histories.in_plan() {
-        cell_scalars.push(("shear_across", states.clone().map(|s| s.shear_across).collect()));
-        cell_scalars.push(("slip_across", states.map(|s| s.slip_across).collect()));
-    }
+    let numbers = ContactState::NUMBERS.iter().filter(|own| histories.in_plan() || !own.2);
+    let values = |value: &fn(&ContactState) -> f64| frame.states.iter().map(value).collect();
+    let modes = frame.modes.iter().map(|mode| f64::from(*mode as u8)).collect();
+    let numbers = numbers.map(|(word, .., value)| (*word, values(value)));
+    let cell_scalars = numbers.chain([("mode", modes)]).collect();
     let grid = Grid { points, cells, point_vectors: Vec::new(), cell_scalars };
     grid.xml()
 }

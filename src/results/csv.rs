@@ -62,11 +62,11 @@ impl TimeSeries {
     pub fn contact_csv(&self) -> Csv {
         let (ends, numbers) = (self.element_ends(), self.contact_numbers());
         let names = ends.iter().map(|(name, _)| *name).chain(["mode"]);
-        let names = names.chain(numbers.iter().map(|(name, _)| *name));
+        let names = names.chain(numbers.iter().map(|(name, _)| name.as_str()));
         let heading: Vec<_> = ["time_s", "element"].into_iter().chain(names).collect();
         let rows = self.contact_frames().flat_map(|frame| {
             let contact = frame.states.iter().zip(frame.modes).enumerate();
-            let ends = &ends;
+            let (ends, numbers) = (&ends, &numbers);
             contact.map(move |(e, (state, mode))| {
                 let places: Vec<_> = ends.iter().map(|(_, of)| Cell(of[e]).to_string()).collect();
                 let start = format!("{},{e},{},{mode},", Cell(frame.time), places.join(","));
@@ -77,46 +77,47 @@ impl TimeSeries {
     }
 }
 
+/// Column of an envelope.
+type EnvelopeColumn = (&'static str, &'static str, bool, fn(&ElementEnvelope) -> f64);
+
 impl Run {
+    /// Columns of an [envelope](Run::envelope): word, SI unit, whether only grounds in plan have it, value.
+    pub const ENVELOPE: [EnvelopeColumn; 20] = [
+        ("left", "m", false, |own| own.element.left),
+        ("right", "m", false, |own| own.element.right),
+        ("front", "m", true, |own| own.depth[0]),
+        ("back", "m", true, |own| own.depth[1]),
+        ("static_pressure", "Pa", false, |own| own.static_pressure),
+        ("lowest_pressure", "Pa", false, |own| own.pressure.lowest.value),
+        ("lowest_pressure_time", "s", false, |own| own.pressure.lowest.time),
+        ("highest_pressure", "Pa", false, |own| own.pressure.highest.value),
+        ("highest_pressure_time", "s", false, |own| own.pressure.highest.time),
+        ("shear", "Pa", false, |own| own.shear.value),
+        ("shear_time", "s", false, |own| own.shear.time),
+        ("gap", "m", false, |own| own.gap.value),
+        ("gap_time", "s", false, |own| own.gap.time),
+        ("slip", "m", false, |own| own.slip.value),
+        ("slip_time", "s", false, |own| own.slip.time),
+        ("open", "s", false, |own| own.open),
+        ("shear_across", "Pa", true, |own| own.shear_across.value),
+        ("shear_across_time", "s", true, |own| own.shear_across.time),
+        ("slip_across", "m", true, |own| own.slip_across.value),
+        ("slip_across_time", "s", true, |own| own.slip_across.time),
+    ];
+
     /// [Envelopes](Run::envelope) as CSV: a heading and a line for every element, with the times of the extremes, by
     /// [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
-        let columns: Vec<_> = ENVELOPE.iter().filter(|own| self.in_plan || !own.1).collect();
-        let heading: Vec<_> =
-            std::iter::once("element").chain(columns.iter().map(|own| own.0)).collect();
+        let columns: Vec<_> = Self::ENVELOPE.iter().filter(|own| self.in_plan || !own.2).collect();
+        let names = columns.iter().map(|(word, unit, ..)| column(word, unit));
+        let heading: Vec<_> = std::iter::once("element".to_owned()).chain(names).collect();
         let rows = self.envelope.iter().enumerate().map(|(e, own)| {
             let columns = &columns;
-            (format!("{e},"), columns.iter().map(move |(_, _, value)| value(own)))
+            (format!("{e},"), columns.iter().map(move |(.., value)| value(own)))
         });
         lines(&heading.join(","), rows)
     }
 }
-
-/// Column of an envelope, and whether it is of three directions only.
-type EnvelopeColumn = (&'static str, bool, fn(&ElementEnvelope) -> f64);
-
-const ENVELOPE: [EnvelopeColumn; 20] = [
-    ("left_m", false, |own| own.element.left),
-    ("right_m", false, |own| own.element.right),
-    ("front_m", true, |own| own.depth[0]),
-    ("back_m", true, |own| own.depth[1]),
-    ("static_pressure_pa", false, |own| own.static_pressure),
-    ("lowest_pressure_pa", false, |own| own.pressure.lowest.value),
-    ("lowest_pressure_time_s", false, |own| own.pressure.lowest.time),
-    ("highest_pressure_pa", false, |own| own.pressure.highest.value),
-    ("highest_pressure_time_s", false, |own| own.pressure.highest.time),
-    ("shear_pa", false, |own| own.shear.value),
-    ("shear_time_s", false, |own| own.shear.time),
-    ("gap_m", false, |own| own.gap.value),
-    ("gap_time_s", false, |own| own.gap.time),
-    ("slip_m", false, |own| own.slip.value),
-    ("slip_time_s", false, |own| own.slip.time),
-    ("open_s", false, |own| own.open),
-    ("shear_across_pa", true, |own| own.shear_across.value),
-    ("shear_across_time_s", true, |own| own.shear_across.time),
-    ("slip_across_m", true, |own| own.slip_across.value),
-    ("slip_across_time_s", true, |own| own.slip_across.time),
-];
 
 /// Response spectrum, of a record or of a floor, as CSV: a heading and a line for every period, by
 /// [the rule](crate::results#columns-and-numbers-in-files).
@@ -150,19 +151,6 @@ pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
 /// Times, modes and their words of contact frames, beside their numbers.
 pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contact_mode_words"];
 
-/// A number of an element after a step.
-type Number = fn(&ContactState) -> f64;
-
-/// Numbers of an element; those along y in plan only.
-const NUMBERS: [(&str, Number); 6] = [
-    ("gap_m", |own| own.gap),
-    ("slip_m", |own| own.slip),
-    ("pressure_pa", |own| own.pressure),
-    ("shear_pa", |own| own.shear),
-    ("slip_across_m", |own| own.slip_across),
-    ("shear_across_pa", |own| own.shear_across),
-];
-
 /// Motion frames.
 pub(super) const MOTION: [&str; 5] = [
     "motion_time_s",
@@ -186,9 +174,10 @@ impl TimeSeries {
         ends
     }
 
-    /// Numbers of each element in frames of contact.
-    pub(super) fn contact_numbers(&self) -> &'static [(&'static str, Number)] {
-        if self.in_plan() { &NUMBERS } else { &NUMBERS[..4] }
+    /// Columns and values of the numbers of each element in frames of contact.
+    pub(super) fn contact_numbers(&self) -> Vec<(String, fn(&ContactState) -> f64)> {
+        let numbers = ContactState::NUMBERS.into_iter().filter(|own| self.in_plan() || !own.2);
+        numbers.map(|(word, unit, _, value)| (column(word, unit), value)).collect()
     }
 
     /// Names of time, scalars and probes; those of probes differ from all others in any file.
@@ -198,7 +187,7 @@ impl TimeSeries {
         columns.extend(Quantity::of(in_plan).map(|quantity| quantity.column(in_plan)));
         let others = CONTACT.iter().chain(&MOTION).map(|&name| name.to_owned());
         let ends = self.element_ends().into_iter().map(|(name, _)| format!("element_{name}"));
-        let numbers = self.contact_numbers().iter().map(|(name, _)| format!("contact_{name}"));
+        let numbers = self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}"));
         let energies = EnergyTerm::ALL.into_iter().map(|term| term.column(in_plan));
         let others = energies.chain(others).chain(ends).chain(numbers);
         let taken: Vec<String> = columns.iter().cloned().chain(others).collect();

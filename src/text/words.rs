@@ -9,7 +9,7 @@ macro_rules! words {
     ($type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
         impl $type {
             /// All variants, in the order of their declaration.
-            pub(crate) const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
+            pub const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
 
             /// Word of the choice, as `Display` writes and `FromStr` reads it.
             pub(crate) fn word(self) -> &'static str {

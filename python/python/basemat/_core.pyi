@@ -16,6 +16,7 @@ from ._protocols import UserHysteresis, UserLaw, UserPlanLaw, UserPlanStructure,
 __version__: str
 MODES: list[_Mode]
 """Names of the contact modes, in the order of their numbers in arrays."""
+_ELEMENT_UNITS: dict[str, str]
 STANDARD_GRAVITY: float
 """9.80665 m/s²."""
 
@@ -50,6 +51,29 @@ _Direction: TypeAlias = Literal["x", "y", "rotation"]
 _SpringDirection: TypeAlias = Literal["x", "y", "rotation", "axial"]
 
 _Interface: TypeAlias = Union["InterfaceLaw", UserLaw, UserPlanLaw]
+_Quantity: TypeAlias = Literal[
+    "base_shear",
+    "base_moment",
+    "normal_force",
+    "uplifted_fraction",
+    "mean_slip",
+    "largest_slip",
+    "base_rotation",
+    "free_field_horizontal",
+    "free_field_vertical",
+    "sliding_safety",
+    "overturning_safety",
+    "shear_across",
+    "horizontal_force",
+    "moment_across",
+    "torque",
+    "uplifted_area",
+    "mean_slip_across",
+    "rotation_across",
+    "twist",
+    "free_field_across",
+    "overturning_safety_across",
+]
 _Structure: TypeAlias = Union["Structure", UserStructure, UserPlanStructure]
 _RowLike: TypeAlias = Union[
     "DofCombination", int, Mapping[int, float], Sequence[tuple[int, float]], NDArray[np.float64]
@@ -917,7 +941,7 @@ class Summary:
     Forces are those of the structure on the soil, per metre of thickness.
     """
 
-    def extremes(self, quantity: str) -> Extremes:
+    def extremes(self, quantity: _Quantity) -> Extremes:
         """The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
         "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
         """
@@ -1149,10 +1173,32 @@ class Run(Summary):
         """
     def envelope_frame(self) -> Any:
         """:attr:`Run.envelope` as a pandas frame: a row per element."""
+    @property
+    def _foundation_peaks(self) -> list[dict[str, float | None]]: ...
+    def save_npz(self, path: str | os.PathLike[str]) -> None:
+        """Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
+        names with their units, such as "base_shear_n_per_m", in any version and without this package.
+        """
+    def save_paraview(
+        self,
+        folder: str | os.PathLike[str],
+        name: str,
+        structure: _Structure | None = None,
+        *,
+        height: float | None = None,
+    ) -> int:
+        """Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
+        contact. Returns the number of grids.
+
+        With a ``structure``, that of the simulation, there is also a grid of it for each snapshot of the motion; none unless
+        given. ``height`` (m): that of a rigid block or body, which is drawn as a box, and of any structure but a
+        :class:`FemModel`, :class:`ShearBuilding` or :class:`StoreyBuilding`; None for these.
+        """
     def foundation_frame(self) -> Any:
         """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-        Columns are those of the scalar time series, in plan also of the directions across: "torque" and others.
+        Columns are ends (m), the static normal force, residual slip (m), and those of :attr:`Run.series`: of a factor
+        of safety the least value; in plan also the directions across: "torque" and others.
         """
     def energy_frame(self) -> Any:
         """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
@@ -1231,7 +1277,8 @@ class Run(Summary):
     def envelope(self) -> dict[str, Any]:
         """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
         "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
-        "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y.
+        "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
+        "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
         """
     @property
     def mode_changes(self) -> int:
@@ -1665,7 +1712,7 @@ class State:
     @property
     def shear_across(self) -> NDArray[np.float64]:
         """In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane."""
-    def value(self, quantity: str) -> float:
+    def value(self, quantity: _Quantity) -> float:
         """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
         also "torque" or "uplifted_area".
         """
@@ -2466,7 +2513,21 @@ class Condition:
         shear: float = 0.0,
         value: float = 0.0,
     ) -> Self: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float]]: ...
+    @property
+    def gap(self) -> float:
+        """Coefficient of the gap."""
+    @property
+    def slip(self) -> float:
+        """Coefficient of the slip."""
+    @property
+    def pressure(self) -> float:
+        """Coefficient of the pressure."""
+    @property
+    def shear(self) -> float:
+        """Coefficient of the shear traction."""
+    @property
+    def value(self) -> float:
+        """Right-hand side: m or Pa where the coefficient is a number."""
     @staticmethod
     def gap_is(value: float) -> Condition:
         """The gap is ``value``, m."""
@@ -2480,7 +2541,7 @@ class Condition:
     def shear_is(value: float) -> Condition:
         """The shear traction is ``value``, Pa."""
 
-@final
+@disjoint_base
 class ContactState:
     """Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
     (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
@@ -2530,8 +2591,8 @@ class Tolerance:
     def __new__(cls, length: float, traction: float) -> Self: ...
 
 @final
-class PreviousContact:
-    """An element at the start of a step: what a law knows of it.
+class PreviousContact(ContactState):
+    """An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
 
     A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
     its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
@@ -2547,18 +2608,6 @@ class PreviousContact:
         slip_rate: float = 0.0,
         memory: ArrayLike | None = None,
     ) -> Self: ...
-    @property
-    def gap(self) -> float:
-        """Gap, m; positive when open."""
-    @property
-    def slip(self) -> float:
-        """Slip since the static state, m; positive to the right."""
-    @property
-    def pressure(self) -> float:
-        """Pressure, Pa; positive in compression."""
-    @property
-    def shear(self) -> float:
-        """Shear traction of the structure on the soil, Pa; positive to the right."""
     @property
     def mode(self) -> _Mode:
         """Mode of the step before, as in :data:`basemat.MODES`."""
@@ -2577,12 +2626,6 @@ class PreviousContact:
     @property
     def memory(self) -> list[float]:
         """State variables of the law: list of numbers."""
-    @property
-    def slip_across(self) -> float:
-        """Slip along y in plan, m; positive away."""
-    @property
-    def shear_across(self) -> float:
-        """Shear traction of the structure on the soil along y in plan, Pa; positive away."""
 
 @final
 class Limits:
@@ -2628,7 +2671,6 @@ class Limits:
     @property
     def bonded(self) -> bool:
         """Whether base and soil neither separate nor slide."""
-    def __getnewargs_ex__(self) -> tuple[tuple[float], dict[str, Any]]: ...
     def __eq__(self, other: object, /) -> bool: ...
 
 def refine(

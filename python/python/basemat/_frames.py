@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ._core import MODES, EquivalentLinear, Impedances, Run, Spectrum
+from ._core import _ELEMENT_UNITS, MODES, EquivalentLinear, Impedances, Run, Spectrum
 from ._errors import InputError
 
 if TYPE_CHECKING:
@@ -24,9 +24,9 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "depth x y left right front back gap slip slip_across residual_slip residual_slip_across displacement",
-    "Pa": "shear_modulus pressure shear shear_across static_pressure lowest_pressure highest_pressure",
-    "s": "time open period",
+    "m": "depth x y residual_slip residual_slip_across displacement",
+    "Pa": "shear_modulus",
+    "s": "time period",
     "m/s": "pseudo_velocity",
     "m/s²": "acceleration pseudo_acceleration peak_acceleration",
     "N/m": "coupling",
@@ -34,7 +34,7 @@ _UNITS = {
     "N": "rocking",
     "Hz": "frequency",
 }
-_UNIT = {name: unit for unit, names in _UNITS.items() for name in names.split()}
+_UNIT = {**_ELEMENT_UNITS, **{name: unit for unit, names in _UNITS.items() for name in names.split()}}
 
 
 def _with_units(frame: Any, units: dict[str, str]) -> Any:
@@ -91,27 +91,22 @@ def envelope_frame(self: Run) -> Any:
     return _with_units(frame.rename_axis("element"), _UNIT)
 
 
-_FOUNDATION = ("base_shear", "base_moment", "normal_force", "base_rotation", "uplifted_fraction", "mean_slip")
-_FOUNDATION_IN_PLAN = ("shear_across", "moment_across", "torque", "rotation_across", "twist", "mean_slip_across")
-
-
 def foundation_frame(self: Run) -> Any:
     """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-    Columns are those of the scalar time series, in plan also of the directions across: "torque" and others.
+    Columns are ends (m), the static normal force, residual slip (m), and those of :attr:`Run.series`: of a factor
+    of safety the least value; in plan also the directions across: "torque" and others.
     """
-    names = _FOUNDATION + _FOUNDATION_IN_PLAN if self.in_plan else _FOUNDATION
     rows = []
-    for own in self.foundations:
-        row = {"left": own.ends[0], "right": own.ends[1], "static_normal_force": own.static_normal_force}
-        row.update({name: own.extremes(name).largest.value for name in names})
-        row["residual_slip"] = own.residual_slip
+    for own, peaks in zip(self.foundations, self._foundation_peaks):
+        row: dict[str, float | None] = {"left": own.ends[0], "right": own.ends[1]}
+        row.update(peaks, static_normal_force=own.static_normal_force, residual_slip=own.residual_slip)
         if self.in_plan:
             row["front"], row["back"] = own.depth
             row["residual_slip_across"] = own.residual_slip_across
         rows.append(row)
     units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}
-    return _with_units(pandas().DataFrame(rows).rename_axis("foundation"), units)
+    return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units)
 
 
 def energy_frame(self: Run) -> Any:

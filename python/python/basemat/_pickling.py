@@ -58,10 +58,6 @@ class Made(NamedTuple):
         return found
 
 
-def _again(made: Made) -> Any:
-    return made.again()
-
-
 def _given(value: Any) -> Any:
     return value.again() if isinstance(value, Made) else value
 
@@ -118,10 +114,13 @@ def _noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[...
 
 
 def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Callable[..., Any]:
-    """``make``, which leaves in its result how it was made: by the ``owner``, or by itself."""
+    """``make``, which leaves in its result how it was made: by the ``owner``, by itself without a name, or else by
+    the object whose method it is."""
 
     def note(found: Any, arguments: Any, keywords: Any) -> None:
-        if hasattr(found, "__dict__"):
+        if owner is None and name is not None:
+            vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
+        elif hasattr(found, "__dict__"):
             vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
 
     remember = _noting(make, note)
@@ -135,17 +134,15 @@ def _how(description: Any) -> Made:
     return made._replace(calls=tuple(own.get(_CALLS, ())))
 
 
-def _init(self: Any, *arguments: Any, **keywords: Any) -> None:
-    vars(self)[_MADE] = _made(type(self), None, arguments, keywords)
-
-
 def _reduce(self: Any) -> Any:
-    return _again, (_how(self),)
+    return Made.again, (_how(self),)
 
 
 def _repr(self: Any) -> str:
     """The call that makes it."""
     made = _how(self)
+    if made.owner is _layer:
+        return _values(self)
     is_named = isinstance(made.owner, type) or inspect.isfunction(made.owner)
     owner = made.owner if is_named else type(self)
     name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
@@ -188,7 +185,7 @@ def _prepare(described: Any) -> None:
         return
 
     def __init__(self: Any, *arguments: Any, **keywords: Any) -> None:
-        _init(self, *arguments, **keywords)
+        vars(self)[_MADE] = _made(type(self), None, arguments, keywords)
 
     if signature is not None:
         own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
@@ -200,13 +197,21 @@ def _prepare(described: Any) -> None:
     described.__init__ = __init__
 
 
-def _prepare_method(owner: Any, name: str) -> None:
-    """A method that returns a description."""
+def _layer(profile: _core.SoilProfile, number: int) -> _core.SoilLayer:
+    return profile.layers[number]
 
-    def note(found: Any, arguments: Any, keywords: Any) -> None:
-        vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
 
-    setattr(owner, name, _noting(getattr(owner, name), note))
+def _prepare_layers() -> None:
+    """The layers that a profile gives back know that they are its own."""
+    get: Any = _core.SoilProfile.layers
+
+    def layers(self: _core.SoilProfile) -> list[_core.SoilLayer]:
+        found: list[_core.SoilLayer] = get.__get__(self)
+        for number, layer in enumerate(found):
+            vars(layer)[_MADE] = Made(_layer, None, (self, number), {})
+        return found
+
+    _core.SoilProfile.layers = property(layers, doc=get.__doc__)  # type: ignore[method-assign,assignment]
 
 
 def _prepare_call(name: str) -> None:
@@ -235,9 +240,10 @@ def _prepare_all() -> None:
     # What was added to a mesh is kept with it.
     _PLAIN.remove(_core.Mesh)
     for owner, name in _RETURNING:
-        _prepare_method(owner, name)
+        setattr(owner, name, _remembering(getattr(owner, name), None, name))
     for name in [name for name in vars(_core.Mesh) if name.startswith("add_")]:
         _prepare_call(name)
+    _prepare_layers()
     for name in _FUNCTIONS:
         function = _remembering(getattr(_core, name), None, None)
         function.__module__ = "basemat"

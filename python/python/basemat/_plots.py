@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,7 @@ def _axes(axes: Any, count: int, **options: Any) -> list[Any]:
         axes = _pyplot().subplots(count, **options)[1]
     found = list(np.ravel(axes))
     if len(found) != count:
-        raise ValueError(f"axes are {len(found)}, but must be {count}")
+        raise InputError(f"axes are {len(found)}, but must be {count}")
     return found
 
 
@@ -52,12 +53,9 @@ def plot_run(self: Run, axes: Any = None) -> list[Any]:
     :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
     new figure unless given.
     """
-    try:
-        self.contact
-    except ValueError:
-        has_modes = False
-    else:
-        has_modes = True
+    has_modes = False
+    with suppress(InputError):
+        has_modes = bool(self.contact)
     own = _axes(axes, 3 if has_modes else 2)
     names = {"base_shear": "base shear", "shear_across": "across"} if self.in_plan else {"base_shear": "base shear"}
     for name, color in zip(names, ("black", "#3182bd")):

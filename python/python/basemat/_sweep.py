@@ -125,7 +125,7 @@ def sweep(
     parameters = list(dict.fromkeys(name for case in cases for name in case))
     for name in _OWN:
         if name in parameters:
-            raise ValueError(f"a parameter is called {name!r}, as a column of every table")
+            raise InputError(f"a parameter is called {name!r}, as a column of every table")
     tell = _teller(progress, len(cases))
     arguments = [(make, case, steps, duration, results) for case in cases]
     if _dask.is_client(executor):

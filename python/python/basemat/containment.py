@@ -13,24 +13,7 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
-from . import (
-    Bonded,
-    Coulomb,
-    ElasticGround,
-    FemModel,
-    InterfaceLaw,
-    Layer,
-    Material,
-    Mesh,
-    Probe,
-    Record,
-    DofCombination,
-    Run,
-    Simulation,
-    Soil,
-    Strip,
-    el_centro_1940,
-)
+import basemat as bm
 
 FOOT = 0.3048
 """m."""
@@ -58,7 +41,7 @@ NOTE = (
 class Scene(NamedTuple):
     """A case, ready to run: to the end of the record in ``steps`` steps."""
 
-    simulation: Simulation
+    simulation: bm.Simulation
     steps: int
 
 
@@ -67,52 +50,52 @@ def time_step() -> float:
     return 0.5 * (WIDTH / ELEMENTS) / PRESSURE_SPEED
 
 
-def structure() -> FemModel:
+def structure() -> bm.FemModel:
     """The finite elements: a basemat and the superstructure on it, fully integrated."""
     height = HEIGHT * FOOT / LAYERS
     half = 0.5 * WIDTH * FOOT
-    basemat = Material(106_560_369.0 * PSF, 1.0 / 3.0, 3.04348 * SLUG_PER_CUBIC_FOOT)
-    above = Material(106_577_648.0 * PSF, 1.0 / 3.0, 0.59006 * SLUG_PER_CUBIC_FOOT)
+    basemat = bm.Material(106_560_369.0 * PSF, 1.0 / 3.0, 3.04348 * SLUG_PER_CUBIC_FOOT)
+    above = bm.Material(106_577_648.0 * PSF, 1.0 / 3.0, 0.59006 * SLUG_PER_CUBIC_FOOT)
     layers = [
-        Layer(height, 1, basemat, formulation="full"),
-        Layer(height * (LAYERS - 1), LAYERS - 1, above, formulation="full"),
+        bm.Layer(height, 1, basemat, formulation="full"),
+        bm.Layer(height * (LAYERS - 1), LAYERS - 1, above, formulation="full"),
     ]
-    return FemModel(Mesh.layered_block(-half, half, ELEMENTS, layers))
+    return bm.FemModel(bm.Mesh.layered_block(-half, half, ELEMENTS, layers))
 
 
-def probes(model: FemModel) -> list[Probe]:
+def probes(model: bm.FemModel) -> list[bm.Probe]:
     """Motion of a roof corner, and the shear of the superstructure on the basemat."""
     height = HEIGHT * FOOT / LAYERS
     corner = model.node_at(-0.5 * WIDTH * FOOT, height + height * (LAYERS - 1))
-    feet = DofCombination([])
+    feet = bm.DofCombination([])
     for node in model.contact_nodes():
         feet = feet + node.horizontal
     sway = model.row(corner, "x") - (1.0 / len(feet.terms)) * feet
     shear, _, _ = model.section(height)
     return [
-        Probe.absolute_displacement("roof x", model.row(corner, "x")),
-        Probe.absolute_displacement("roof y", model.row(corner, "y")),
-        Probe.section("base shear", shear),
-        Probe.displacement("sway", sway),
+        bm.Probe.absolute_displacement("roof x", model.row(corner, "x")),
+        bm.Probe.absolute_displacement("roof y", model.row(corner, "y")),
+        bm.Probe.section("base shear", shear),
+        bm.Probe.displacement("sway", sway),
     ]
 
 
-def scene(friction: float | None, record: Record | None = None, steps: int | None = None) -> Scene:
+def scene(friction: float | None, record: bm.Record | None = None, steps: int | None = None) -> Scene:
     """A case: bonded for None, opening but never sliding for infinite friction."""
-    record = el_centro_1940() if record is None else record
+    record = bm.el_centro_1940() if record is None else record
     if steps is None:
         steps = max(1, math.floor(record.duration / time_step() + 0.5))
     half = 0.5 * WIDTH * FOOT
-    soil = Soil.from_wave_speeds(
+    soil = bm.Soil.from_wave_speeds(
         SHEAR_SPEED * FOOT, PRESSURE_SPEED * FOOT, SOIL_DENSITY * SLUG_PER_CUBIC_FOOT
     )
     model = structure()
-    law: InterfaceLaw = Bonded() if friction is None else Coulomb(friction)
-    simulation = Simulation(
+    law: bm.InterfaceLaw = bm.Bonded() if friction is None else bm.Coulomb(friction)
+    simulation = bm.Simulation(
         time_step(),
         model,
         # Equal elements, as in the paper.
-        ElasticGround(soil, Strip(-half, half, ELEMENTS, grading="uniform")),
+        bm.ElasticGround(soil, bm.Strip(-half, half, ELEMENTS, grading="uniform")),
         law,
         motion=record,
         expected_steps=steps,
@@ -128,7 +111,7 @@ def name(friction: float | None) -> str:
     return "uplift only" if math.isinf(friction) else f"friction {friction:g}"
 
 
-def row(friction: float | None, run: Run, bonded: float) -> str:
+def row(friction: float | None, run: bm.Run, bonded: float) -> str:
     """A line of the table."""
     shear = run.probes["base shear"].magnitude
     paper = PAPER_SHEARS.get(friction)

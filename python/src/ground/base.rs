@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use basemat::bem::layered::{StripContact, StripImpedance};
 use basemat::bem::{ContactElement, Ground};
-use numpy::{Complex64, PyArray2};
+use numpy::Complex64;
 use pyo3::prelude::*;
 
-use crate::array::{Array, complex};
+use crate::array::{Array, Rows, complex};
 use crate::error::OrRaise;
 use crate::names::choice;
 use crate::recipe::Recipe;
@@ -32,22 +32,13 @@ impl PyGround {
     }
 }
 
-#[pymethods]
-impl PyGround {
+members! {
+    PyGround, own;
     /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
-    #[getter]
-    fn elements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let ends: Vec<Vec<f64>> = self.elements.iter().map(|e| vec![e.left, e.right]).collect();
-        Ok(PyArray2::from_vec2(py, &ends)?)
-    }
-
+    elements: Rows = Rows(own.elements.iter().map(|e| vec![e.left, e.right]).collect());
     /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; 0 and 1, the
     /// metre of thickness, in the plane.
-    #[getter]
-    fn depths<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let ends: Vec<Vec<f64>> = self.depths.iter().map(|ends| ends.to_vec()).collect();
-        Ok(PyArray2::from_vec2(py, &ends)?)
-    }
+    depths: Rows = Rows(own.depths.iter().map(|ends| ends.to_vec()).collect());
 }
 
 /// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
@@ -60,7 +51,7 @@ pub(super) fn contact(name: &str) -> PyResult<StripContact> {
     choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
 
-getters! {
+members! {
     PyImpedances, own;
     /// Frequencies: array of shape (m,), Hz.
     frequency: Array = own.0.iter().map(|at| at.frequency).collect();

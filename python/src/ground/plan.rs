@@ -5,7 +5,7 @@ use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
 use super::base::contact;
-use crate::array::{Numbers, complex, whole};
+use crate::array::{Count, Numbers, complex, whole};
 use crate::error::{OrRaise, refuse};
 use crate::profile::Profile;
 use crate::ticker::watched;
@@ -16,8 +16,30 @@ use crate::ticker::watched;
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
 
-getters! {
+members! {
     PyPlan, own;
+    new(faces: Bound<'_, PyAny>, cells: Count) = {
+        // One face may be given by itself.
+        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
+        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
+        let all = faces.extract().or_else(one);
+        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
+        Ok(Self(Plan::on_faces(&faces, cells.0).or_raise()?))
+    };
+    /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
+    disc(center: (f64, f64), radius: f64, cells: Count) =
+        Plan::disc(center.into(), radius, cells.0).or_raise().map(Self);
+    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
+    /// away, each a list from left to right.
+    masked(corner: [f64; 2], pitch: [f64; 2], mask: Vec<Vec<Bound<'_, PyAny>>>) = {
+        let columns = mask.first().map_or(0, Vec::len);
+        if mask.iter().any(|row| row.len() != columns) {
+            return Err(refuse(format!("mask has a row that is not {columns} cells long")));
+        }
+        let mask = mask.iter().flatten().map(PyAnyMethods::is_truthy);
+        let mask = mask.collect::<PyResult<Vec<_>>>()?;
+        Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
+    };
     /// Sides of a cell along x and y, m.
     pitch: [f64; 2] = own.0.pitch();
     /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
@@ -28,43 +50,6 @@ getters! {
 
 #[pymethods]
 impl PyPlan {
-    #[new]
-    fn new(faces: Bound<'_, PyAny>, #[pyo3(from_py_with = whole)] cells: usize) -> PyResult<Self> {
-        // One face may be given by itself.
-        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
-        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
-        let all = faces.extract().or_else(one);
-        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
-        Ok(Self(Plan::on_faces(&faces, cells).or_raise()?))
-    }
-
-    /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
-    #[staticmethod]
-    fn disc(
-        center: (f64, f64),
-        radius: f64,
-        #[pyo3(from_py_with = whole)] cells: usize,
-    ) -> PyResult<Self> {
-        Ok(Self(Plan::disc(center.into(), radius, cells).or_raise()?))
-    }
-
-    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
-    /// away, each a list from left to right.
-    #[staticmethod]
-    fn masked(
-        corner: [f64; 2],
-        pitch: [f64; 2],
-        mask: Vec<Vec<Bound<'_, PyAny>>>,
-    ) -> PyResult<Self> {
-        let columns = mask.first().map_or(0, Vec::len);
-        if mask.iter().any(|row| row.len() != columns) {
-            return Err(refuse(format!("mask has a row that is not {columns} cells long")));
-        }
-        let mask = mask.iter().flatten().map(PyAnyMethods::is_truthy);
-        let mask = mask.collect::<PyResult<Vec<_>>>()?;
-        Ok(Self(Plan::masked(corner, pitch, columns, &mask).or_raise()?))
-    }
-
     /// The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
     /// ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
     fn with_unions(

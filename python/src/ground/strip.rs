@@ -20,31 +20,23 @@ pub(super) fn grading(name: &str) -> PyResult<Grading> {
     name.parse().or_raise()
 }
 
-#[pymethods]
-impl PyStrip {
-    #[new]
+members! {
+    PyStrip, own;
     #[pyo3(signature = (left, right, count, *, grading="cosine"))]
-    fn new(
+    new(
         left: f64,
         right: f64,
         #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
-    ) -> PyResult<Self> {
-        Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
-    }
-
+    ) = Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?));
     /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
-    #[staticmethod]
-    fn from_nodes(nodes: Numbers) -> PyResult<Self> {
-        Ok(Self(Strip::from_nodes(nodes.0).or_raise()?))
-    }
-
+    from_nodes(nodes: Numbers) = Strip::from_nodes(nodes.0).or_raise().map(Self);
     /// Ends of the elements: list of elements + 1 numbers, m.
-    #[getter]
-    fn nodes(&self) -> Vec<f64> {
-        self.0.nodes().to_vec()
-    }
+    nodes: Vec<f64> = own.0.nodes().to_vec();
+}
 
+#[pymethods]
+impl PyStrip {
     fn __repr__(&self) -> String {
         format!("Strip.from_nodes({:?})", self.0.nodes())
     }
@@ -77,18 +69,14 @@ impl Elements {
     }
 }
 
-impl<'py> FromPyObject<'_, 'py> for Elements {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(plan) = object.cast::<PyPlan>() {
-            return Ok(Self::Plan(plan.get().0.clone()));
-        }
-        if let Ok(strip) = object.cast::<PyStrip>() {
-            return Ok(Self::Strips(vec![strip.get().0.clone()]));
-        }
-        let list: Vec<Bound<'_, PyStrip>> =
-            object.extract().map_err(|_| no_such(&object, "a Strip, a list of them, or a Plan"))?;
-        Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
+extracts!(Elements, object => {
+    if let Ok(plan) = object.cast::<PyPlan>() {
+        return Ok(Self::Plan(plan.get().0.clone()));
     }
-}
+    if let Ok(strip) = object.cast::<PyStrip>() {
+        return Ok(Self::Strips(vec![strip.get().0.clone()]));
+    }
+    let list: Vec<Bound<'_, PyStrip>> =
+        object.extract().map_err(|_| no_such(&object, "a Strip, a list of them, or a Plan"))?;
+    Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
+});

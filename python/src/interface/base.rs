@@ -24,14 +24,16 @@ impl PyInterfaceLaw {
     }
 }
 
+members! {
+    PyInterfaceLaw, own;
+    /// List of the names of the modes that this law uses; the first is that of an element at rest.
+    modes: PyResult<Vec<&'static str>> = {
+        Ok((own.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
+    };
+}
+
 #[pymethods]
 impl PyInterfaceLaw {
-    /// List of the names of the modes that this law uses; the first is that of an element at rest.
-    #[getter]
-    fn modes(&self) -> PyResult<Vec<&'static str>> {
-        (self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect()
-    }
-
     /// The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
     /// (:class:`PreviousContact`) is.
     fn conditions(
@@ -59,7 +61,7 @@ impl PyInterfaceLaw {
         heard(|| {
             let law = (self.make)().or_raise()?;
             let mode = self::mode(mode)?;
-            mode_name(law.next_mode(mode, &start.core(), &trial.0, tolerance.core()))
+            Ok(mode_name(law.next_mode(mode, &start.core(), &trial.0, tolerance.0)))
         })
     }
 

@@ -18,17 +18,9 @@ use crate::user::PyPreviousContact;
 #[pyclass(name = "Bonded", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyBonded;
 
-#[pymethods]
-impl PyBonded {
-    #[new]
-    fn new() -> PyClassInitializer<Self> {
-        PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self)
-    }
-
-    #[allow(clippy::unused_self, reason = "a method of Python")]
-    fn __repr__(&self) -> &'static str {
-        "Bonded()"
-    }
+members! {
+    PyBonded, own;
+    new() = Ok(PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self));
 }
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
@@ -40,15 +32,14 @@ impl PyBonded {
 #[pyclass(name = "Coulomb", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCoulomb(Coulomb);
 
-#[pymethods]
-impl PyCoulomb {
-    #[new]
+members! {
+    PyCoulomb, own;
     #[pyo3(signature = (friction, *, tensile_strength=0.0, closed_below=None))]
-    fn new(
+    new(
         friction: f64,
         tensile_strength: f64,
         closed_below: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let condition =
             closed_below.map(|closed_below| UnilateralCondition::Velocity { closed_below });
         let law = Coulomb::new(friction)
@@ -56,17 +47,9 @@ impl PyCoulomb {
             .with(condition, Coulomb::with_unilateral_condition)
             .or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
-    }
-
+    };
     /// Friction coefficient, a number.
-    #[getter]
-    fn friction(&self) -> f64 {
-        self.0.friction()
-    }
-
-    fn __repr__(&self) -> String {
-        format!("Coulomb({:?})", self.0.friction())
-    }
+    friction: f64 = own.0.friction();
 }
 
 /// A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
@@ -74,26 +57,24 @@ impl PyCoulomb {
 #[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCohesive;
 
-#[pymethods]
-impl PyCohesive {
-    #[new]
-    fn new(tension: f64, cohesion: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
+members! {
+    PyCohesive, own;
+    new(tension: f64, cohesion: f64, friction: f64) = {
         let law = Cohesive::new(tension, cohesion, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
-    }
+    };
 }
 
 /// Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa).
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
-#[pymethods]
-impl PyYielding {
-    #[new]
-    fn new(bearing_pressure: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
+members! {
+    PyYielding, own;
+    new(bearing_pressure: f64, friction: f64) = {
         let law = Yielding::new(bearing_pressure, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
-    }
+    };
 }
 
 /// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
@@ -108,6 +89,8 @@ impl PyYielding {
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
+extends!(PyThinLayer, own => PyInterfaceLaw::copied(own.0));
+
 impl PyThinLayer {
     fn of(
         law: basemat::Result<ThinLayer>,
@@ -115,22 +98,20 @@ impl PyThinLayer {
         slip_stiffness_share: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) -> PyResult<Self> {
         let law = law
             .with(debonded_share, ThinLayer::with_debonded_ratio)
             .with(slip_stiffness_share, ThinLayer::with_slip_stiffness_ratio)
             .with(friction_limit, |law, limit| Ok(law.with_friction_limit(limit.parse()?)))
-            .with(slip_sense, |law, sense| Ok(law.with_slip_sense(sense.parse()?)))
-            .or_raise()?;
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
+            .with(slip_sense, |law, sense| Ok(law.with_slip_sense(sense.parse()?)));
+        law.or_raise().map(Self)
     }
 }
 
-#[pymethods]
-impl PyThinLayer {
-    #[new]
+members! {
+    PyThinLayer, own;
     #[pyo3(signature = (soil, neighbour_height, friction, *, thickness_ratio=None, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
-    fn new(
+    new(
         soil: &PySoil,
         neighbour_height: f64,
         friction: f64,
@@ -139,19 +120,17 @@ impl PyThinLayer {
         slip_stiffness_share: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let law = ThinLayer::new(soil.0, neighbour_height, friction)
             .with(thickness_ratio, ThinLayer::with_thickness_ratio);
-        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
-    }
-
+        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)?
+            .initializer()
+    };
     /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
     /// ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
     /// four if given.
-    #[staticmethod]
     #[pyo3(signature = (normal, shear, friction, *, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
-    fn from_stiffness(
-        py: Python<'_>,
+    from_stiffness(
         normal: f64,
         shear: f64,
         friction: f64,
@@ -159,17 +138,12 @@ impl PyThinLayer {
         slip_stiffness_share: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
-    ) -> PyResult<Py<Self>> {
+    ) = {
         let law = ThinLayer::from_stiffness(normal, shear, friction);
-        let own = Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense);
-        Py::new(py, own?)
-    }
-
+        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
+    };
     /// Normal and shear stiffness, Pa/m.
-    #[getter]
-    fn stiffness(&self) -> [f64; 2] {
-        self.0.stiffness()
-    }
+    stiffness: [f64; 2] = own.0.stiffness();
 }
 
 /// Coulomb friction whose coefficient is a function of the start of the step:
@@ -178,14 +152,13 @@ impl PyThinLayer {
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
 
-#[pymethods]
-impl PyVariableFriction {
-    #[new]
+members! {
+    PyVariableFriction, own;
     #[pyo3(signature = (coefficient, *, tensile_strength=0.0))]
-    fn new(
+    new(
         coefficient: Bound<'_, PyAny>,
         tensile_strength: f64,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         if !coefficient.is_callable() {
             return Err(refuse("the coefficient must be a function of the start of a step"));
         }
@@ -196,7 +169,7 @@ impl PyVariableFriction {
             let function = Arc::clone(&function);
             let own = move |start: &PreviousContact<'_>| {
                 asked(f64::NAN, |py| {
-                    let found = function.call1(py, (PyPreviousContact::of(start),))?;
+                    let found = function.call1(py, (PyPreviousContact::of(py, start)?,))?;
                     real("the coefficient's function", found.bind(py))
                 })
             };
@@ -204,5 +177,5 @@ impl PyVariableFriction {
                 as Box<_>)
         };
         Ok(PyClassInitializer::from(PyInterfaceLaw { make: Arc::new(make) }).add_subclass(Self))
-    }
+    };
 }

@@ -37,6 +37,14 @@ impl PyFreeField {
     }
 }
 
+/// A free field of this package from what makes it, which is tried once.
+pub(super) fn field<F: FreeField + 'static>(
+    make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
+) -> PyResult<PyFreeField> {
+    make().or_raise()?;
+    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None })
+}
+
 /// The free field that Python gives.
 pub(crate) fn given<'a, 'py>(
     object: &'a Bound<'py, PyAny>,
@@ -84,20 +92,16 @@ pub(crate) fn free_field(
     match (displacement, acceleration, displacement_at) {
         (Some(function), None, None) => {
             let function = Arc::new(callable("displacement", &function)?);
-            Ok(PyFreeField {
-                make: Arc::new(move || {
-                    let function = Arc::clone(&function);
-                    Ok(Box::new(FreeFieldFn::new(move |x, time| {
-                        asked("displacement", |py| function.call1(py, (x, time)))
-                    })))
-                }),
-                duration: None,
+            field(move || {
+                let function = Arc::clone(&function);
+                Ok(FreeFieldFn::new(move |x, time| {
+                    asked("displacement", |py| function.call1(py, (x, time)))
+                }))
             })
         }
         (None, None, Some(function)) => {
             let function = Arc::new(callable("displacement_at", &function)?);
-            let make = move || Ok(Box::new(InPlan(Arc::clone(&function))) as Box<_>);
-            Ok(PyFreeField { make: Arc::new(make), duration: None })
+            field(move || Ok(InPlan(Arc::clone(&function))))
         }
         (None, Some(function), None) => {
             let function = callable("acceleration", &function)?;
@@ -109,11 +113,8 @@ pub(crate) fn free_field(
                     "duration is {duration} s, but must be the time_step ({time_step} s) or more"
                 )));
             }
-            let (field, end) = heard(|| sampled(&function, time_step, duration).or_raise())?;
-            Ok(PyFreeField {
-                make: Arc::new(move || Ok(Box::new(field.clone()))),
-                duration: Some(end),
-            })
+            let (own, end) = heard(|| sampled(&function, time_step, duration).or_raise())?;
+            Ok(PyFreeField { duration: Some(end), ..field(move || Ok(own.clone()))? })
         }
         _ => Err(refuse(
             "give the displacement, the acceleration or displacement_at as a function, one of them",

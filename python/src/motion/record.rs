@@ -23,30 +23,48 @@ use crate::ticker::watched;
 #[pyclass(name = "Record", module = "basemat", extends = PyFreeField, frozen)]
 pub(crate) struct PyRecord(pub(crate) Arc<Record>);
 
-impl PyRecord {
-    fn from_core(record: Record) -> PyClassInitializer<Self> {
-        let record = Arc::new(record);
-        let own = Arc::clone(&record);
-        let base = PyFreeField {
-            duration: Some(record.duration()),
-            make: Arc::new(move || Ok(Box::new(Record::clone(&own)))),
-        };
-        PyClassInitializer::from(base).add_subclass(Self(record))
+extends!(PyRecord, own => {
+    let record = Arc::clone(&own.0);
+    PyFreeField {
+        duration: Some(record.duration()),
+        make: Arc::new(move || Ok(Box::new(Record::clone(&record)))),
     }
+});
 
-    pub(crate) fn create(py: Python<'_>, record: basemat::Result<Record>) -> PyResult<Py<Self>> {
-        Py::new(py, Self::from_core(record.or_raise()?))
+impl PyRecord {
+    pub(crate) fn of(record: basemat::Result<Record>) -> PyResult<Self> {
+        Ok(Self(Arc::new(record.or_raise()?)))
     }
 }
 
 /// The :class:`Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
 #[pyfunction]
-pub(crate) fn el_centro_1940(py: Python<'_>) -> PyResult<Py<PyRecord>> {
-    PyRecord::create(py, Ok(basemat::motion::el_centro_1940()))
+pub(crate) fn el_centro_1940() -> PyResult<PyRecord> {
+    PyRecord::of(Ok(basemat::motion::el_centro_1940()))
 }
 
-getters! {
+members! {
     PyRecord, own;
+    // Python's own reader of signatures knows ASCII only.
+    #[pyo3(
+        signature = (time_step, acceleration, *, unit="m/s²"),
+        text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#
+    )]
+    new(
+        time_step: f64,
+        acceleration: Numbers,
+        unit: &str,
+    ) = {
+        let samples = acceleration.0.len();
+        if samples < 2 {
+            return Err(refuse(format!(
+                "acceleration has {samples} samples, but must have 2 or more"
+            )));
+        }
+        let unit = self::unit(unit)?.in_metres_per_second_squared();
+        let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
+        Self::of(Record::new(time_step, samples))?.initializer()
+    };
     /// Time step, s.
     time_step: f64 = own.0.time_step();
     /// Time of the last sample, s.
@@ -71,28 +89,6 @@ getters! {
 
 #[pymethods]
 impl PyRecord {
-    #[new]
-    // Python's own reader of signatures knows ASCII only.
-    #[pyo3(
-        signature = (time_step, acceleration, *, unit="m/s²"),
-        text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#
-    )]
-    fn new(
-        time_step: f64,
-        acceleration: Numbers,
-        unit: &str,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let samples = acceleration.0.len();
-        if samples < 2 {
-            return Err(refuse(format!(
-                "acceleration has {samples} samples, but must have 2 or more"
-            )));
-        }
-        let unit = self::unit(unit)?.in_metres_per_second_squared();
-        let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
-        Ok(Self::from_core(Record::new(time_step, samples).or_raise()?))
-    }
-
     /// Reads a file at ``path``.
     ///
     /// ``format``: "columns" (the default: text, time in s and acceleration), "peer" (.AT2), "cosmos"
@@ -103,15 +99,47 @@ impl PyRecord {
     #[staticmethod]
     #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, columns=None, channel=None))]
     fn read(
-        py: Python<'_>,
         path: PathBuf,
         format: &str,
         unit: Option<&str>,
         time_step: Option<f64>,
         #[pyo3(from_py_with = whole)] columns: Option<[usize; 2]>,
         #[pyo3(from_py_with = whole)] channel: Option<usize>,
-    ) -> PyResult<Py<Self>> {
-        Self::create(py, Ok(read(path, format, unit, time_step, columns, channel)?))
+    ) -> PyResult<Self> {
+        let needs_unit = || {
+            self::unit(unit.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?)
+        };
+        let reader: Box<dyn RecordFormat> = match format {
+            "columns" => {
+                let columns = columns.unwrap_or([1, 2]);
+                Box::new(match time_step {
+                    Some(step) => {
+                        let format = ColumnFormat::equally_spaced(needs_unit()?, step);
+                        let other = (columns != [1, 2]).then_some(columns[1]);
+                        ColumnFormat { acceleration_column: other, ..format }
+                    }
+                    None => ColumnFormat {
+                        time_column: columns[0],
+                        acceleration_column: Some(columns[1]),
+                        ..ColumnFormat::new(needs_unit()?)
+                    },
+                })
+            }
+            "peer" => Box::new(PeerFormat),
+            "cosmos" => {
+                let usual = CosmosFormat::default();
+                let unit = unit.map(self::unit).transpose()?.or(usual.unit);
+                let channel = channel.unwrap_or(usual.channel);
+                Box::new(CosmosFormat { channel, unit })
+            }
+            "k-net" => Box::new(KNetFormat),
+            _ => {
+                return Err(refuse(format!(
+                    "format is '{format}', but must be 'columns', 'peer', 'cosmos' or 'k-net'"
+                )));
+            }
+        };
+        Self::of(Record::read(path, reader.as_ref()))
     }
 
     /// The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
@@ -122,18 +150,18 @@ impl PyRecord {
     }
 
     /// Record with all samples times a ``factor``.
-    fn scaled(&self, py: Python<'_>, factor: f64) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.scaled(factor))
+    fn scaled(&self, factor: f64) -> PyResult<Self> {
+        Self::of(self.0.scaled(factor))
     }
 
     /// Record scaled to a ``peak`` acceleration (m/s²), signs kept.
-    fn scaled_to_peak(&self, py: Python<'_>, peak: f64) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.scaled_to_peak(peak))
+    fn scaled_to_peak(&self, peak: f64) -> PyResult<Self> {
+        Self::of(self.0.scaled_to_peak(peak))
     }
 
     /// Record with samples every ``time_step`` (s), linear between the old ones.
-    fn resampled(&self, py: Python<'_>, time_step: f64) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.resampled(time_step))
+    fn resampled(&self, time_step: f64) -> PyResult<Self> {
+        Self::of(self.0.resampled(time_step))
     }
 
     /// Record with its baseline treated. ``treatment``: "remove mean", "newmark parabola", "velocity
@@ -142,11 +170,10 @@ impl PyRecord {
     #[pyo3(signature = (treatment, *, degree=4))]
     fn with_baseline(
         &self,
-        py: Python<'_>,
         treatment: &str,
         #[pyo3(from_py_with = whole)] degree: usize,
-    ) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.with_baseline(baseline(treatment, degree)?))
+    ) -> PyResult<Self> {
+        Self::of(self.0.with_baseline(baseline(treatment, degree)?))
     }
 
     /// Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
@@ -156,23 +183,18 @@ impl PyRecord {
     /// for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
     /// displacement do not return to zero.
     #[pyo3(signature = (corner, *, order=4))]
-    fn high_pass(
-        &self,
-        py: Python<'_>,
-        corner: f64,
-        #[pyo3(from_py_with = whole)] order: u32,
-    ) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.high_pass(corner, order))
+    fn high_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
+        Self::of(self.0.high_pass(corner, order))
     }
 
     /// Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends.
-    fn tapered(&self, py: Python<'_>, beginning: f64, end: f64) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.tapered(beginning, end))
+    fn tapered(&self, beginning: f64, end: f64) -> PyResult<Self> {
+        Self::of(self.0.tapered(beginning, end))
     }
 
     /// Record with rest of ``before`` and ``after`` (s) at its two ends.
-    fn padded(&self, py: Python<'_>, before: f64, after: f64) -> PyResult<Py<Self>> {
-        Self::create(py, self.0.padded(before, after))
+    fn padded(&self, before: f64, after: f64) -> PyResult<Self> {
+        Self::of(self.0.padded(before, after))
     }
 
     /// Elastic response :class:`Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
@@ -225,7 +247,7 @@ pub(crate) fn log_spaced(
     Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
 }
 
-getters! {
+members! {
     PySpectrum, own;
     /// Natural periods: array of shape (m,), s.
     period: Array = own.0.iter().map(|ordinate| ordinate.period).collect();
@@ -266,52 +288,4 @@ fn unit(symbol: &str) -> PyResult<AccelerationUnit> {
 fn baseline(name: &str, degree: usize) -> PyResult<Baseline> {
     let alone = name.parse::<Baseline>();
     alone.or_else(|error| format!("{name}({degree})").parse().map_err(|_| error)).or_raise()
-}
-
-/// Reads a file; the arguments are those of `Record.read`.
-fn read(
-    path: PathBuf,
-    format: &str,
-    unit_symbol: Option<&str>,
-    time_step: Option<f64>,
-    columns: Option<[usize; 2]>,
-    channel: Option<usize>,
-) -> PyResult<Record> {
-    let needs_unit =
-        || unit(unit_symbol.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?);
-    let reader: Box<dyn RecordFormat> = match format {
-        "columns" => {
-            let columns = columns.unwrap_or([1, 2]);
-            Box::new(match time_step {
-                Some(step) => {
-                    let format = ColumnFormat::equally_spaced(needs_unit()?, step);
-                    let other = (columns != [1, 2]).then_some(columns[1]);
-                    ColumnFormat { acceleration_column: other, ..format }
-                }
-                None => ColumnFormat {
-                    time_column: columns[0],
-                    acceleration_column: Some(columns[1]),
-                    ..ColumnFormat::new(needs_unit()?)
-                },
-            })
-        }
-        "peer" => Box::new(PeerFormat),
-        "cosmos" => {
-            let mut format = CosmosFormat::default();
-            if let Some(channel) = channel {
-                format.channel = channel;
-            }
-            if let Some(symbol) = unit_symbol {
-                format.unit = Some(unit(symbol)?);
-            }
-            Box::new(format)
-        }
-        "k-net" => Box::new(KNetFormat),
-        _ => {
-            return Err(refuse(format!(
-                "format is '{format}', but must be 'columns', 'peer', 'cosmos' or 'k-net'"
-            )));
-        }
-    };
-    Record::read(path, reader.as_ref()).or_raise()
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use basemat::Complex;
 use basemat::motion::{
-    FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
+    PlaneWave, Record, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
 };
 use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
@@ -12,21 +12,13 @@ use basemat::site::{
 use numpy::Complex64;
 use pyo3::prelude::*;
 
+use super::function::field;
 use super::{PyFreeField, PyRecord, given};
-use crate::array::{Array, Numbers, complex, whole};
+use crate::array::{Array, Numbers, complex};
 use crate::error::{OrRaise, refuse};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
-use crate::site::{Iteration, PyEquivalentLinear, PyStrainCurves, iterate};
 use crate::soil::PySoil;
-
-/// A free field of this package from what makes it, which is tried once.
-fn field<F: FreeField + 'static>(
-    make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
-) -> PyResult<PyFreeField> {
-    make().or_raise()?;
-    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None })
-}
 
 /// Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
 /// same everywhere at once; the one that is None rests.
@@ -44,9 +36,13 @@ pub(crate) fn vertical_incidence(
     if incidence == VerticalIncidence::default() {
         return Err(refuse("give a horizontal record, a vertical one, or both"));
     }
-    let ends = [&horizontal, &vertical].into_iter().flatten();
-    let duration = ends.map(|record| record.get().0.duration()).reduce(f64::max);
+    let duration = longest(&[horizontal, vertical]);
     Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
+}
+
+/// Time at which the last of the records ends, s.
+fn longest(given: &[Option<Bound<'_, PyRecord>>]) -> Option<f64> {
+    given.iter().flatten().map(|record| record.get().0.duration()).reduce(f64::max)
 }
 
 /// Records along x, y and up.
@@ -65,12 +61,12 @@ pub(crate) fn triaxial(
     up: Option<Bound<'_, PyRecord>>,
 ) -> PyResult<PyFreeField> {
     let given = [x, y, up];
-    let duration = given.iter().flatten().map(|record| record.get().0.duration());
-    let Some(duration) = duration.reduce(f64::max) else {
+    let duration = longest(&given);
+    if duration.is_none() {
         return Err(refuse("give a record along x, along y or up"));
-    };
+    }
     let motion = records(given);
-    Ok(PyFreeField { duration: Some(duration), ..field(move || Ok(motion.clone()))? })
+    Ok(PyFreeField { duration, ..field(move || Ok(motion.clone()))? })
 }
 
 /// A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
@@ -120,92 +116,71 @@ pub(crate) fn ricker(
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
-#[pymethods]
-impl PyPlaneWave {
+members! {
+    PyPlaneWave, own;
     /// SV wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
     /// right if positive.
-    #[staticmethod]
-    fn sv(soil: &PySoil, angle: f64) -> PyResult<Self> {
-        Ok(Self(PlaneWave::sv(soil.0, angle).or_raise()?))
-    }
-
+    sv(soil: &PySoil, angle: f64) = PlaneWave::sv(soil.0, angle).or_raise().map(Self);
     /// SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
     /// across its direction only.
-    #[staticmethod]
-    fn sh(soil: &PySoil, angle: f64) -> PyResult<Self> {
-        Ok(Self(PlaneWave::sh(soil.0, angle).or_raise()?))
-    }
-
+    sh(soil: &PySoil, angle: f64) = PlaneWave::sh(soil.0, angle).or_raise().map(Self);
     /// P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
     /// right if positive.
-    #[staticmethod]
-    fn p(soil: &PySoil, angle: f64) -> PyResult<Self> {
-        Ok(Self(PlaneWave::p(soil.0, angle).or_raise()?))
-    }
-
+    p(soil: &PySoil, angle: f64) = PlaneWave::p(soil.0, angle).or_raise().map(Self);
     /// Rayleigh wave to the right on a half-plane of this ``soil``.
-    #[staticmethod]
-    fn rayleigh(soil: &PySoil) -> Self {
-        Self(PlaneWave::rayleigh(soil.0))
-    }
+    rayleigh(soil: &PySoil) = Ok(Self(PlaneWave::rayleigh(soil.0)));
+    /// Apparent velocity along the surface, m/s.
+    apparent_velocity: f64 = own.0.apparent_velocity();
+}
 
+/// Methods of a plane wave that make it a motion: the core's of the same name.
+macro_rules! fields_from {
+    ($($(#[doc = $doc:tt])+ $name:ident;)+) => {
+        #[pymethods]
+        impl PyPlaneWave {
+            $(
+                $(#[doc = $doc])+
+                #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+                fn $name(
+                    &self,
+                    record: &PyRecord,
+                    origin: f64,
+                    azimuth: f64,
+                ) -> PyResult<PyFreeField> {
+                    let (wave, record) = (self.0, Arc::clone(&record.0));
+                    turned(azimuth, move || wave.$name(&record, origin))
+                }
+            )+
+        }
+    };
+}
+
+fields_from! {
+    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+    /// :func:`travelling_wave`.
+    field_from_horizontal;
+    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+    /// :func:`travelling_wave`.
+    field_from_vertical;
+    /// The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
+    /// (rad; 0 by default) is that of :func:`travelling_wave`.
+    field_from_across;
+}
+
+#[pymethods]
+impl PyPlaneWave {
     /// The same wave running the other way.
     fn reversed(&self) -> Self {
         Self(self.0.reversed())
-    }
-
-    /// Apparent velocity along the surface, m/s.
-    #[getter]
-    fn apparent_velocity(&self) -> f64 {
-        self.0.apparent_velocity()
-    }
-
-    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
-    /// :func:`travelling_wave`.
-    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
-    fn field_from_horizontal(
-        &self,
-        record: &PyRecord,
-        origin: f64,
-        azimuth: f64,
-    ) -> PyResult<PyFreeField> {
-        let (wave, record) = (self.0, Arc::clone(&record.0));
-        turned(azimuth, move || wave.field_from_horizontal(&record, origin))
-    }
-
-    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
-    /// :func:`travelling_wave`.
-    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
-    fn field_from_vertical(
-        &self,
-        record: &PyRecord,
-        origin: f64,
-        azimuth: f64,
-    ) -> PyResult<PyFreeField> {
-        let (wave, record) = (self.0, Arc::clone(&record.0));
-        turned(azimuth, move || wave.field_from_vertical(&record, origin))
-    }
-
-    /// The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-    /// (rad; 0 by default) is that of :func:`travelling_wave`.
-    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
-    fn field_from_across(
-        &self,
-        record: &PyRecord,
-        origin: f64,
-        azimuth: f64,
-    ) -> PyResult<PyFreeField> {
-        let (wave, record) = (self.0, Arc::clone(&record.0));
-        turned(azimuth, move || wave.field_from_across(&record, origin))
     }
 }
 
 /// A soil ``profile`` (:class:`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
 /// (the default) or "pressure".
 #[pyclass(name = "SoilColumn", module = "basemat", frozen, dict)]
-pub(crate) struct PyColumn(SoilColumn);
+pub(crate) struct PyColumn(pub(crate) SoilColumn);
 
-fn control(name: &str) -> PyResult<ControlPoint> {
+pub(crate) fn control(name: &str) -> PyResult<ControlPoint> {
     choice("control", name, &[("outcrop", ControlPoint::Outcrop), ("within", ControlPoint::Within)])
 }
 
@@ -218,14 +193,14 @@ fn through(
     record: &PyRecord,
     control: &str,
     column: impl FnOnce(ControlPoint, f64, &[f64]) -> basemat::Result<SiteMotion>,
-) -> PyResult<Py<PyRecord>> {
+) -> PyResult<PyRecord> {
     let (control, step) = (self::control(control)?, record.0.time_step());
     let motion = column(control, step, record.0.accelerations()).or_raise()?;
     if motion.before.max(motion.after).max(motion.rounding) > UNSEEN * motion.peak() {
         let text = format!("{motion}: give the record quiet time on both sides (padded)");
         crate::error::warn(py, text)?;
     }
-    PyRecord::create(py, Record::new(step, motion.samples))
+    PyRecord::of(Record::new(step, motion.samples))
 }
 
 #[pymethods]
@@ -254,12 +229,7 @@ impl PyColumn {
     /// "within", as long. A :class:`BasematWarning` gives the size of what comes before or after and is
     /// cut off, from 1e-4 of the peak on: :meth:`Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
-    fn to_surface(
-        &self,
-        py: Python<'_>,
-        record: &PyRecord,
-        control: &str,
-    ) -> PyResult<Py<PyRecord>> {
+    fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own| self.0.to_surface(control, step, own))
     }
 
@@ -267,12 +237,7 @@ impl PyColumn {
     /// surface (deconvolution); it warns as :meth:`to_surface`.
     #[pyo3(signature = (record, *, control="outcrop"))]
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
-    fn from_surface(
-        &self,
-        py: Python<'_>,
-        record: &PyRecord,
-        control: &str,
-    ) -> PyResult<Py<PyRecord>> {
+    fn from_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own| self.0.from_surface(control, step, own))
     }
 
@@ -282,41 +247,15 @@ impl PyColumn {
     #[staticmethod]
     #[pyo3(signature = (profile, x=None, y=None, up=None, *, control="outcrop"))]
     fn surface_in_plan(
-        py: Python<'_>,
         profile: &PySoilProfile,
         x: Option<Bound<'_, PyRecord>>,
         y: Option<Bound<'_, PyRecord>>,
         up: Option<Bound<'_, PyRecord>>,
         control: &str,
-    ) -> PyResult<[Option<Py<PyRecord>>; 3]> {
+    ) -> PyResult<[Option<PyRecord>; 3]> {
         let (motion, control) = (records([x, y, up]), self::control(control)?);
         let found = SoilColumn::surface_in_plan(&profile.0, control, &motion).or_raise()?;
-        let own =
-            |record: Option<Record>| record.map(|own| PyRecord::create(py, Ok(own))).transpose();
-        Ok([own(found.x)?, own(found.y)?, own(found.up)?])
-    }
-
-    /// Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
-    /// point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
-    ///
-    /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
-    /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
-    /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
-    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None))]
-    fn equivalent_linear(
-        &self,
-        py: Python<'_>,
-        record: &PyRecord,
-        curves: Vec<Bound<'_, PyStrainCurves>>,
-        control: &str,
-        strain_ratio: Option<f64>,
-        tolerance: Option<f64>,
-        #[pyo3(from_py_with = whole)] most_iterations: Option<usize>,
-        band: Option<[f64; 2]>,
-    ) -> PyResult<PyEquivalentLinear> {
-        let control = self::control(control)?;
-        let given = Iteration { control, strain_ratio, tolerance, most_iterations, band };
-        iterate(py, &self.0, record, &curves, &given)
+        Ok([found.x, found.y, found.up].map(|own| own.map(|own| PyRecord(Arc::new(own)))))
     }
 }
 
@@ -324,35 +263,26 @@ impl PyColumn {
 #[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
-#[pymethods]
-impl PyInclinedWave {
+members! {
+    PyInclinedWave, own;
     /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
     /// positive.
-    #[staticmethod]
-    fn sv(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
-        Ok(Self(InclinedWave::sv(profile.0.clone(), angle).or_raise()?))
-    }
-
+    sv(profile: &PySoilProfile, angle: f64) =
+        InclinedWave::sv(profile.0.clone(), angle).or_raise().map(Self);
     /// SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
     /// direction.
-    #[staticmethod]
-    fn sh(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
-        Ok(Self(InclinedWave::sh(profile.0.clone(), angle).or_raise()?))
-    }
-
+    sh(profile: &PySoilProfile, angle: f64) =
+        InclinedWave::sh(profile.0.clone(), angle).or_raise().map(Self);
     /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
     /// positive.
-    #[staticmethod]
-    fn p(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
-        Ok(Self(InclinedWave::p(profile.0.clone(), angle).or_raise()?))
-    }
-
+    p(profile: &PySoilProfile, angle: f64) =
+        InclinedWave::p(profile.0.clone(), angle).or_raise().map(Self);
     /// Apparent velocity along the surface, m/s.
-    #[getter]
-    fn apparent_velocity(&self) -> f64 {
-        self.0.apparent_velocity()
-    }
+    apparent_velocity: f64 = own.0.apparent_velocity();
+}
 
+#[pymethods]
+impl PyInclinedWave {
     /// The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
     /// (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
     /// vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by

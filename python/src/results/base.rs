@@ -1,6 +1,6 @@
 //! The base, foundations and limits of service after a run.
 
-use basemat::results::{Extremes, Peak, ServiceCheck, Summary};
+use basemat::results::{ServiceCheck, Summary};
 use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
@@ -19,12 +19,7 @@ pub(crate) fn preformatted(text: &str) -> String {
     format!("<pre style=\"line-height: 1.2\">{text}</pre>")
 }
 
-/// The least value, if there is one.
-pub(super) fn known(extremes: Extremes) -> Option<PyPeak> {
-    (!extremes.lowest.value.is_nan()).then_some(PyPeak(extremes.lowest))
-}
-
-getters! {
+members! {
     PySummary, own;
     /// x of its two ends, m.
     ends: [f64; 2] = own.0.ends;
@@ -57,15 +52,16 @@ getters! {
     /// Sliding distance: |slip| of it summed over time, m.
     slip_path: f64 = own.0.sliding.path;
     /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
-    least_sliding_safety: Option<PyPeak> = known(own.0.sliding_safety);
+    least_sliding_safety: Option<PyPeak> = {
+        let least = own.0.sliding_safety.lowest;
+        (!least.value.is_nan()).then_some(PyPeak(least))
+    };
     /// Least factor of safety against overturning, a :class:`Peak`; in plan the lesser of "overturning_safety", over the
     /// left or the right edge, and "overturning_safety_across", over the front or the back one.
-    least_overturning_safety: PyPeak = PyPeak(least(own.0.overturning_safety.lowest, own.0.overturning_safety_across.lowest));
-}
-
-/// The lesser of two.
-fn least(one: Peak, other: Peak) -> Peak {
-    if other.value < one.value { other } else { one }
+    least_overturning_safety: PyPeak = {
+        let [along, across] = [own.0.overturning_safety, own.0.overturning_safety_across];
+        PyPeak(if across.lowest.value < along.lowest.value { across.lowest } else { along.lowest })
+    };
 }
 
 #[pymethods]
@@ -82,7 +78,7 @@ impl PySummary {
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyServiceCheck(pub(super) ServiceCheck);
 
-getters! {
+members! {
     PyServiceCheck, own;
     /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
     criterion: &'static str = own.0.criterion.name();
@@ -102,9 +98,5 @@ getters! {
 impl PyServiceCheck {
     fn __str__(&self) -> String {
         self.0.to_string()
-    }
-
-    fn __repr__(&self) -> String {
-        format!("ServiceCheck({})", self.0)
     }
 }

@@ -2,7 +2,8 @@
 
 use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict};
+
+use crate::array::Named;
 
 /// Energies since the start, J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
@@ -10,7 +11,7 @@ use pyo3::types::{IntoPyDict, PyDict};
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
-getters! {
+members! {
     PyEnergyBalance, own;
     /// Kinetic energy ½ v·M v, J/m.
     kinetic: f64 = own.0.kinetic;
@@ -45,8 +46,8 @@ getters! {
 #[pymethods]
 impl PyEnergyBalance {
     /// All terms by their names: dict of numbers, J/m.
-    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        EnergyTerm::ALL.map(|term| (term.to_string(), self.0.term(term))).into_py_dict(py)
+    fn to_dict(&self) -> Named<String, f64> {
+        EnergyTerm::ALL.into_iter().map(|term| (term.to_string(), self.0.term(term))).collect()
     }
 
     fn _repr_html_(&self) -> String {

@@ -10,3 +10,4 @@ pub(crate) use base::{PyServiceCheck, PySummary, preformatted};
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use peak::{PyExtremes, PyPeak};
 pub(crate) use run::PyRun;
+pub(crate) use series::element_units;

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyPeak(pub(crate) Peak);
 
-getters! {
+members! {
     PyPeak, own;
     /// The value, in the quantity's unit, with its sign.
     value: f64 = own.0.value;
@@ -32,7 +32,7 @@ impl PyPeak {
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyExtremes(pub(crate) Extremes);
 
-getters! {
+members! {
     PyExtremes, own;
     /// The smallest value, a :class:`Peak` in the quantity's unit.
     lowest: PyPeak = PyPeak(own.0.lowest);

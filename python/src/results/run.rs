@@ -1,37 +1,35 @@
 //! A run: its summary and its time series.
 
+use std::path::PathBuf;
+
 use basemat::coupled::EnergyTerm;
-use basemat::results::{ElementEnvelope, Quantity, Run, TimeSeries};
+use basemat::io::paraview;
+use basemat::results::{DeformedShape, Quantity, Run, Summary, TimeSeries};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
 use super::base::preformatted;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
-use crate::array::{Array, Numbers};
+use crate::array::{Array, Named, Numbers};
 use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
+use crate::structure::{PyFemModel, PyShearBuilding, PyStoreyBuilding, recipe};
 
-type Column = (&'static str, fn(&ElementEnvelope) -> f64);
-
-/// Columns of the envelope.
-const ENVELOPE: [Column; 9] = [
-    ("left", |own| own.element.left),
-    ("right", |own| own.element.right),
-    ("static_pressure", |own| own.static_pressure),
-    ("lowest_pressure", |own| own.pressure.lowest.value),
-    ("highest_pressure", |own| own.pressure.highest.value),
-    ("shear", |own| own.shear.value),
-    ("gap", |own| own.gap.value),
-    ("slip", |own| own.slip.value),
-    ("open", |own| own.open),
-];
-/// Columns of that in plan beside them.
-const ENVELOPE_IN_PLAN: [Column; 4] = [
-    ("front", |own| own.depth[0]),
-    ("back", |own| own.depth[1]),
-    ("shear_across", |own| own.shear_across.value),
-    ("slip_across", |own| own.slip_across.value),
-];
+/// The shape of a structure for pictures: its elements or storeys, of another one a box of this `height`.
+fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
+    if let Ok(own) = object.cast::<PyFemModel>() {
+        return Ok(DeformedShape::of_model(&own.get().0));
+    }
+    if let Ok(own) = object.cast::<PyShearBuilding>() {
+        return DeformedShape::of_building(&own.get().made()?).or_raise();
+    }
+    if let Ok(own) = object.cast::<PyStoreyBuilding>() {
+        return DeformedShape::of_storeys(&own.get().made()?).or_raise();
+    }
+    let needed = "height: give that of the box that stands for the structure";
+    let height = height.ok_or_else(|| refuse(needed))?;
+    DeformedShape::of_block(recipe(object)?().or_raise()?.as_ref(), height).or_raise()
+}
 
 /// A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
@@ -45,21 +43,25 @@ pub(crate) struct PyRun {
     names: Option<Vec<String>>,
 }
 
+extends!(PyRun, own => PySummary(own.run.whole.clone()));
+
 impl PyRun {
     pub(crate) fn new(run: Run, histories: Option<TimeSeries>, names: Option<Vec<String>>) -> Self {
         Self { run, histories, names }
-    }
-
-    /// The object of Python.
-    pub(crate) fn create(self, py: Python<'_>) -> PyResult<Py<Self>> {
-        let whole = PySummary(self.run.whole.clone());
-        Py::new(py, (self, whole))
     }
 
     fn kept(&self) -> PyResult<&TimeSeries> {
         self.histories
             .as_ref()
             .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
+    }
+
+    /// Peaks of all scalars of the base or of a foundation; None where there is none.
+    fn peaks(&self, of: &Summary) -> impl Iterator<Item = (String, Option<f64>)> {
+        Quantity::of(self.run.in_plan).map(|quantity| {
+            let value = of.peak(quantity).value;
+            (quantity.to_string(), (!value.is_nan()).then_some(value))
+        })
     }
 
     /// The time series, of which the `probe` is one.
@@ -73,7 +75,7 @@ impl PyRun {
     }
 }
 
-getters! {
+members! {
     PyRun, own;
     /// Number of steps made.
     steps: usize = own.run.steps;
@@ -111,6 +113,42 @@ getters! {
     fallbacks: usize = own.run.fallbacks.total();
     /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
     warnings: Vec<String> = own.run.warnings.iter().map(|own| in_python(own.to_string())).collect();
+    /// All time series: dict of arrays of shape (steps + 1,), "time" first.
+    series: PyResult<Named<String, Array>> = series::all(own.kept()?);
+    /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J/m.
+    energy_balances: PyResult<Named<String, Array>> = Ok(series::energy_balances(own.kept()?));
+    /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
+    probes: Named<String, PyExtremes> = {
+        own.run.probes.iter().map(|own| (own.name.clone(), PyExtremes(own.extremes))).collect()
+    };
+    /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
+    units: Named<String, &str> = {
+        let Run { in_plan, probes, .. } = &own.run;
+        let scalars = Quantity::of(*in_plan).map(|own| (own.to_string(), own.unit(*in_plan)));
+        let probes = probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
+        let energy = if *in_plan { "J" } else { "J/m" };
+        let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
+        let time = [("time".to_owned(), "s")].into_iter();
+        time.chain(scalars).chain(probes).chain(terms).collect()
+    };
+    /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
+    /// "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
+    /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
+    /// "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
+    envelope: Named<&'static str, Array> = {
+        let columns = Run::ENVELOPE.into_iter().filter(|column| own.run.in_plan || !column.2);
+        let values = |value| own.run.envelope.iter().map(value).collect();
+        columns.map(|(name, .., value)| (name, values(value))).collect()
+    };
+    /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
+    /// is not positive.
+    energy_shares: Option<Named<&'static str, f64>> = {
+        own.run.energy_balance.shares().map(|shares| shares.into_iter().collect())
+    };
+    /// Peaks of all scalar quantities of each foundation.
+    _foundation_peaks: Vec<Named<String, Option<f64>>> = {
+        own.run.foundations.iter().map(|foundation| own.peaks(foundation).collect()).collect()
+    };
     /// Wall time, s.
     wall: f64 = own.run.wall.as_secs_f64();
 }
@@ -120,18 +158,6 @@ impl PyRun {
     /// Time series of the scalar or the probe ``name``: array of shape (steps + 1,).
     fn __getitem__(&self, name: &str) -> PyResult<Array> {
         series::named(self.kept()?, name)
-    }
-
-    /// All time series: dict of arrays of shape (steps + 1,), "time" first.
-    #[getter]
-    fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        series::all(py, self.kept()?)
-    }
-
-    /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J/m.
-    #[getter]
-    fn energy_balances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        series::energy_balances(py, self.kept()?)
     }
 
     /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
@@ -154,8 +180,8 @@ impl PyRun {
     }
 
     /// The :class:`Record` of the acceleration probe called ``probe``.
-    fn acceleration_record(&self, py: Python<'_>, probe: &str) -> PyResult<Py<PyRecord>> {
-        PyRecord::create(py, self.probed(probe)?.acceleration_record(probe))
+    fn acceleration_record(&self, probe: &str) -> PyResult<PyRecord> {
+        PyRecord::of(self.probed(probe)?.acceleration_record(probe))
     }
 
     /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
@@ -173,55 +199,11 @@ impl PyRun {
         Ok(PySpectrum(spectrum.or_raise()?))
     }
 
-    /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
-    #[getter]
-    fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let own = self.run.probes.iter();
-        own.map(|probe| (&probe.name, PyExtremes(probe.extremes))).into_py_dict(py)
-    }
-
-    /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
-    #[getter]
-    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let in_plan = self.run.in_plan;
-        let scalars = Quantity::of(in_plan).map(|own| (own.to_string(), own.unit(in_plan)));
-        let probes = self.run.probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
-        let energy = if in_plan { "J" } else { "J/m" };
-        let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
-        let time = [("time".to_owned(), "s")].into_iter();
-        time.chain(scalars).chain(probes).chain(terms).into_py_dict(py)
-    }
-
-    /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
-    /// "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
-    /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y.
-    #[getter]
-    fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let in_plan = if self.run.in_plan { &ENVELOPE_IN_PLAN[..] } else { &[] };
-        let column = |value: &fn(&ElementEnvelope) -> f64| -> Array {
-            self.run.envelope.iter().map(value).collect()
-        };
-        let columns = ENVELOPE.iter().chain(in_plan);
-        columns.map(|(name, value)| (name, column(value))).into_py_dict(py)
-    }
-
-    /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
-    /// is not positive.
-    #[getter]
-    fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        self.run.energy_balance.shares().map(|shares| shares.into_py_dict(py)).transpose()
-    }
-
     /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
     /// service "is_serviceable".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
-        let numbers = PyDict::new(py);
-        for quantity in Quantity::of(run.in_plan) {
-            let value = run.whole.peak(quantity).value;
-            numbers.set_item(quantity.to_string(), (!value.is_nan()).then_some(value))?;
-        }
-        for (name, value) in [
+        let own = [
             ("end", Some(run.end)),
             ("shear_coefficient", run.shear_coefficient()),
             ("uplift_duration", Some(run.whole.uplift.duration)),
@@ -230,9 +212,9 @@ impl PyRun {
             ("residual_slip", Some(run.whole.residual_slip)),
             ("energy_input", Some(run.energy_balance.input)),
             ("energy_error", Some(run.energy_error)),
-        ] {
-            numbers.set_item(name, value)?;
-        }
+        ];
+        let own = own.into_iter().map(|(name, value)| (name.to_owned(), value));
+        let numbers = self.peaks(&run.whole).chain(own).into_py_dict(py)?;
         if let Some(is_serviceable) = run.is_serviceable() {
             numbers.set_item("is_serviceable", is_serviceable)?;
         }
@@ -240,6 +222,33 @@ impl PyRun {
             numbers.set_item(format!("peak {}", probe.name), probe.extremes.largest().value)?;
         }
         Ok(numbers)
+    }
+
+    /// Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
+    /// names with their units, such as "base_shear_n_per_m", in any version and without this package.
+    fn save_npz(&self, path: PathBuf) -> PyResult<()> {
+        self.kept()?.save_npz(path).or_raise()
+    }
+
+    /// Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
+    /// contact. Returns the number of grids.
+    ///
+    /// With a ``structure``, that of the simulation, there is also a grid of it for each snapshot of the motion; none unless
+    /// given. ``height`` (m): that of a rigid block or body, which is drawn as a box, and of any structure but a
+    /// :class:`FemModel`, :class:`ShearBuilding` or :class:`StoreyBuilding`; None for these.
+    #[pyo3(signature = (folder, name, structure=None, *, height=None))]
+    fn save_paraview(
+        &self,
+        folder: PathBuf,
+        name: &str,
+        structure: Option<Bound<'_, PyAny>>,
+        height: Option<f64>,
+    ) -> PyResult<usize> {
+        let (kept, shape) = (self.kept()?, structure.map(|own| shape(&own, height)).transpose()?);
+        match shape {
+            Some(shape) => paraview::write_series(folder, name, &shape, kept).or_raise(),
+            None => paraview::write_base(folder, name, kept).or_raise(),
+        }
     }
 
     fn __str__(&self) -> String {

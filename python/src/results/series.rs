@@ -2,14 +2,13 @@
 
 use basemat::coupled::{EnergyBalance, EnergyTerm};
 use basemat::interface::ContactState;
-use basemat::results::{ContactFrame, MotionFrame, Quantity, TimeSeries};
+use basemat::results::{ContactFrame, MotionFrame, Quantity, Run, TimeSeries};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyDictMethods};
+use pyo3::types::{PyDict, PyDictMethods};
 
-use crate::array::Array;
+use crate::array::{Array, Named};
 use crate::error::refuse;
-use crate::names::mode_number;
 
 /// A scalar, or a probe, by its name.
 pub(super) fn named(histories: &TimeSeries, name: &str) -> PyResult<Array> {
@@ -20,15 +19,13 @@ pub(super) fn named(histories: &TimeSeries, name: &str) -> PyResult<Array> {
         return Ok(Array::from(values));
     }
     let in_plan = !histories.depths().is_empty();
-    let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
-    match words.iter().zip(Quantity::of(in_plan)).find(|(word, _)| *word == name) {
-        Some((_, quantity)) => Ok(Array::from(histories.series(quantity))),
-        None => Err(pyo3::exceptions::PyKeyError::new_err(format!(
-            "'{name}' is neither a time series ({}) nor a probe ({})",
-            words.join(", "),
-            names(histories).join(", ")
-        ))),
+    if let Some(quantity) = Quantity::of(in_plan).find(|own| own.to_string() == name) {
+        return Ok(Array::from(histories.series(quantity)));
     }
+    let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
+    let (words, names) = (words.join(", "), names(histories).join(", "));
+    let text = format!("'{name}' is neither a time series ({words}) nor a probe ({names})");
+    Err(pyo3::exceptions::PyKeyError::new_err(text))
 }
 
 /// Names of the probes.
@@ -37,34 +34,22 @@ pub(super) fn names(histories: &TimeSeries) -> Vec<String> {
 }
 
 /// All scalars and probes by their names.
-pub(super) fn all<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
-    let time = ("time".to_owned(), Array::from(histories.times()));
-    let scalars = Quantity::of(!histories.depths().is_empty())
-        .map(|quantity| (quantity.to_string(), Array::from(histories.series(quantity))));
-    let series = std::iter::once(time).chain(scalars).into_py_dict(py)?;
-    for name in names(histories) {
-        series.set_item(&name, named(histories, &name)?)?;
-    }
-    Ok(series)
+pub(super) fn all(histories: &TimeSeries) -> PyResult<Named<String, Array>> {
+    let scalars = Quantity::of(!histories.depths().is_empty()).map(|own| own.to_string());
+    let all = std::iter::once("time".into()).chain(scalars).chain(names(histories));
+    all.map(|name| named(histories, &name).map(|values| (name, values))).collect()
 }
 
 /// Terms of the energy balance over time.
-pub(super) fn energy_balances<'py>(
-    py: Python<'py>,
-    histories: &TimeSeries,
-) -> PyResult<Bound<'py, PyDict>> {
+pub(super) fn energy_balances(histories: &TimeSeries) -> Named<String, Array> {
     let balances = histories.energy_balances().iter();
     let terms = EnergyTerm::ALL.map(|term| {
-        (term.to_string(), balances.clone().map(|balance| balance.term(term)).collect::<Array>())
+        (term.to_string(), balances.clone().map(|balance| balance.term(term)).collect())
     });
-    let series = [("time", Array::from(histories.times()))].into_py_dict(py)?;
-    series.update(terms.into_py_dict(py)?.as_mapping())?;
-    series.set_item("residual", balances.map(EnergyBalance::residual).collect::<Array>())?;
-    Ok(series)
+    let residual = balances.clone().map(EnergyBalance::residual).collect();
+    let time = ("time".to_owned(), Array::from(histories.times()));
+    [time].into_iter().chain(terms).chain([("residual".to_owned(), residual)]).collect()
 }
-
-/// Name and value of a column of a snapshot of the base.
-type Column = (&'static str, fn(&ContactState) -> f64);
 
 /// Snapshots of the base: times, and arrays of shape (frames, elements).
 pub(super) fn contact<'py>(
@@ -82,21 +67,14 @@ pub(super) fn contact<'py>(
         let values = frames.iter().flat_map(|frame| frame.states).map(pick);
         PyArray1::from_iter(py, values).reshape(shape)
     };
-    let all: [Column; 6] = [
-        ("gap", |state| state.gap),
-        ("slip", |state| state.slip),
-        ("pressure", |state| state.pressure),
-        ("shear", |state| state.shear),
-        ("slip_across", |state| state.slip_across),
-        ("shear_across", |state| state.shear_across),
-    ];
-    let count = if histories.depths().is_empty() { 4 } else { 6 };
-    for (name, pick) in &all[..count] {
-        columns.set_item(name, value(*pick)?)?;
+    let in_plan = !histories.depths().is_empty();
+    for (name, _, across, pick) in ContactState::NUMBERS {
+        if in_plan || !across {
+            columns.set_item(name, value(pick)?)?;
+        }
     }
-    let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| mode_number(*mode));
-    let modes = modes.collect::<PyResult<Vec<_>>>()?;
-    columns.set_item("mode", PyArray1::from_vec(py, modes).reshape(shape)?)?;
+    let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| *mode as u8);
+    columns.set_item("mode", PyArray1::from_iter(py, modes).reshape(shape)?)?;
     Ok(columns)
 }
 
@@ -121,4 +99,10 @@ pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<B
         columns.set_item("free_field_across", across.collect::<Array>())?;
     }
     Ok(columns)
+}
+
+/// Units of the numbers of elements, in snapshots and envelopes.
+pub(crate) fn element_units() -> Named<&'static str, &'static str> {
+    let contact = ContactState::NUMBERS.map(|(name, unit, ..)| (name, unit)).into_iter();
+    contact.chain(Run::ENVELOPE.map(|(name, unit, ..)| (name, unit))).collect()
 }

@@ -101,7 +101,7 @@ fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
     recipe().or_raise()
 }
 
-getters! {
+members! {
     PySimulation, own;
     /// The :class:`State` at the end of the last accepted step (at first: the static state).
     state: PyResult<PyState> = Ok(PyState(own.lock()?.state().clone()));
@@ -115,6 +115,18 @@ getters! {
     static_displacement: PyResult<Array> = Ok(Array::from(own.lock()?.static_displacement()));
     /// Which history the ground keeps and why, in words; None if it has not chosen one yet.
     history_choice: PyResult<Option<String>> = Ok(own.lock()?.ground().history_choice().map(|choice| choice.to_string()));
+    /// The structure as it was given; of one written in Python with a ``force`` of its own the copy that
+    /// this simulation works on, with its internal variables.
+    structure: &Py<PyAny> = &own.structure;
+    /// The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
+    /// copies that this simulation works on, with their internal variables, in the order of storeys or
+    /// springs.
+    hysteresis: Vec<&Py<PyAny>> = own.hysteresis.iter().collect();
+    /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.
+    conditioning: PyResult<(f64, f64, f64)> = {
+        let conditioning = own.lock()?.conditioning();
+        Ok((conditioning.effective_stiffness, conditioning.ground, conditioning.delassus))
+    };
 }
 
 #[pymethods]
@@ -238,7 +250,7 @@ impl PySimulation {
         #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
         #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
         warn: bool,
-    ) -> PyResult<Py<PyRun>> {
+    ) -> PyResult<PyRun> {
         let steps = build::count(py, &*self.lock()?, self.duration, steps, duration)?;
         if observe_every == 0 {
             return Err(refuse("observe_every is 0, but must be one or more"));
@@ -274,7 +286,7 @@ impl PySimulation {
         if warn {
             run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;
         }
-        run.create(py)
+        Ok(run)
     }
 
     /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
@@ -299,28 +311,6 @@ impl PySimulation {
         let own = slf.get();
         let left = build::count(slf.py(), &*own.lock()?, own.duration, steps, duration)?;
         Ok(PySteps { simulation: slf.into_any().unbind(), left })
-    }
-
-    /// The structure as it was given; of one written in Python with a ``force`` of its own the copy that
-    /// this simulation works on, with its internal variables.
-    #[getter]
-    fn structure(&self, py: Python<'_>) -> Py<PyAny> {
-        self.structure.clone_ref(py)
-    }
-
-    /// The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
-    /// copies that this simulation works on, with their internal variables, in the order of storeys or
-    /// springs.
-    #[getter]
-    fn hysteresis(&self, py: Python<'_>) -> Vec<Py<PyAny>> {
-        self.hysteresis.iter().map(|own| own.clone_ref(py)).collect()
-    }
-
-    /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.
-    #[getter]
-    fn conditioning(&self) -> PyResult<(f64, f64, f64)> {
-        let conditioning = self.lock()?.conditioning();
-        Ok((conditioning.effective_stiffness, conditioning.ground, conditioning.delassus))
     }
 
     /// Number of steps that last ``duration`` (s), rounded up.

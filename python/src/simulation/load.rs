@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use crate::array::{Numbers, real};
 use crate::error::{OrRaise, asked, refuse};
 use crate::motion::PyRecord;
+use crate::recipe::Make;
 use crate::row::{Order, RowLike};
 
 /// A force that acts on a structure from outside.
@@ -17,7 +18,7 @@ use crate::row::{Order, RowLike};
 /// belongs to the static state.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
-    pub(super) make: Arc<dyn Fn() -> basemat::Result<Load> + Send + Sync>,
+    pub(super) make: Make<Load>,
     pub(super) order: Order,
 }
 
@@ -27,10 +28,9 @@ impl PyLoad {
     }
 }
 
-#[pymethods]
-impl PyLoad {
-    #[new]
-    fn new(row: RowLike, value: Bound<'_, PyAny>) -> PyResult<Self> {
+members! {
+    PyLoad, own;
+    new(row: RowLike, value: Bound<'_, PyAny>) = {
         if !value.is_callable() {
             return Err(refuse("the value of a load must be a function of time"));
         }
@@ -43,33 +43,23 @@ impl PyLoad {
                 })
             }))
         }))
-    }
-
+    };
     /// The same ``force`` (N/m) on the ``row`` at any time, the static state included.
-    #[staticmethod]
-    fn constant(row: RowLike, force: f64) -> Self {
-        Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force)))
-    }
-
+    constant(row: RowLike, force: f64) =
+        Ok(Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force))));
     /// A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back).
-    #[staticmethod]
-    fn released(row: RowLike, force: f64) -> Self {
-        Self::of(row.1, move || Ok(Load::released(row.0.clone(), force)))
-    }
-
+    released(row: RowLike, force: f64) =
+        Ok(Self::of(row.1, move || Ok(Load::released(row.0.clone(), force))));
     /// ``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
     /// between its samples and zero beyond its ends.
-    #[staticmethod]
-    fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
+    record(row: RowLike, record: &PyRecord, force: f64) = {
         let (RowLike(row, order), record) = (row, Arc::clone(&record.0));
-        Self::of(order, move || Ok(Load::record(row.clone(), &record, force)))
-    }
-
+        Ok(Self::of(order, move || Ok(Load::record(row.clone(), &record, force))))
+    };
     /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
     /// shape (m,), s, ascending), linear between them, zero outside.
-    #[staticmethod]
-    fn table(row: RowLike, times: Numbers, forces: Numbers) -> PyResult<Self> {
+    table(row: RowLike, times: Numbers, forces: Numbers) = {
         Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;
         Ok(Self::of(row.1, move || Load::table(row.0.clone(), &times.0, &forces.0)))
-    }
+    };
 }

@@ -14,44 +14,28 @@ pub(crate) struct PyTimeScheme {
     pub(super) make: Recipe<dyn TimeScheme>,
 }
 
-fn copied(scheme: impl TimeScheme + Clone + Sync + 'static) -> PyTimeScheme {
-    PyTimeScheme { make: Arc::new(move || Ok(Box::new(scheme.clone()))) }
+fn scheme(
+    scheme: basemat::Result<impl TimeScheme + Clone + Sync + 'static>,
+) -> PyResult<PyTimeScheme> {
+    let scheme = scheme.or_raise()?;
+    Ok(PyTimeScheme { make: Arc::new(move || Ok(Box::new(scheme.clone()))) })
 }
 
-#[pymethods]
-impl PyTimeScheme {
+members! {
+    PyTimeScheme, own;
     /// The midpoint rule: conserves energy.
-    #[staticmethod]
-    fn midpoint() -> Self {
-        copied(Midpoint)
-    }
-
+    midpoint() = scheme(Ok(Midpoint));
     /// The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
     /// ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
-    #[staticmethod]
     #[pyo3(signature = (gamma=0.8))]
-    fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {
-        Ok(copied(DissipativeMidpoint::new(gamma).or_raise()?))
-    }
-
+    dissipative_midpoint(gamma: f64) = scheme(DissipativeMidpoint::new(gamma));
     /// The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½.
-    #[staticmethod]
-    fn theta(theta: f64) -> PyResult<Self> {
-        Ok(copied(Theta::new(theta).or_raise()?))
-    }
-
+    theta(theta: f64) = scheme(Theta::new(theta));
     /// Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
     /// ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
-    #[staticmethod]
     #[pyo3(signature = (gamma=0.5, beta=0.25))]
-    fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
-        Ok(copied(Newmark::new(gamma, beta).or_raise()?))
-    }
-
+    newmark(gamma: f64, beta: f64) = scheme(Newmark::new(gamma, beta));
     /// The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
     /// make energy. ``alpha``: −⅓ (most damping) to 0 (none).
-    #[staticmethod]
-    fn hht_alpha(alpha: f64) -> PyResult<Self> {
-        Ok(copied(HhtAlpha::new(alpha).or_raise()?))
-    }
+    hht_alpha(alpha: f64) = scheme(HhtAlpha::new(alpha));
 }

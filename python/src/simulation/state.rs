@@ -1,13 +1,12 @@
 //! The state at the end of a step, steps as an iterator, and checkpoints that pickle.
 
-use basemat::contact::SearchMethod;
 use basemat::coupled::{Checkpoint, Foundation, State};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::array::{Array, whole};
+use crate::array::{Array, Count};
 use crate::error::{OrRaise, refuse};
-use crate::names::{mode_name, mode_number};
+use crate::names::mode_name;
 use crate::results::PyEnergyBalance;
 
 /// The simulation at the end of an accepted step.
@@ -23,7 +22,7 @@ pub(crate) struct PyState(pub(super) State);
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundation(Foundation);
 
-getters! {
+members! {
     PyFoundation, own;
     /// Numbers of its first element and of the one after its last.
     elements: (usize, usize) = (own.0.elements.start, own.0.elements.end);
@@ -53,7 +52,7 @@ getters! {
     twist: f64 = own.0.twist;
 }
 
-getters! {
+members! {
     PyState, own;
     /// Number of steps made.
     step: usize = own.0.step;
@@ -102,52 +101,31 @@ getters! {
     velocity: Array = own.0.velocity().into();
     /// Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s².
     acceleration: Array = own.0.acceleration().into();
+    /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
+    modes: Array<u8> = own.0.modes.iter().map(|mode| *mode as u8).collect();
+    /// Changes of mode in this step: list of tuples (element, mode before, mode now).
+    transitions: Vec<(usize, &'static str, &'static str)> = {
+        let changes = own.0.transitions.iter();
+        changes.map(|own| (own.element, mode_name(own.from), mode_name(own.to))).collect()
+    };
+    /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
+    foundations: Vec<PyFoundation> = own.0.foundations.iter().cloned().map(PyFoundation).collect();
+    /// Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal".
+    method: String = own.0.method.to_string().replace("gauss_", "gauss-").replace('_', " ");
 }
 
 #[pymethods]
 impl PyState {
-    /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
-    #[getter]
-    fn modes(&self) -> PyResult<Array<u8>> {
-        self.0.modes.iter().map(|mode| mode_number(*mode)).collect()
-    }
-
-    /// Changes of mode in this step: list of tuples (element, mode before, mode now).
-    #[getter]
-    fn transitions(&self) -> PyResult<Vec<(usize, &'static str, &'static str)>> {
-        let changes = self.0.transitions.iter();
-        changes
-            .map(|change| Ok((change.element, mode_name(change.from)?, mode_name(change.to)?)))
-            .collect()
-    }
-
-    /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
-    #[getter]
-    fn foundations(&self) -> Vec<PyFoundation> {
-        self.0.foundations.iter().cloned().map(PyFoundation).collect()
-    }
-
     /// Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
     /// also "torque" or "uplifted_area".
     fn value(&self, quantity: &str) -> PyResult<f64> {
         Ok(self.0.value(quantity.parse().or_raise()?))
     }
 
-    /// Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal".
-    #[getter]
-    fn method(&self) -> &'static str {
-        match self.0.method {
-            SearchMethod::GaussSeidel => "gauss-seidel",
-            SearchMethod::Path => "path",
-            SearchMethod::Newton => "newton",
-            SearchMethod::Proximal => "proximal",
-            _ => "active set",
-        }
-    }
-
     /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
     /// has none.
-    fn state_variables(&self, #[pyo3(from_py_with = whole)] element: usize) -> PyResult<Vec<f64>> {
+    fn state_variables(&self, element: Count) -> PyResult<Vec<f64>> {
+        let Count(element) = element;
         let elements = self.0.contact.len();
         if element >= elements {
             return Err(refuse(format!("element is {element}, but must be below {elements}")));
@@ -196,20 +174,18 @@ impl PySteps {
 #[derive(PartialEq)]
 pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
 
-#[pymethods]
-impl PyCheckpoint {
-    #[new]
-    fn new(data: &[u8]) -> PyResult<Self> {
+members! {
+    PyCheckpoint, own;
+    new(data: &[u8]) = {
         let read = postcard::from_bytes(data);
         Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
-    }
-
+    };
     /// Steps made before it.
-    #[getter]
-    fn steps(&self) -> usize {
-        self.0.steps()
-    }
+    steps: usize = own.0.steps();
+}
 
+#[pymethods]
+impl PyCheckpoint {
     /// All of it as bytes, for a file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = postcard::to_allocvec(&self.0);

@@ -24,12 +24,14 @@ pub(crate) struct PyStructure {
 impl PyStructure {
     /// A structure that can be copied.
     pub(crate) fn copied(structure: impl Structure + Clone + Sync + 'static) -> Self {
-        Self::new(Arc::new(move || Ok(Box::new(structure.clone()))))
+        Self::new(move || Ok(structure.clone()))
     }
 
-    /// A structure by its recipe.
-    pub(crate) fn new(make: Recipe<dyn Structure>) -> Self {
-        Self { make, names: None }
+    /// A structure from what makes it.
+    pub(crate) fn new<S: Structure + 'static>(
+        make: impl Fn() -> basemat::Result<S> + Send + Sync + 'static,
+    ) -> Self {
+        Self { make: Arc::new(move || Ok(Box::new(make()?))), names: None }
     }
 
     /// The same with names of its degrees of freedom.
@@ -111,7 +113,7 @@ fn array<'py>(
     Ok(array)
 }
 
-getters! {
+members! {
     PyStructure, own;
     /// Number n of degrees of freedom.
     dofs: PyResult<usize> = Ok((own.make)().or_raise()?.dofs());

@@ -8,13 +8,14 @@ use basemat::structure::{
 };
 use pyo3::prelude::*;
 
+use super::PyStructure;
+use super::block::{PyRigidBody, SIX};
 use super::hysteresis::LawLike;
-use super::{PyRigidBody, PyStructure};
-use crate::array::whole;
+use crate::array::Count;
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
-use crate::recipe::Recipe;
+use crate::recipe::{Make, Recipe};
 use crate::row::{PyDofCombination, PySectionRows, rows};
 
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
@@ -24,21 +25,11 @@ use crate::row::{PyDofCombination, PySectionRows, rows};
 #[derive(Clone, Copy)]
 pub(crate) struct PyStorey(pub(crate) Storey);
 
-#[pymethods]
-impl PyStorey {
-    #[new]
+members! {
+    PyStorey, own;
     #[pyo3(signature = (height, mass, stiffness, *, rotary_inertia=0.0, damping=0.0))]
-    fn new(height: f64, mass: f64, stiffness: f64, rotary_inertia: f64, damping: f64) -> Self {
-        Self(Storey { height, mass, rotary_inertia, stiffness, damping })
-    }
-
-    fn __repr__(&self) -> String {
-        let Storey { height, mass, rotary_inertia, stiffness, damping } = self.0;
-        format!(
-            "Storey({height:?}, {mass:?}, {stiffness:?}, rotary_inertia={rotary_inertia:?}, \
-             damping={damping:?})"
-        )
-    }
+    new(height: f64, mass: f64, stiffness: f64, rotary_inertia: f64, damping: f64) =
+        Ok(Self(Storey { height, mass, rotary_inertia, stiffness, damping }));
 }
 
 type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
@@ -54,8 +45,8 @@ fn recipes(laws: GivenLaws) -> PyResult<Laws> {
 
 /// Number of the storey of a law.
 fn number(storey: i64) -> PyResult<usize> {
-    let text = || refuse(format!("laws: storey is {storey}, but must be 0 or more"));
-    usize::try_from(storey).map_err(|_| text())
+    usize::try_from(storey)
+        .map_err(|_| refuse(format!("laws: storey is {storey}, but must be 0 or more")))
 }
 
 /// The building with its laws.
@@ -78,32 +69,66 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 /// :class:`UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
 /// unless given.
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyShearBuilding(Make);
+pub(crate) struct PyShearBuilding(Make<ShearBuilding>);
 
-type Make = Arc<dyn Fn() -> basemat::Result<ShearBuilding> + Send + Sync>;
+extends!(PyShearBuilding, own => {
+    let (make, floors) = (Arc::clone(&own.0), own.made()?.dofs() - 3);
+    let base = ["base x", "base y", "base rotation"].map(String::from);
+    let names = base.into_iter().chain((0..floors).map(|storey| format!("floor {storey}")));
+    let names = DofNames::new(names.collect(), 3 + floors)?;
+    PyStructure::new(move || make()).named(Some(names))
+});
 
 impl PyShearBuilding {
-    /// Of a recipe that works.
-    fn of(
-        make: impl Fn() -> basemat::Result<ShearBuilding> + Send + Sync + 'static,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let make: Make = Arc::new(make);
-        let floors = make().or_raise()?.dofs() - 3;
-        let base = ["base x", "base y", "base rotation"].map(String::from);
-        let names = base.into_iter().chain((0..floors).map(|storey| format!("floor {storey}")));
-        let names = DofNames::new(names.collect(), 3 + floors)?;
-        let own = Arc::clone(&make);
-        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?)))).named(Some(names));
-        Ok(PyClassInitializer::from(base).add_subclass(Self(make)))
-    }
-
-    fn made(&self) -> PyResult<ShearBuilding> {
+    pub(crate) fn made(&self) -> PyResult<ShearBuilding> {
         (self.0)().or_raise()
     }
 }
 
-getters! {
+members! {
     PyShearBuilding, own;
+    #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None, laws=None))]
+    new(
+        width: f64,
+        base_mass: f64,
+        base_inertia: f64,
+        storeys: Vec<Bound<'_, PyStorey>>,
+        damping: Option<f64>,
+        center: f64,
+        p_delta: Option<f64>,
+        laws: GivenLaws,
+    ) = {
+        let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
+        let laws = recipes(laws)?;
+        let make = move || {
+            let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
+                .centered_at(center)
+                .with(damping, ShearBuilding::with_stiffness_damping)
+                .with(p_delta, ShearBuilding::with_p_delta)?;
+            following(building, &laws)
+        };
+        Self(Arc::new(make)).initializer()
+    };
+    /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
+    /// (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
+    ///
+    /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
+    /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
+    /// class; none unless given. The building must have none.
+    #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
+    isolated(
+        building: Bound<'_, Self>,
+        law: LawLike,
+        height: f64,
+        slab_mass: f64,
+        slab_inertia: f64,
+        damping: f64,
+        laws: GivenLaws,
+    ) = {
+        let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
+        let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
+        Ok(Self(Arc::new(move || following(make()?.isolated(level, own()?)?, &laws))))
+    };
     /// Mass, kg/m.
     total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
     /// First natural frequency on a fixed base without P–Δ, Hz.
@@ -114,77 +139,27 @@ getters! {
 
 #[pymethods]
 impl PyShearBuilding {
-    #[new]
-    #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None, laws=None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
-    fn new(
-        width: f64,
-        base_mass: f64,
-        base_inertia: f64,
-        storeys: Vec<Bound<'_, PyStorey>>,
-        damping: Option<f64>,
-        center: f64,
-        p_delta: Option<f64>,
-        laws: GivenLaws,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
-        let laws = recipes(laws)?;
-        Self::of(move || {
-            let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
-                .centered_at(center)
-                .with(damping, ShearBuilding::with_stiffness_damping)
-                .with(p_delta, ShearBuilding::with_p_delta)?;
-            following(building, &laws)
-        })
-    }
-
-    /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-    /// (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
-    ///
-    /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
-    /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
-    /// class; none unless given. The building must have none.
-    #[staticmethod]
-    #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
-    fn isolated(
-        building: Bound<'_, Self>,
-        law: LawLike,
-        height: f64,
-        slab_mass: f64,
-        slab_inertia: f64,
-        damping: f64,
-        laws: GivenLaws,
-    ) -> PyResult<Py<Self>> {
-        let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
-        let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
-        let made = Self::of(move || following(make()?.isolated(level, own()?)?, &laws))?;
-        Py::new(building.py(), made)
-    }
-
     /// Number of the degree of freedom of the floor above a ``storey`` (0: the lowest).
-    fn floor(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<usize> {
-        self.made()?.floor(storey).or_raise()
+    fn floor(&self, storey: Count) -> PyResult<usize> {
+        self.made()?.floor(storey.0).or_raise()
     }
 
     /// The :class:`DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
     /// displacement less what the base's rotation makes of it.
-    fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyDofCombination> {
-        Ok(self.made()?.drift(storey).or_raise()?.into())
+    fn drift(&self, storey: Count) -> PyResult<PyDofCombination> {
+        Ok(self.made()?.drift(storey.0).or_raise()?.into())
     }
 
     /// The :class:`DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
     /// less the motion of the base, its rotation included, m.
-    fn total_drift(
-        &self,
-        #[pyo3(from_py_with = whole)] storey: usize,
-    ) -> PyResult<PyDofCombination> {
-        Ok(self.made()?.total_drift(storey).or_raise()?.into())
+    fn total_drift(&self, storey: Count) -> PyResult<PyDofCombination> {
+        Ok(self.made()?.total_drift(storey.0).or_raise()?.into())
     }
 
     /// The :class:`SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
     /// lowest) on what is below; of a storey that follows a law, from the inertia above.
-    fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
-        Ok(self.made()?.shear(storey).or_raise()?.into())
+    fn shear(&self, storey: Count) -> PyResult<PySectionRows> {
+        Ok(self.made()?.shear(storey.0).or_raise()?.into())
     }
 }
 
@@ -197,14 +172,13 @@ impl PyShearBuilding {
 #[pyclass(name = "PlanStorey", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlanStorey(PlanStorey);
 
-#[pymethods]
-impl PyPlanStorey {
-    #[new]
+members! {
+    PyPlanStorey, own;
     #[pyo3(
         signature = (height, mass, sides, stiffness, *, inertia=None, mass_center=[0.0; 2], stiffness_center=[0.0; 2], damping=[0.0; 3]),
         text_signature = "(height, mass, sides, stiffness, *, inertia=None, mass_center=(0.0, 0.0), stiffness_center=(0.0, 0.0), damping=(0.0, 0.0, 0.0))"
     )]
-    fn new(
+    new(
         height: f64,
         mass: f64,
         sides: [f64; 2],
@@ -213,11 +187,11 @@ impl PyPlanStorey {
         mass_center: [f64; 2],
         stiffness_center: [f64; 2],
         damping: [f64; 3],
-    ) -> Self {
+    ) = {
         let own = PlanStorey::new(height, mass, sides, stiffness);
         let inertia = inertia.unwrap_or(own.inertia);
-        Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own })
-    }
+        Ok(Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own }))
+    };
 }
 
 /// Directions of the laws of storeys in plan.
@@ -234,77 +208,68 @@ const DIRECTIONS: [(&str, usize); 3] =
 /// (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
 /// given.
 #[pyclass(name = "StoreyBuilding", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyStoreyBuilding(Arc<dyn Fn() -> basemat::Result<StoreyBuilding> + Send + Sync>);
+pub(crate) struct PyStoreyBuilding(Make<StoreyBuilding>);
+
+extends!(PyStoreyBuilding, own => {
+    let (make, dofs) = (Arc::clone(&own.0), own.made()?.dofs());
+    let floor = |storey| ["x", "y", "rz"].map(|name| format!("floor {storey} {name}"));
+    let mat = SIX.map(String::from).into_iter();
+    let names = mat.chain((0..(dofs - 6) / 3).flat_map(floor)).collect();
+    PyStructure::new(move || make()).named(Some(DofNames::new(names, dofs)?))
+});
 
 impl PyStoreyBuilding {
-    fn made(&self) -> PyResult<StoreyBuilding> {
+    pub(crate) fn made(&self) -> PyResult<StoreyBuilding> {
         (self.0)().or_raise()
     }
 }
 
-getters! {
+members! {
     PyStoreyBuilding, own;
-    /// Mass of mat and floors, kg.
-    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
-}
-
-#[pymethods]
-impl PyStoreyBuilding {
-    #[new]
     #[pyo3(signature = (mat, storeys, *, p_delta=None, laws=None))]
-    fn new(
+    new(
         mat: &PyRigidBody,
         storeys: Vec<Bound<'_, PyPlanStorey>>,
         p_delta: Option<f64>,
         laws: Option<BTreeMap<(i64, String), LawLike>>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let storeys: Vec<PlanStorey> = storeys.iter().map(|storey| storey.get().0).collect();
-        let (mat, floors) = (mat.0.clone(), storeys.len());
+        let mat = mat.0.clone();
         let laws = laws.into_iter().flatten().map(|((storey, direction), LawLike(law))| {
             let direction = choice("direction of a law", &direction, &DIRECTIONS)?;
             Ok((number(storey)?, direction, law))
         });
         let laws: Vec<_> = laws.collect::<PyResult<_>>()?;
-        let make = Arc::new(move || {
+        let make = move || {
             let building = StoreyBuilding::new(mat.clone(), &storeys);
             let mut building = building.with(p_delta, StoreyBuilding::with_p_delta)?;
             for (storey, direction, law) in &laws {
                 building = building.with_law(*storey, *direction, law()?)?;
             }
             Ok(building)
-        });
-        let dofs = make().or_raise()?.dofs();
-        let own = ["x", "y", "z", "rx", "ry", "rz"].map(String::from).into_iter();
-        let floor = |storey| ["x", "y", "rz"].map(|name| format!("floor {storey} {name}"));
-        let names = own.chain((0..floors).flat_map(floor)).collect();
-        let names = DofNames::new(names, dofs)?;
-        let own = Arc::clone(&make);
-        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?)))).named(Some(names));
-        Ok(PyClassInitializer::from(base).add_subclass(Self(make)))
-    }
+        };
+        Self(Arc::new(make)).initializer()
+    };
+    /// Mass of mat and floors, kg.
+    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
+}
 
+#[pymethods]
+impl PyStoreyBuilding {
     /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
-    fn floor(
-        &self,
-        #[pyo3(from_py_with = whole)] storey: usize,
-        place: [f64; 2],
-    ) -> PyResult<[PyDofCombination; 3]> {
-        Ok(rows(self.made()?.floor(storey, place).or_raise()?))
+    fn floor(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
+        Ok(rows(self.made()?.floor(storey.0, place).or_raise()?))
     }
 
     /// The three :class:`DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
     /// at a ``place`` (x and y from the middle of the mat, m); at its centre of stiffness unless given.
     #[pyo3(signature = (storey, place=None))]
-    fn drift(
-        &self,
-        #[pyo3(from_py_with = whole)] storey: usize,
-        place: Option<[f64; 2]>,
-    ) -> PyResult<[PyDofCombination; 3]> {
+    fn drift(&self, storey: Count, place: Option<[f64; 2]>) -> PyResult<[PyDofCombination; 3]> {
         let found = match place {
-            Some(place) => self.made()?.drift_at(storey, place),
-            None => self.made()?.drift(storey),
+            Some(place) => self.made()?.drift_at(storey.0, place),
+            None => self.made()?.drift(storey.0),
         };
         Ok(rows(found.or_raise()?))
     }
@@ -312,17 +277,13 @@ impl PyStoreyBuilding {
     /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) less the rigid motion of the mat, at a ``place`` as for :meth:`floor`.
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
-    fn total_drift(
-        &self,
-        #[pyo3(from_py_with = whole)] storey: usize,
-        place: [f64; 2],
-    ) -> PyResult<[PyDofCombination; 3]> {
-        Ok(rows(self.made()?.total_drift(storey, place).or_raise()?))
+    fn total_drift(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
+        Ok(rows(self.made()?.total_drift(storey.0, place).or_raise()?))
     }
 
     /// The three :class:`SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
     /// what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
-    fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<[PySectionRows; 3]> {
-        Ok(self.made()?.shear(storey).or_raise()?.map(PySectionRows::from))
+    fn shear(&self, storey: Count) -> PyResult<[PySectionRows; 3]> {
+        Ok(self.made()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
     }
 }

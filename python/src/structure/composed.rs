@@ -5,22 +5,25 @@ use std::sync::Arc;
 use basemat::structure::{
     CraigBampton, ModalDamping, RayleighDamping, ReducedModel, Structure, StructureGroup,
 };
-use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::{PyStructure, recipe};
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Count, Numbers, whole};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
-use crate::recipe::{Recipe, Shared};
+use crate::recipe::{Make, Recipe, Shared};
 use crate::row::{PyDofCombination, RowLike};
 
 /// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
-getters! {
+members! {
     PyRayleighDamping, own;
+    new(mass: f64, stiffness: f64) = Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?));
+    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
+    from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) =
+        RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self);
     /// Factor of the mass, 1/s.
     mass: f64 = own.0.mass();
     /// Factor of the stiffness, s.
@@ -29,17 +32,6 @@ getters! {
 
 #[pymethods]
 impl PyRayleighDamping {
-    #[new]
-    fn new(mass: f64, stiffness: f64) -> PyResult<Self> {
-        Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
-    }
-
-    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
-    #[staticmethod]
-    fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
-        Ok(Self(RayleighDamping::from_ratios(frequencies, ratios).or_raise()?))
-    }
-
     /// Damping ratio at a ``frequency`` (Hz).
     fn ratio(&self, frequency: f64) -> f64 {
         self.0.ratio(frequency)
@@ -52,33 +44,31 @@ impl PyRayleighDamping {
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel(Arc<ReducedModel>);
 
-#[pymethods]
-impl PyReducedModel {
-    #[new]
+members! {
+    PyReducedModel, own;
     #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
-    fn new(
+    new(
         structure: Bound<'_, PyAny>,
-        #[pyo3(from_py_with = whole)] modes: usize,
+        modes: Count,
         #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let py = structure.py();
         let full = recipe(&structure)?().or_raise()?;
-        let reduction = CraigBampton::new(modes).keep(&keep.unwrap_or_default());
+        let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
         let reduced = py.detach(move || {
             reduction.reduce(full).with(damping_ratio, ReducedModel::with_damping_ratio)
         });
         let reduced = Arc::new(reduced.or_raise()?);
         let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
-    }
-
+    };
     /// Frequencies of the modes: array of shape (modes,), Hz.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.0.frequencies())
-    }
+    frequencies: Array = own.0.frequencies().into();
+}
 
+#[pymethods]
+impl PyReducedModel {
     /// A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
     /// load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
@@ -88,8 +78,8 @@ impl PyReducedModel {
 
     /// Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
     /// ``reduced`` one, array of shape (dofs,).
-    fn full<'py>(&self, py: Python<'py>, reduced: Numbers) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(PyArray1::from_vec(py, self.0.recovery().full(&reduced.0).or_raise()?))
+    fn full(&self, reduced: Numbers) -> PyResult<Array> {
+        self.0.recovery().full(&reduced.0).or_raise().map(Array::from)
     }
 }
 
@@ -98,7 +88,7 @@ impl PyReducedModel {
 /// each other, along y where they are themselves (``center`` of :meth:`RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
-    make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
+    make: Make<StructureGroup>,
     /// Degrees of freedom of each structure.
     dofs: Vec<usize>,
 }
@@ -125,21 +115,16 @@ impl PyStructureGroup {
         });
         make().or_raise()?;
         let own = Arc::clone(&make);
-        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?))));
+        let base = PyStructure::new(move || own());
         Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
     }
 
     /// A ``row`` of the structure ``member`` (0: the first) as a :class:`DofCombination` of the group.
-    fn row(
-        &self,
-        #[pyo3(from_py_with = whole)] member: usize,
-        row: RowLike,
-    ) -> PyResult<PyDofCombination> {
-        let RowLike(row, order) = row;
-        if let Some(dofs) = self.dofs.get(member) {
-            order.check("the row", *dofs)?;
+    fn row(&self, member: Count, row: RowLike) -> PyResult<PyDofCombination> {
+        if let Some(dofs) = self.dofs.get(member.0) {
+            row.1.check("the row", *dofs)?;
         }
-        Ok((self.make)().or_raise()?.row(member, row).or_raise()?.into())
+        Ok((self.make)().or_raise()?.row(member.0, row.0).or_raise()?.into())
     }
 }
 
@@ -151,15 +136,14 @@ impl PyStructureGroup {
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithModalDamping(Vec<f64>);
 
-#[pymethods]
-impl PyWithModalDamping {
-    #[new]
+members! {
+    PyWithModalDamping, own;
     #[pyo3(signature = (structure, ratios, *, fixed_base = false))]
-    fn new(
+    new(
         structure: Bound<'_, PyAny>,
         ratios: Numbers,
         fixed_base: bool,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let own = structure().or_raise()?;
         let names = DofNames::of(&object, own.dofs())?;
@@ -168,14 +152,9 @@ impl PyWithModalDamping {
             if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
         };
         let frequencies = damped(own).or_raise()?.frequencies().to_vec();
-        let make = move || Ok(Box::new(damped(structure()?)?) as Box<_>);
-        let base = PyStructure::new(Arc::new(make)).named(names);
+        let base = PyStructure::new(move || damped(structure()?)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
-    }
-
+    };
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.0)
-    }
+    frequencies: Array = own.0.as_slice().into();
 }

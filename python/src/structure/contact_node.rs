@@ -19,8 +19,16 @@ impl From<ContactNode> for PyContactNode {
     }
 }
 
-getters! {
+members! {
     PyContactNode, own;
+    new(x: f64, horizontal: RowLike, vertical: RowLike) = {
+        let order = horizontal.1.and(vertical.1)?;
+        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
+    };
+    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+    /// numbers ``dofs`` (horizontal, vertical, rotation).
+    rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) =
+        Ok(ContactNode::rigid(x, center, dofs).into());
     /// Coordinate to the right, m.
     x: f64 = own.0.x;
     /// The :class:`DofCombination` of its displacement to the right.
@@ -31,19 +39,6 @@ getters! {
 
 #[pymethods]
 impl PyContactNode {
-    #[new]
-    fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
-        let order = horizontal.1.and(vertical.1)?;
-        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
-    }
-
-    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
-    /// numbers ``dofs`` (horizontal, vertical, rotation).
-    #[staticmethod]
-    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) -> Self {
-        ContactNode::rigid(x, center, dofs).into()
-    }
-
     /// The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
     /// at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
@@ -56,12 +51,8 @@ impl PyContactNode {
     }
 
     fn __repr__(&self) -> String {
-        format!(
-            "ContactNode({:?}, {:?}, {:?})",
-            self.0.x,
-            self.0.horizontal.to_vec(),
-            self.0.vertical.to_vec()
-        )
+        let ContactNode { x, horizontal, vertical } = &self.0;
+        format!("ContactNode({x:?}, {:?}, {:?})", &**horizontal, &**vertical)
     }
 }
 
@@ -78,8 +69,19 @@ impl From<FaceNode> for PyFaceNode {
     }
 }
 
-getters! {
+members! {
     PyFaceNode, own;
+    new(
+        x: f64,
+        y: f64,
+        horizontal: RowLike,
+        across: RowLike,
+        vertical: RowLike,
+    ) = {
+        let order = horizontal.1.and(across.1)?.and(vertical.1)?;
+        let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
+        Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
+    };
     /// Coordinate to the right, m.
     x: f64 = own.0.x;
     /// Coordinate away from the reader, m.
@@ -94,19 +96,6 @@ getters! {
 
 #[pymethods]
 impl PyFaceNode {
-    #[new]
-    fn new(
-        x: f64,
-        y: f64,
-        horizontal: RowLike,
-        across: RowLike,
-        vertical: RowLike,
-    ) -> PyResult<Self> {
-        let order = horizontal.1.and(across.1)?.and(vertical.1)?;
-        let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
-        Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
-    }
-
     /// The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
     /// whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
     #[staticmethod]
@@ -130,19 +119,15 @@ pub(crate) enum Contact<'py> {
     Faces(Vec<Vec<Bound<'py, PyFaceNode>>>),
 }
 
-impl<'py> FromPyObject<'_, 'py> for Contact<'py> {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let line = object.extract().map(Self::Line);
-        let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
-        // One face may be given by itself.
-        let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
-        line.map_err(|_: PyErr| {
-            no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")
-        })
-    }
-}
+extracts!(Contact<'py>, object => {
+    let line = object.extract().map(Self::Line);
+    let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
+    // One face may be given by itself.
+    let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
+    line.map_err(|_: PyErr| {
+        no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")
+    })
+});
 
 impl Contact<'_> {
     /// Nodes and faces, one of them empty, of a structure of so many degrees of freedom.

@@ -1,12 +1,11 @@
 //! What Python can do with a weighted sum of degrees of freedom.
 
 use basemat::structure::{DofCombination, Structure};
-use numpy::PyArray1;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
 use super::recipe;
-use crate::array::{Numbers, whole};
+use crate::array::{Array, Count, Numbers};
 use crate::error::{OrRaise, refuse};
 use crate::row::{PyDofCombination, RowLike, rows};
 
@@ -23,19 +22,15 @@ impl PyDofCombination {
     }
 }
 
+members! {
+    PyDofCombination, own;
+    new(terms: RowLike) = Ok(Self(terms.0, terms.1));
+    /// List of pairs ``(dof, weight)``.
+    terms: Vec<(usize, f64)> = own.0.to_vec();
+}
+
 #[pymethods]
 impl PyDofCombination {
-    #[new]
-    fn new(terms: RowLike) -> Self {
-        Self(terms.0, terms.1)
-    }
-
-    /// List of pairs ``(dof, weight)``.
-    #[getter]
-    fn terms(&self) -> Vec<(usize, f64)> {
-        self.0.to_vec()
-    }
-
     /// The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit.
     fn value(&self, dofs: Numbers) -> PyResult<f64> {
         let Numbers(dofs) = dofs;
@@ -50,11 +45,8 @@ impl PyDofCombination {
     }
 
     /// All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``.
-    fn weights<'py>(
-        &self,
-        py: Python<'py>,
-        #[pyo3(from_py_with = whole)] dofs: usize,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn weights(&self, dofs: Count) -> PyResult<Array> {
+        let Count(dofs) = dofs;
         self.1.check("the row", dofs)?;
         let mut weights = Vec::new();
         weights.try_reserve_exact(dofs).map_err(|_| {
@@ -66,7 +58,7 @@ impl PyDofCombination {
                 refuse(format!("degree of freedom {index} of a row, of {dofs}"))
             })? += weight;
         }
-        Ok(PyArray1::from_vec(py, weights))
+        Ok(weights.into())
     }
 
     /// The three :class:`DofCombination` of the displacements along x, along y and up of a point that the base of the

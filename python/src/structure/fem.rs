@@ -8,11 +8,12 @@ use basemat::fem::Material;
 use basemat::io::GmshMesh;
 use basemat::structure::FemModel;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::mesh::{PyMaterial, PyMesh, direction, formulation};
-use crate::array::whole;
+use crate::array::{Count, whole};
 use crate::error::{OrRaise, WithGiven};
 use crate::recipe::Shared;
 use crate::row::{PyDofCombination, PySectionRows};
@@ -26,7 +27,7 @@ use crate::row::{PyDofCombination, PySectionRows};
 /// unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
 /// given. ``active_damping``: whether dashpots may feed energy in, which is refused by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyFemModel(Arc<FemModel>);
+pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 
 /// Nodes of the base, or of each foundation.
 enum Contact {
@@ -34,16 +35,10 @@ enum Contact {
     Lines(Vec<Vec<usize>>),
 }
 
-impl<'py> FromPyObject<'_, 'py> for Contact {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(lines) = object.extract() {
-            return Ok(Self::Lines(lines));
-        }
-        Ok(Self::Nodes(whole(&object)?))
-    }
-}
+extracts!(Contact, object => match object.extract() {
+    Ok(lines) => Ok(Self::Lines(lines)),
+    Err(_) => Ok(Self::Nodes(whole(&object)?)),
+});
 
 #[pymethods]
 impl PyFemModel {
@@ -80,22 +75,14 @@ impl PyFemModel {
     }
 
     /// The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation".
-    fn row(
-        &self,
-        #[pyo3(from_py_with = whole)] node: usize,
-        direction: &str,
-    ) -> PyResult<PyDofCombination> {
-        Ok(self.0.row(node, self::direction(direction)?).or_raise()?.into())
+    fn row(&self, node: Count, direction: &str) -> PyResult<PyDofCombination> {
+        Ok(self.0.row(node.0, self::direction(direction)?).or_raise()?.into())
     }
 
     /// Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
     /// has none of its own.
-    fn dof_at(
-        &self,
-        #[pyo3(from_py_with = whole)] node: usize,
-        direction: &str,
-    ) -> PyResult<Option<usize>> {
-        Ok(self.0.dof(node, self::direction(direction)?))
+    fn dof_at(&self, node: Count, direction: &str) -> PyResult<Option<usize>> {
+        Ok(self.0.dof(node.0, self::direction(direction)?))
     }
 
     /// Number of the node at (``x``, ``y``), m, to a millionth of the model's size.
@@ -107,15 +94,15 @@ impl PyFemModel {
     /// ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
     /// ``reference`` is 0 by default.
     #[pyo3(signature = (height, reference=0.0))]
-    fn section(
+    fn section<'py>(
         &self,
+        py: Python<'py>,
         height: f64,
         reference: f64,
-    ) -> PyResult<(PySectionRows, PySectionRows, PySectionRows)> {
+    ) -> PyResult<Bound<'py, PyTuple>> {
         let section = self.0.section(height, reference).or_raise()?;
-        let [shear, compression, moment] =
-            [section.shear, section.compression, section.moment].map(PySectionRows::from);
-        Ok((shear, compression, moment))
+        let rows = [section.shear, section.compression, section.moment];
+        PyTuple::new(py, rows.map(PySectionRows::from))
     }
 
     /// The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
@@ -137,8 +124,9 @@ impl PyFemModel {
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 
-getters! {
+members! {
     PyGmshMesh, own;
+    new(path: PathBuf) = Ok(Self(GmshMesh::read(path).or_raise()?));
     /// List of the names of the groups of quadrilaterals.
     surfaces: Vec<&str> = own.0.surfaces();
     /// List of the names of the groups of lines.
@@ -147,11 +135,6 @@ getters! {
 
 #[pymethods]
 impl PyGmshMesh {
-    #[new]
-    fn new(path: PathBuf) -> PyResult<Self> {
-        Ok(Self(GmshMesh::read(path).or_raise()?))
-    }
-
     /// The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
     /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
     #[pyo3(signature = (materials, *, formulation="incompatible modes", hourglass_percent=5))]

@@ -24,23 +24,14 @@ pub(crate) struct PyHysteresis {
 /// A law of this package, or one written in Python.
 pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>);
 
-impl<'py> FromPyObject<'_, 'py> for LawLike {
-    type Error = PyErr;
+extracts!(LawLike, object => match object.cast::<PyHysteresis>() {
+    Ok(own) => Ok(Self(own.get().make.clone())),
+    Err(_) => Ok(Self(user::hysteresis(&object)?)),
+});
 
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        match object.cast::<PyHysteresis>() {
-            Ok(own) => Ok(Self(own.get().make.clone())),
-            Err(_) => Ok(Self(user::hysteresis(&object)?)),
-        }
-    }
-}
-
-fn law<T>(law: impl Hysteresis + Clone + Sync + 'static, own: T) -> PyClassInitializer<T>
-where
-    T: pyo3::PyClass<BaseType = PyHysteresis>,
-{
-    let base = PyHysteresis { make: Arc::new(move || Ok(Box::new(law.clone()))) };
-    PyClassInitializer::from(base).add_subclass(own)
+/// The base of a law that can be copied.
+fn copied(law: impl Hysteresis + Clone + Sync + 'static) -> PyHysteresis {
+    PyHysteresis { make: Arc::new(move || Ok(Box::new(law.clone()))) }
 }
 
 #[pymethods]
@@ -63,12 +54,12 @@ impl PyHysteresis {
 #[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBilinear;
 
-#[pymethods]
-impl PyBilinear {
-    #[new]
-    fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
-        Ok(law(Bilinear::new(stiffness, yield_force, hardening).or_raise()?, Self))
-    }
+members! {
+    PyBilinear, own;
+    new(stiffness: f64, yield_force: f64, hardening: f64) = {
+        let base = copied(Bilinear::new(stiffness, yield_force, hardening).or_raise()?);
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
+    };
 }
 
 /// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
@@ -77,31 +68,32 @@ impl PyBilinear {
 #[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBoucWen;
 
-#[pymethods]
-impl PyBoucWen {
-    #[new]
+members! {
+    PyBoucWen, own;
     #[pyo3(signature = (stiffness, yield_force, hardening, *, exponent=None, beta=None))]
-    fn new(
+    new(
         stiffness: f64,
         yield_force: f64,
         hardening: f64,
         exponent: Option<f64>,
         beta: Option<f64>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let mut own = BoucWen::new(stiffness, yield_force, hardening).or_raise()?;
         match (exponent, beta) {
             (None, None) => {}
             (Some(exponent), Some(beta)) => own = own.with_shape(exponent, beta).or_raise()?,
             _ => return Err(crate::error::refuse("give both exponent and beta, or neither")),
         }
-        Ok(law(own, Self))
-    }
+        Ok(PyClassInitializer::from(copied(own)).add_subclass(Self))
+    };
 }
 
 /// Friction pendulum under a ``weight`` (N/m): ``radius`` of its dish (m), ``friction`` coefficient,
 /// ``yield_displacement`` (m; 0.5 mm by default) before it slides.
 #[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyFrictionPendulum(FrictionPendulum);
+
+extends!(PyFrictionPendulum, own => copied(own.0.clone()));
 
 #[pymethods]
 impl PyFrictionPendulum {
@@ -114,9 +106,8 @@ impl PyFrictionPendulum {
         yield_displacement: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
         let own = FrictionPendulum::new(weight, radius, friction)
-            .and_then(|own| own.with_yield_displacement(yield_displacement))
-            .or_raise()?;
-        Ok(law(own.clone(), Self(own)))
+            .and_then(|own| own.with_yield_displacement(yield_displacement));
+        Self(own.or_raise()?).initializer()
     }
 
     /// Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default).
@@ -132,46 +123,35 @@ impl PyFrictionPendulum {
 #[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyLeadRubber(LeadRubber);
 
-getters! {
+members! {
     PyLeadRubber, own;
+    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    new(
+        shear_modulus: f64,
+        rubber_area: f64,
+        rubber_thickness: f64,
+        lead_area: f64,
+        stiffness_ratio: f64,
+    ) = {
+        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
+        bearing(own, stiffness_ratio)?.initializer()
+    };
+    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
+    /// ``stiffness_ratio`` is that of the class.
+    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) =
+        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio);
     /// Strength: force at zero deformation, N/m.
     strength: f64 = own.0.strength();
     /// Stiffness after yielding, N/m per metre.
     stiffness: f64 = own.0.stiffness();
 }
 
-#[pymethods]
-impl PyLeadRubber {
-    #[new]
-    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    fn new(
-        shear_modulus: f64,
-        rubber_area: f64,
-        rubber_thickness: f64,
-        lead_area: f64,
-        stiffness_ratio: f64,
-    ) -> PyResult<PyClassInitializer<Self>> {
-        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area)
-            .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
-            .or_raise()?;
-        Ok(law(own.clone(), Self(own)))
-    }
+extends!(PyLeadRubber, own => copied(own.0.clone()));
 
-    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
-    /// ``stiffness_ratio`` is that of the class.
-    #[staticmethod]
-    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    fn from_strength(
-        py: Python<'_>,
-        stiffness: f64,
-        strength: f64,
-        stiffness_ratio: f64,
-    ) -> PyResult<Py<Self>> {
-        let own = LeadRubber::from_strength(stiffness, strength)
-            .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
-            .or_raise()?;
-        Py::new(py, law(own.clone(), Self(own)))
-    }
+fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<PyLeadRubber> {
+    let own = own.and_then(|own| own.with_stiffness_ratio(stiffness_ratio));
+    own.or_raise().map(PyLeadRubber)
 }
 
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
@@ -179,13 +159,12 @@ impl PyLeadRubber {
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings;
 
-#[pymethods]
-impl PyWithSprings {
-    #[new]
-    fn new(
+members! {
+    PyWithSprings, own;
+    new(
         structure: Bound<'_, PyAny>,
         springs: Vec<(RowLike, LawLike)>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
         let names = DofNames::of(&object, dofs)?;
@@ -201,10 +180,10 @@ impl PyWithSprings {
             for (row, law) in &springs {
                 own = own.spring(row, law()?)?;
             }
-            Ok(Box::new(own) as Box<_>)
+            Ok(own)
         };
         make().or_raise()?;
-        let base = PyStructure::new(Arc::new(make)).named(names);
+        let base = PyStructure::new(make).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    }
+    };
 }

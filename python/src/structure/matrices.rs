@@ -10,7 +10,7 @@ use super::composed::PyRayleighDamping;
 use super::contact_node::Contact;
 use crate::array::Matrix;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, WithGiven, refuse};
 use crate::recipe::Shared;
 
 /// A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
@@ -25,11 +25,10 @@ use crate::recipe::Shared;
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
-#[pymethods]
-impl PyMatrixModel {
-    #[new]
+members! {
+    PyMatrixModel, own;
     #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, rayleigh=None, dof_names=None))]
-    fn new(
+    new(
         mass: Matrix,
         stiffness: Matrix,
         contact: Contact<'_>,
@@ -37,26 +36,22 @@ impl PyMatrixModel {
         active_damping: bool,
         rayleigh: Option<&PyRayleighDamping>,
         dof_names: Option<Vec<String>>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    ) = {
         let dofs = mass.0.order();
         let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
-        let mut model = match contact.of(dofs)? {
+        if damping.is_some() && rayleigh.is_some() {
+            return Err(refuse("give a damping matrix or Rayleigh damping, not both"));
+        }
+        let damped = if active_damping { MatrixModel::with_active_damping } else { MatrixModel::with_damping };
+        let model = match contact.of(dofs)? {
             (nodes, faces) if faces.is_empty() => MatrixModel::new(mass.0, stiffness.0, nodes),
             (_, faces) => MatrixModel::in_plan(mass.0, stiffness.0, faces),
-        }
-        .or_raise()?;
-        model = match (damping, rayleigh) {
-            (Some(_), Some(_)) => {
-                return Err(refuse("give a damping matrix or Rayleigh damping, not both"));
-            }
-            (Some(matrix), None) if active_damping => {
-                model.with_active_damping(matrix.0).or_raise()?
-            }
-            (Some(matrix), None) => model.with_damping(matrix.0).or_raise()?,
-            (None, Some(damping)) => model.with_rayleigh(damping.0),
-            (None, None) => model,
         };
+        let model = model
+            .with(damping, |model, matrix| damped(model, matrix.0))
+            .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
+            .or_raise()?;
         let base = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    }
+    };
 }

@@ -4,10 +4,9 @@ use basemat::fem::{
     Beam, Dashpot, Direction, Element, Layer, LumpedMass, Material, Mesh, Quad4, Quad8,
     QuadFormulation, Spring, Truss,
 };
-use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, Pairs, Table, whole};
+use crate::array::{Count, Numbers, Pairs, Rows, Table, whole};
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
 
@@ -35,12 +34,10 @@ pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulatio
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 
-#[pymethods]
-impl PyMaterial {
-    #[new]
-    fn new(young_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?))
-    }
+members! {
+    PyMaterial, own;
+    new(young_modulus: f64, poisson: f64, density: f64) =
+        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?));
 }
 
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
@@ -52,20 +49,19 @@ impl PyMaterial {
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(Layer);
 
-#[pymethods]
-impl PyLayer {
-    #[new]
+members! {
+    PyLayer, own;
     #[pyo3(signature = (height, rows, material, *, formulation="incompatible modes", hourglass_percent=5))]
-    fn new(
+    new(
         height: f64,
         #[pyo3(from_py_with = whole)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
         #[pyo3(from_py_with = whole)] hourglass_percent: usize,
-    ) -> PyResult<Self> {
+    ) = {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(Self(Layer { height, rows, material: material.0, formulation }))
-    }
+    };
 }
 
 /// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
@@ -76,16 +72,10 @@ pub(crate) struct PyMesh(pub(super) Mesh);
 /// One number for all elements, or one each.
 struct PerElement(Vec<f64>);
 
-impl<'py> FromPyObject<'_, 'py> for PerElement {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        match object.extract::<f64>() {
-            Ok(value) => Ok(Self(vec![value])),
-            Err(_) => Ok(Self(object.extract::<Numbers>()?.0)),
-        }
-    }
-}
+extracts!(PerElement, object => match object.extract::<f64>() {
+    Ok(value) => Ok(Self(vec![value])),
+    Err(_) => Ok(Self(object.extract::<Numbers>()?.0)),
+});
 
 impl PerElement {
     fn at(&self, index: usize, count: usize) -> PyResult<f64> {
@@ -104,24 +94,20 @@ struct Connectivity {
     rows: Vec<Vec<usize>>,
 }
 
-impl<'py> FromPyObject<'_, 'py> for Connectivity {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        // As integers, numpy would cut what is not whole.
-        let Table { columns, rows } = Table::of(&object, "(elements, nodes of each)")?;
-        let node = |value: &f64| {
-            if *value < 0.0 || value.fract() != 0.0 {
-                let needed = "must be a whole number of 0 or more";
-                return Err(refuse(format!("node is {value}, but {needed}")));
-            }
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-            Ok(*value as usize)
-        };
-        let rows = rows.iter().map(|row| row.iter().map(node).collect());
-        Ok(Self { each: columns, rows: rows.collect::<PyResult<_>>()? })
-    }
-}
+extracts!(Connectivity, object => {
+    // As integers, numpy would cut what is not whole.
+    let Table { columns, rows } = Table::of(&object, "(elements, nodes of each)")?;
+    let node = |value: &f64| {
+        if *value < 0.0 || value.fract() != 0.0 {
+            let needed = "must be a whole number of 0 or more";
+            return Err(refuse(format!("node is {value}, but {needed}")));
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        Ok(*value as usize)
+    };
+    let rows = rows.iter().map(|row| row.iter().map(node).collect());
+    Ok(Self { each: columns, rows: rows.collect::<PyResult<_>>()? })
+});
 
 impl Connectivity {
     fn rows<const N: usize>(&self) -> PyResult<Vec<[usize; N]>> {
@@ -152,9 +138,7 @@ impl PyMesh {
         self.0 = mesh;
         Ok(())
     }
-}
 
-impl PyMesh {
     /// Adds links between nodes in a direction.
     fn add_links<E: Element + 'static>(
         &mut self,
@@ -175,39 +159,35 @@ impl PyMesh {
     }
 }
 
-#[pymethods]
-impl PyMesh {
-    #[new]
+/// The layers of a block.
+fn layers(given: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
+    given.iter().map(|layer| layer.get().0).collect()
+}
+
+members! {
+    PyMesh, own;
     #[pyo3(signature = (nodes=None))]
-    fn new(nodes: Option<Pairs>) -> PyResult<Self> {
+    new(nodes: Option<Pairs>) = {
         let mut mesh = Mesh::new();
         for [x, y] in nodes.map_or_else(Vec::new, |nodes| nodes.0) {
             mesh.add_node(x, y).or_raise()?;
         }
         Ok(Self(mesh))
-    }
-
+    };
     /// Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
     /// :class:`Layer` from y = 0 upwards.
-    #[staticmethod]
-    fn layered_block(
-        left: f64,
-        right: f64,
-        #[pyo3(from_py_with = whole)] columns: usize,
-        layers: Vec<Bound<'_, PyLayer>>,
-    ) -> PyResult<Self> {
-        let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
-        Ok(Self(Mesh::layered_block(left..right, columns, &layers).or_raise()?))
-    }
-
+    layered_block(left: f64, right: f64, columns: Count, layers: Vec<Bound<'_, PyLayer>>) =
+        Mesh::layered_block(left..right, columns.0, &self::layers(&layers)).or_raise().map(Self);
     /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
     /// ``layers`` is a list of :class:`Layer` from y = 0 upwards.
-    #[staticmethod]
-    fn graded_block(grid: Numbers, layers: Vec<Bound<'_, PyLayer>>) -> PyResult<Self> {
-        let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
-        Ok(Self(Mesh::graded_block(&grid.0, &layers).or_raise()?))
-    }
+    graded_block(grid: Numbers, layers: Vec<Bound<'_, PyLayer>>) =
+        Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self);
+    /// Coordinates of the nodes: array of shape (nodes, 2), m.
+    nodes: Rows = Rows(own.0.nodes().iter().map(|node| node.to_vec()).collect());
+}
 
+#[pymethods]
+impl PyMesh {
     /// Adds a node at (``x``, ``y``), m; returns its number.
     fn add_node(&mut self, x: f64, y: f64) -> PyResult<usize> {
         self.0.add_node(x, y).or_raise()
@@ -283,13 +263,8 @@ impl PyMesh {
 
     /// Adds a ``mass`` (kg/m) at a ``node``, with a ``rotary_inertia`` (kg m²/m; none unless given).
     #[pyo3(signature = (node, mass, *, rotary_inertia=None))]
-    fn add_mass(
-        &mut self,
-        #[pyo3(from_py_with = whole)] node: usize,
-        mass: f64,
-        rotary_inertia: Option<f64>,
-    ) -> PyResult<()> {
-        let element = LumpedMass::new(node, mass)
+    fn add_mass(&mut self, node: Count, mass: f64, rotary_inertia: Option<f64>) -> PyResult<()> {
+        let element = LumpedMass::new(node.0, mass)
             .with(rotary_inertia, LumpedMass::with_rotary_inertia)
             .or_raise()?;
         self.0.add(element).or_raise().map(|_| ())
@@ -313,13 +288,6 @@ impl PyMesh {
         }
         let all = nodes.rows::<4>()?.into_iter();
         self.add_all(all.map(|own| Ok(Quad4::new(own, material.0, formulation))))
-    }
-
-    /// Coordinates of the nodes: array of shape (nodes, 2), m.
-    #[getter]
-    fn nodes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> = self.0.nodes().iter().map(|node| node.to_vec()).collect();
-        Ok(PyArray2::from_vec2(py, &rows)?)
     }
 
     /// Number of the node at (``x``, ``y``), m, to a millionth of the mesh's size.

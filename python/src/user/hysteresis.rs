@@ -4,13 +4,13 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
-use basemat::{CheckpointError, Error, Result};
+use basemat::{CheckpointError, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use super::object::{UserObject, ask, copied};
-use crate::array::{Numbers, real};
+use crate::array::real;
 use crate::error::{keep, kept, raise, refuse};
 use crate::recipe::Recipe;
 
@@ -114,17 +114,14 @@ impl Hysteresis for UserHysteresis {
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
-        if !self.object.has("energy") {
+        self.object.energy((deformation,)).unwrap_or_else(|| {
             let work = self.work(deformation);
             let force = self.response(deformation).force;
             let elastic = 0.5 * force * force / self.stiffness;
             let is_elastic = !self.object.has("commit") || self.stiffness <= 0.0;
             let stored = if is_elastic { work } else { elastic.min(work) };
-            return InternalEnergy { stored, dissipated: work - stored };
-        }
-        let (stored, dissipated) =
-            ask((f64::NAN, f64::NAN), |py| self.object.call(py, "energy", (deformation,)));
-        InternalEnergy { stored, dissipated }
+            InternalEnergy { stored, dissipated: work - stored }
+        })
     }
 
     fn commit(&mut self, deformation: f64) {
@@ -138,13 +135,11 @@ impl Hysteresis for UserHysteresis {
     }
 
     fn save(&self) -> Vec<f64> {
-        let mut values = self.committed.to_vec();
-        if self.object.has("save") {
-            values.extend(ask(Vec::new(), |py| Ok(self.object.call::<Numbers>(py, "save", ())?.0)));
-        } else if self.object.has("commit") {
-            keep(raise(Error::Checkpoint(CheckpointError::Unsupported { part: PART })));
-        }
-        values
+        let own = self.object.saved().unwrap_or_else(|error| {
+            keep(raise(error));
+            Vec::new()
+        });
+        [&self.committed[..], &own].concat()
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {

@@ -7,7 +7,6 @@ use basemat::interface::{
 };
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict};
 
 use super::object::{UserObject, ask};
 use super::{PyContactState, PyLimits, PyPreviousContact};
@@ -19,76 +18,47 @@ use crate::names::{mode, mode_name};
 /// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
 /// pressure p and shear traction τ (Pa); what is not given is 0.
 #[pyclass(name = "Condition", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
-#[pymethods]
-impl PyCondition {
-    #[new]
+members! {
+    PyCondition, own;
     #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, value=0.0))]
-    fn new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) -> Self {
-        Self(Condition { gap, slip, pressure, shear, value })
-    }
-
+    new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) =
+        Ok(Self(Condition { gap, slip, pressure, shear, value }));
     /// The gap is ``value``, m.
-    #[staticmethod]
-    fn gap_is(value: f64) -> Self {
-        Self(Condition::gap_is(value))
-    }
-
+    gap_is(value: f64) = Ok(Self(Condition::gap_is(value)));
     /// The slip is ``value``, m.
-    #[staticmethod]
-    fn slip_is(value: f64) -> Self {
-        Self(Condition::slip_is(value))
-    }
-
+    slip_is(value: f64) = Ok(Self(Condition::slip_is(value)));
     /// The pressure is ``value``, Pa.
-    #[staticmethod]
-    fn pressure_is(value: f64) -> Self {
-        Self(Condition::pressure_is(value))
-    }
-
+    pressure_is(value: f64) = Ok(Self(Condition::pressure_is(value)));
     /// The shear traction is ``value``, Pa.
-    #[staticmethod]
-    fn shear_is(value: f64) -> Self {
-        Self(Condition::shear_is(value))
-    }
-
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {
-        let Condition { gap, slip, pressure, shear, value } = self.0;
-        let names = ["gap", "slip", "pressure", "shear", "value"];
-        Ok(((), names.into_iter().zip([gap, slip, pressure, shear, value]).into_py_dict(py)?))
-    }
-
-    fn __repr__(&self) -> String {
-        let Condition { gap, slip, pressure, shear, value } = self.0;
-        format!(
-            "Condition(gap={gap:?}, slip={slip:?}, pressure={pressure:?}, shear={shear:?}, value={value:?})"
-        )
-    }
+    shear_is(value: f64) = Ok(Self(Condition::shear_is(value)));
+    /// Coefficient of the gap.
+    gap: f64 = own.0.gap;
+    /// Coefficient of the slip.
+    slip: f64 = own.0.slip;
+    /// Coefficient of the pressure.
+    pressure: f64 = own.0.pressure;
+    /// Coefficient of the shear traction.
+    shear: f64 = own.0.shear;
+    /// Right-hand side: m or Pa where the coefficient is a number.
+    value: f64 = own.0.value;
 }
 
 /// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
 /// pressure and shear (Pa).
-#[pyclass(name = "Tolerance", module = "basemat", frozen, get_all)]
-pub(crate) struct PyTolerance {
+#[pyclass(name = "Tolerance", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PyTolerance(pub(crate) Tolerance);
+
+members! {
+    PyTolerance, own;
+    new(length: f64, traction: f64) = Ok(Self(Tolerance::new(length, traction)));
     /// Difference of gaps and slips, m.
-    length: f64,
+    length: f64 = own.0.length;
     /// Difference of tractions, Pa.
-    traction: f64,
-}
-
-impl PyTolerance {
-    pub(crate) fn core(&self) -> Tolerance {
-        Tolerance::new(self.length, self.traction)
-    }
-}
-
-#[pymethods]
-impl PyTolerance {
-    #[new]
-    fn new(length: f64, traction: f64) -> Self {
-        Self { length, traction }
-    }
+    traction: f64 = own.0.traction;
 }
 
 /// A Python object with `modes`, `conditions(mode, start)` and
@@ -160,12 +130,12 @@ impl UserLaw {
     fn remember<A: for<'py> PyCallArgs<'py>>(
         &self,
         method: &str,
-        arguments: impl FnOnce() -> PyResult<A>,
+        arguments: impl FnOnce(Python<'_>) -> PyResult<A>,
         memory: &mut [f64],
     ) {
         let count = memory.len();
         let found = ask(None, |py| {
-            let Numbers(values) = self.object.call(py, method, arguments()?)?;
+            let Numbers(values) = self.object.call(py, method, arguments(py)?)?;
             if values.len() == count {
                 return Ok(Some(values));
             }
@@ -189,7 +159,7 @@ impl InterfaceLaw for UserLaw {
             return self.by_limits(start).conditions(mode, start);
         }
         ask([NOTHING; 2], |py| {
-            let arguments = (mode_name(mode)?, PyPreviousContact::of(start));
+            let arguments = (mode_name(mode), PyPreviousContact::of(py, start)?);
             let [first, second]: [Bound<'_, PyCondition>; 2] =
                 self.object.call(py, "conditions", arguments)?;
             Ok([first.get().0, second.get().0])
@@ -207,10 +177,8 @@ impl InterfaceLaw for UserLaw {
             return self.by_limits(start).next_mode(mode, start, trial, tolerance);
         }
         ask(mode, |py| {
-            let Tolerance { length, traction, .. } = tolerance;
-            let tolerance = PyTolerance { length, traction };
-            let (name, start) = (mode_name(mode)?, PyPreviousContact::of(start));
-            let arguments = (name, start, PyContactState(*trial), tolerance);
+            let (name, start) = (mode_name(mode), PyPreviousContact::of(py, start)?);
+            let arguments = (name, start, PyContactState(*trial), PyTolerance(tolerance));
             let next: String = self.object.call(py, "next_mode", arguments)?;
             crate::names::mode(&next)
         })
@@ -222,7 +190,7 @@ impl InterfaceLaw for UserLaw {
             return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
         }
         ask([f64::NAN; 2], |py| {
-            let arguments = (mode_name(mode)?, PyPreviousContact::of(start));
+            let arguments = (mode_name(mode), PyPreviousContact::of(py, start)?);
             self.object.call(py, "compliance", arguments)
         })
     }
@@ -233,7 +201,7 @@ impl InterfaceLaw for UserLaw {
 
     fn initial_state_variables(&self, start: &PreviousContact<'_>, memory: &mut [f64]) {
         if self.object.has("initial_state_variables") {
-            let arguments = || Ok((PyPreviousContact::of(start),));
+            let arguments = |py: Python<'_>| Ok((PyPreviousContact::of(py, start)?,));
             self.remember("initial_state_variables", arguments, memory);
         }
     }
@@ -246,8 +214,10 @@ impl InterfaceLaw for UserLaw {
         memory: &mut [f64],
     ) {
         if self.object.has("commit") {
-            let (start, end) = (PyPreviousContact::of(start), PyContactState(*end));
-            self.remember("commit", || Ok((start, end, mode_name(mode)?)), memory);
+            let arguments = |py: Python<'_>| {
+                Ok((PyPreviousContact::of(py, start)?, PyContactState(*end), mode_name(mode)))
+            };
+            self.remember("commit", arguments, memory);
         }
     }
 
@@ -258,8 +228,8 @@ impl InterfaceLaw for UserLaw {
                 let needed = "to act on a ground in plan";
                 return Err(refuse(format!("{name} has no method `limits`, {needed}")));
             }
-            let start = PyPreviousContact::of(start);
-            let found: Bound<'_, PyLimits> = self.object.call(py, "limits", (start,))?;
+            let start = (PyPreviousContact::of(py, start)?,);
+            let found: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
             Ok(found.get().0)
         })
     }

@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
+use basemat::CheckpointError;
+use basemat::structure::InternalEnergy;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
+use crate::array::Numbers;
 use crate::error::{asked, has_raised, kept, returned};
 
 /// An object with the methods of a part, some of which may be missing.
@@ -57,6 +60,25 @@ impl UserObject {
     {
         let found = self.bind(py).call_method1(method, arguments)?;
         found.extract().or_else(|_| returned(&format!("{method} of the {}", self.part), &found))
+    }
+
+    /// Stored and dissipated energy by the method `energy`, if there is one.
+    pub(super) fn energy(&self, of: impl for<'py> PyCallArgs<'py>) -> Option<InternalEnergy> {
+        let (stored, dissipated) = self
+            .has("energy")
+            .then(|| ask((f64::NAN, f64::NAN), |py| self.call(py, "energy", of)))?;
+        Some(InternalEnergy { stored, dissipated })
+    }
+
+    /// Internal variables by the method `save`; an error for an object that has some and no such method.
+    pub(super) fn saved(&self) -> basemat::Result<Vec<f64>> {
+        if self.has("save") {
+            return self.attempt(|py| Ok(self.call::<Numbers>(py, "save", ())?.0));
+        }
+        if self.has("commit") {
+            return Err(CheckpointError::Unsupported { part: self.part }.into());
+        }
+        Ok(Vec::new())
     }
 
     /// The result of `ask`, or an error of the core.

@@ -3,18 +3,26 @@
 
 use basemat::interface::{ContactState, Limits, PreviousContact};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::array::Numbers;
 use crate::names::mode_name;
 
 /// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
 /// (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
-#[pyclass(name = "ContactState", module = "basemat", frozen)]
+#[pyclass(name = "ContactState", module = "basemat", frozen, subclass)]
 pub(crate) struct PyContactState(pub(crate) ContactState);
 
-getters! {
+members! {
     PyContactState, own;
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, slip_across=0.0, shear_across=0.0))]
+    new(
+        gap: f64,
+        slip: f64,
+        pressure: f64,
+        shear: f64,
+        slip_across: f64,
+        shear_across: f64,
+    ) = Ok(Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across }));
     /// Gap, m; positive when open.
     gap: f64 = own.0.gap;
     /// Slip since the static state, m; positive to the right.
@@ -29,28 +37,12 @@ getters! {
     shear_across: f64 = own.0.shear_across;
 }
 
-#[pymethods]
-impl PyContactState {
-    #[new]
-    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, slip_across=0.0, shear_across=0.0))]
-    fn new(
-        gap: f64,
-        slip: f64,
-        pressure: f64,
-        shear: f64,
-        slip_across: f64,
-        shear_across: f64,
-    ) -> Self {
-        Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across })
-    }
-}
-
-/// An element at the start of a step: what a law knows of it.
+/// An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
 ///
 /// A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
 /// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
 /// variables ``memory`` (array of shape (m,); none unless given).
-#[pyclass(name = "PreviousContact", module = "basemat", frozen)]
+#[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
 pub(crate) struct PyPreviousContact {
     /// All but what the law remembers.
     own: PreviousContact<'static>,
@@ -58,12 +50,13 @@ pub(crate) struct PyPreviousContact {
 }
 
 impl PyPreviousContact {
-    pub(crate) fn of(start: &PreviousContact<'_>) -> Self {
+    pub(crate) fn of(py: Python<'_>, start: &PreviousContact<'_>) -> PyResult<Py<Self>> {
         let mut own = PreviousContact::new(start.state, start.mode, start.time_step);
         own.has_opened = start.has_opened;
         own.slip_rate = start.slip_rate;
         own.static_pressure = start.static_pressure;
-        Self { own, memory: start.memory.to_vec() }
+        let base = PyClassInitializer::from(PyContactState(start.state));
+        Py::new(py, base.add_subclass(Self { own, memory: start.memory.to_vec() }))
     }
 
     /// The same for a law of the core.
@@ -74,22 +67,24 @@ impl PyPreviousContact {
     }
 }
 
-getters! {
+members! {
     PyPreviousContact, own;
-    /// Gap, m; positive when open.
-    gap: f64 = own.own.state.gap;
-    /// Slip since the static state, m; positive to the right.
-    slip: f64 = own.own.state.slip;
-    /// Pressure, Pa; positive in compression.
-    pressure: f64 = own.own.state.pressure;
-    /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64 = own.own.state.shear;
-    /// Slip along y in plan, m; positive away.
-    slip_across: f64 = own.own.state.slip_across;
-    /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
-    shear_across: f64 = own.own.state.shear_across;
+    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
+    new(
+        state: &PyContactState,
+        mode: &str,
+        time_step: f64,
+        slip_rate: f64,
+        memory: Option<Numbers>,
+    ) = {
+        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
+        own.slip_rate = slip_rate;
+        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
+        let base = PyClassInitializer::from(PyContactState(state.0));
+        Ok(base.add_subclass(Self { own, memory }))
+    };
     /// Mode of the step before, as in :data:`basemat.MODES`.
-    mode: PyResult<&'static str> = mode_name(own.own.mode);
+    mode: &'static str = mode_name(own.own.mode);
     /// Whether the element has been open.
     has_opened: bool = own.own.has_opened;
     /// Slip rate of the step before, m/s; its magnitude in plan.
@@ -102,23 +97,6 @@ getters! {
     memory: Vec<f64> = own.memory.clone();
 }
 
-#[pymethods]
-impl PyPreviousContact {
-    #[new]
-    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
-    fn new(
-        state: &PyContactState,
-        mode: &str,
-        time_step: f64,
-        slip_rate: f64,
-        memory: Option<Numbers>,
-    ) -> PyResult<Self> {
-        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
-        own.slip_rate = slip_rate;
-        Ok(Self { own, memory: memory.map_or_else(Vec::new, |numbers| numbers.0) })
-    }
-}
-
 /// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
 /// :meth:`UserPlanLaw.limits` returns.
 ///
@@ -128,11 +106,28 @@ impl PyPreviousContact {
 /// ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
 /// element that has opened with a tension, an attraction or a shear strength loses them in that step.
 #[pyclass(name = "Limits", module = "basemat", frozen, eq)]
-#[derive(PartialEq)]
+#[derive(PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyLimits(pub(crate) Limits);
 
-getters! {
+members! {
     PyLimits, own;
+    #[pyo3(
+        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
+        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
+    )]
+    new(
+        friction: f64,
+        attraction: f64,
+        shear_strength: f64,
+        tension: f64,
+        pressure_cap: f64,
+        gap_offset: f64,
+        bonded: bool,
+    ) = {
+        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
+        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
+        Ok(Self(Limits { bonded, ..own }))
+    };
     /// Friction coefficient; infinite where nothing slides.
     friction: f64 = own.0.friction;
     /// Pressure that friction acts on beside that of the contact, Pa.
@@ -147,36 +142,4 @@ getters! {
     gap_offset: f64 = own.0.gap_offset;
     /// Whether base and soil neither separate nor slide.
     bonded: bool = own.0.bonded;
-}
-
-#[pymethods]
-impl PyLimits {
-    #[new]
-    #[pyo3(
-        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
-        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
-    )]
-    fn new(
-        friction: f64,
-        attraction: f64,
-        shear_strength: f64,
-        tension: f64,
-        pressure_cap: f64,
-        gap_offset: f64,
-        bonded: bool,
-    ) -> Self {
-        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
-        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
-        own.bonded = bonded;
-        Self(own)
-    }
-
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((f64,), Bound<'py, PyDict>)> {
-        let Limits { attraction, shear_strength, tension, pressure_cap, gap_offset, .. } = self.0;
-        let names = ["attraction", "shear_strength", "tension", "pressure_cap", "gap_offset"];
-        let values = [attraction, shear_strength, tension, pressure_cap, gap_offset];
-        let named = names.into_iter().zip(values).into_py_dict(py)?;
-        named.set_item("bonded", self.0.bonded)?;
-        Ok(((self.0.friction,), named))
-    }
 }

@@ -1,14 +1,14 @@
 //! A structure written in Python.
 
+use basemat::Result;
 use basemat::structure::{
     ContactNode, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
 };
-use basemat::{CheckpointError, Error, Result};
-use numpy::PyArray1;
+use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-use super::object::{UserObject, ask, copied};
-use crate::array::{Count, Matrix, Numbers};
+use super::object::{UserObject, copied};
+use crate::array::{Array, Count, Matrix, Numbers};
 use crate::dof_names::DofNames;
 use crate::error::{keep, refuse, returned};
 use crate::structure::Contact;
@@ -28,7 +28,7 @@ pub(crate) struct UserStructure {
     ends: Vec<usize>,
     names: Option<DofNames>,
     active_damping: bool,
-    force: Option<UserForce>,
+    nonlinear: bool,
 }
 
 impl UserStructure {
@@ -56,7 +56,7 @@ impl UserStructure {
             contact: contact.of(dofs)?,
             ends: ends.transpose()?.unwrap_or_default(),
             active_damping: flag.map_or(Ok(false), |flag| flag.is_truthy())?,
-            force: nonlinear.then(|| UserForce { object: object.clone(), dofs }),
+            nonlinear,
             object,
         })
     }
@@ -67,52 +67,48 @@ impl UserStructure {
     }
 
     /// Adds the matrix that a method returns.
-    fn add(&self, method: &str, matrix: &mut Triplets) -> Result<()> {
+    fn add_matrix(
+        &self,
+        method: &str,
+        arguments: impl for<'py> PyCallArgs<'py>,
+        matrix: &mut Triplets,
+    ) -> Result<()> {
         let found = self.object.attempt(|py| {
-            matrix_of(method, &self.object.bind(py).call_method0(method)?, self.dofs)
+            let Matrix(found) = self.object.call(py, method, arguments)?;
+            let [own, needed] =
+                [found.order(), self.dofs].map(|order| format!("({order}, {order})"));
+            shaped(method, "a matrix", found, own, needed)
         });
-        add_matrix(&found?, matrix);
+        for &(row, column, value) in found?.entries() {
+            matrix.add(row, column, value);
+        }
+        Ok(())
+    }
+
+    /// Adds the vector that a method returns.
+    fn add_vector(
+        &self,
+        method: &str,
+        arguments: impl for<'py> PyCallArgs<'py>,
+        sum: &mut [f64],
+    ) -> Result<()> {
+        let found = self.object.attempt(|py| {
+            let Numbers(found) = self.object.call(py, method, arguments)?;
+            let [own, needed] = [found.len(), sum.len()].map(|count| format!("({count},)"));
+            shaped(method, "an array", found, own, needed)
+        });
+        sum.iter_mut().zip(found?).for_each(|(sum, value)| *sum += value);
         Ok(())
     }
 }
 
-/// The matrix that a method of the structure returned.
-fn matrix_of(method: &str, found: &Bound<'_, PyAny>, order: usize) -> PyResult<Triplets> {
-    let name = format!("{method} of the structure");
-    let Matrix(matrix) = returned(&name, found)?;
-    if matrix.order() == order {
-        return Ok(matrix);
+/// What a method of the structure returned, if it has the `shape` that is needed; `found` is its own.
+fn shaped<T>(method: &str, what: &str, value: T, found: String, shape: String) -> PyResult<T> {
+    if found == shape {
+        return Ok(value);
     }
-    let shape = (matrix.order(), matrix.order());
-    let needed = (order, order);
-    Err(refuse(format!(
-        "{name} returned a matrix of shape {shape:?}, but must return one of {needed:?}"
-    )))
-}
-
-/// The vector that a method of the structure returned.
-fn vector_of(method: &str, found: &Bound<'_, PyAny>, order: usize) -> PyResult<Vec<f64>> {
-    let name = format!("{method} of the structure");
-    let Numbers(values) = returned(&name, found)?;
-    if values.len() == order {
-        return Ok(values);
-    }
-    let shape = values.len();
-    Err(refuse(format!(
-        "{name} returned an array of shape ({shape},), but must return one of ({order},)"
-    )))
-}
-
-/// Adds a matrix of Python to one of the core.
-fn add_matrix(own: &Triplets, matrix: &mut Triplets) {
-    for &(row, column, value) in own.entries() {
-        matrix.add(row, column, value);
-    }
-}
-
-/// Adds numbers of Python to a vector of the core.
-fn add_numbers(own: &[f64], sum: &mut [f64]) {
-    sum.iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
+    let text = format!("returned {what} of shape {found}, but must return one of {shape}");
+    Err(refuse(format!("{method} of the structure {text}")))
 }
 
 impl Structure for UserStructure {
@@ -133,15 +129,18 @@ impl Structure for UserStructure {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add("mass", matrix)
+        self.add_matrix("mass", (), matrix)
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add("stiffness", matrix)
+        self.add_matrix("stiffness", (), matrix)
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        if self.object.has("damping") { self.add("damping", matrix) } else { Ok(()) }
+        if !self.object.has("damping") {
+            return Ok(());
+        }
+        self.add_matrix("damping", (), matrix)
     }
 
     fn has_active_damping(&self) -> bool {
@@ -156,91 +155,52 @@ impl Structure for UserStructure {
         if !self.object.has("load") {
             return Ok(());
         }
-        let found = self.object.attempt(|py| {
-            let found = self.object.bind(py).call_method1("load", (time,))?;
-            vector_of("load", &found, load.len())
-        });
-        add_numbers(&found?, load);
-        Ok(())
+        self.add_vector("load", (time,), load)
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        self.force.as_ref().map(|force| force as &dyn NonlinearForce)
+        self.nonlinear.then_some(self)
     }
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        self.force.as_mut().map(|force| force as &mut dyn NonlinearForce)
+        if self.nonlinear { Some(self) } else { None }
     }
 }
 
 /// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
-struct UserForce {
-    object: UserObject,
-    dofs: usize,
-}
-
-impl UserForce {
-    /// Calls a method with the displacement: array of shape (n,).
-    fn call<'py>(
-        &self,
-        py: Python<'py>,
-        method: &str,
-        displacement: &[f64],
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let displacement = PyArray1::from_slice(py, displacement);
-        self.object.bind(py).call_method1(method, (displacement,))
-    }
-}
-
-impl NonlinearForce for UserForce {
+impl NonlinearForce for UserStructure {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        let found = self
-            .object
-            .attempt(|py| vector_of("force", &self.call(py, "force", displacement)?, force.len()));
-        add_numbers(&found?, force);
-        Ok(())
+        self.add_vector("force", (Array::from(displacement),), force)
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        let found = self.object.attempt(|py| {
-            matrix_of("tangent", &self.call(py, "tangent", displacement)?, self.dofs)
-        });
-        add_matrix(&found?, matrix);
-        Ok(())
+        self.add_matrix("tangent", (Array::from(displacement),), matrix)
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        if !self.object.has("energy") {
-            return None;
-        }
-        let (stored, dissipated) = ask((f64::NAN, f64::NAN), |py| {
-            self.object.call(py, "energy", (PyArray1::from_slice(py, displacement),))
-        });
-        Some(InternalEnergy { stored, dissipated })
+        self.object.energy((Array::from(displacement),))
     }
 
     fn commit(&mut self, displacement: &[f64]) {
         if self.object.has("commit") {
-            let done = Python::attach(|py| self.call(py, "commit", displacement).map(|_| ()));
+            let argument = (Array::from(displacement),);
+            let done = Python::attach(|py| {
+                self.object.bind(py).call_method1("commit", argument).map(|_| ())
+            });
             // The step is accepted by now: the exception ends the run after it.
             done.unwrap_or_else(keep);
         }
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        if self.object.has("save") {
-            return self.object.attempt(|py| Ok(self.object.call::<Numbers>(py, "save", ())?.0));
-        }
-        if self.object.has("commit") {
-            return Err(Error::Checkpoint(CheckpointError::Unsupported { part: PART }));
-        }
-        Ok(Vec::new())
+        self.object.saved()
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         if !self.object.has("save") && values.is_empty() {
             return Ok(());
         }
-        self.object.attempt(|py| self.call(py, "restore", values).map(|_| ()))
+        let argument = (Array::from(values),);
+        self.object.attempt(|py| self.object.bind(py).call_method1("restore", argument).map(|_| ()))
     }
 }
