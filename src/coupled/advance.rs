@@ -32,7 +32,9 @@ impl State {
             })
             .collect();
         let start = PreviousContacts::new(&scene.laws, &start)?;
-        let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
+        let foundations = scene.base.foundations();
+        let foundations =
+            foundations.map(|(_, elements)| Foundation { elements, ..Foundation::default() });
         let mut state = Self {
             step: 0,
             time: 0.0,

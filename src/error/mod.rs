@@ -13,24 +13,23 @@ mod part;
 mod plan;
 mod progress;
 mod record;
-mod site;
+mod requirement;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
 #[cfg(feature = "io")]
 pub use input_file::{MatrixFileError, MeshFileError};
-pub use layered::{KernelFileError, LayeredError};
+pub use layered::{KernelFileError, LayeredError, SiteError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
-pub(crate) use memory::{
-    all_finite, damping_ratio, finite, names, not_finite, not_negative, positive, same_length,
-    write_file,
-};
 pub use part::{LawError, ReducedError};
 pub use plan::PlanError;
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub use record::RecordError;
-pub use site::SiteError;
+pub(crate) use requirement::{
+    all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
+    positive, require, require_part, same_length, write_file,
+};
 pub use step::{CheckpointError, StabilityError, StepError};
 
 /// Result of every fallible function of the crate.

@@ -4,7 +4,7 @@ mod lattice;
 
 pub(crate) use lattice::{Lattice, SERIES, offset};
 
-use crate::error::{Error, MemoryError, Result, finite, memory, positive};
+use crate::error::{Error, MemoryError, Result, at_least, finite, memory, positive, require};
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,9 +134,9 @@ impl Patch {
         depths: Vec<[f64; 2]>,
         inside: Vec<f64>,
     ) -> Result<Self> {
-        if let Some(&value) = inside.iter().find(|part| !(**part > 0.0 && **part <= 1.0)) {
+        for &part in &inside {
             let quantity = "fraction of an element inside the outline";
-            return Err(Error::Input { quantity, value, needed: "above 0 and at most 1" });
+            require(quantity, part, part > 0.0 && part <= 1.0, "above 0 and at most 1")?;
         }
         match components {
             PLANE => check_order(&elements)?,
@@ -274,9 +274,7 @@ pub(crate) fn check_count(count: usize, components: usize) -> std::result::Resul
 
 /// Error unless each element has finite ends, the left one first, and there are not too many.
 fn check_lengths(elements: &[ContactElement], components: usize) -> Result<()> {
-    if elements.is_empty() {
-        return Err(Error::Size { quantity: "list of contact elements", found: 0, needed: 1 });
-    }
+    at_least("list of contact elements", elements.len(), 1)?;
     check_count(elements.len(), components)?;
     for element in elements {
         finite("left end of a contact element", element.left)?;
@@ -294,13 +292,9 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
     check_lengths(elements, PLANE)?;
     for pair in elements.windows(2) {
         let overlap = pair[0].right - pair[1].left;
-        if overlap > OVERLAP * pair[0].length().min(pair[1].length()) {
-            return Err(Error::Input {
-                quantity: "left end of a contact element",
-                value: pair[1].left,
-                needed: "at or right of the end of the element before it",
-            });
-        }
+        let is_apart = overlap <= OVERLAP * pair[0].length().min(pair[1].length());
+        let needed = "at or right of the end of the element before it";
+        require("left end of a contact element", pair[1].left, is_apart, needed)?;
     }
     Ok(())
 }
@@ -323,13 +317,9 @@ fn check_cells(elements: &[ContactElement], depths: &[[f64; 2]]) -> Result<()> {
                 break;
             }
             let across = back.min(*far) - front.max(*near);
-            if across > OVERLAP * (back - front).min(far - near) {
-                return Err(Error::Input {
-                    quantity: "left end of a contact element",
-                    value: other.left,
-                    needed: "beside or behind all others: elements do not overlap",
-                });
-            }
+            let is_apart = across <= OVERLAP * (back - front).min(far - near);
+            let needed = "beside or behind all others: elements do not overlap";
+            require("left end of a contact element", other.left, is_apart, needed)?;
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Mul;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, in_bounds, require};
 use crate::geometry::{
     ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
 };
@@ -96,19 +96,15 @@ impl PairClasses {
     /// Classes of the pairs of `elements` (left to right, not overlapping).
     ///
     /// # Errors
-    /// [`Error::Size`] for no elements, [`Error::Input`] for lengths not positive or shorter than
-    /// 1e-8 of the patch, or elements out of order.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for lengths not
+    /// positive or shorter than 1e-8 of the patch, or elements out of order.
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
-        if shortest < SHORTEST * span {
-            return Err(Error::Input {
-                quantity: "length of the shortest contact element over that of the patch",
-                value: shortest / span,
-                needed: "at least 1e-8",
-            });
-        }
+        let quantity = "length of the shortest contact element over that of the patch";
+        let needed = "at least 1e-8";
+        require(quantity, shortest / span, shortest >= SHORTEST * span, needed)?;
         let mut numbers = HashMap::new();
         let mut representatives = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());
@@ -183,13 +179,10 @@ impl PairClasses {
     /// right of it.
     ///
     /// # Errors
-    /// [`Error::Index`] for a class that does not exist.
+    /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
     pub fn representative(&self, class: usize) -> Result<[ContactElement; 2]> {
-        self.representatives.get(class).copied().ok_or(Error::Index {
-            quantity: "class of element pairs",
-            index: class,
-            bound: self.representatives.len(),
-        })
+        let all = &self.representatives;
+        Ok(all[in_bounds("class of element pairs", class, all.len())?])
     }
 
     /// Order of the numbers of a contact vector.

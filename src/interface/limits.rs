@@ -1,6 +1,6 @@
 //! Limits of an element's tractions, for contact in plan.
 
-use crate::error::{Error, Result, finite, not_negative};
+use crate::error::{Result, finite, not_negative, require};
 
 /// Bounds of the tractions of an element in plan during a step: see
 /// [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
@@ -61,9 +61,7 @@ impl Limits {
         for (quantity, value) in
             [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]
         {
-            if value.is_nan() || value < 0.0 {
-                return Err(Error::Input { quantity, value, needed: "zero or more, or infinite" });
-            }
+            require(quantity, value, value >= 0.0, "zero or more, or infinite")?;
         }
         not_negative("attraction of the interface", self.attraction)?;
         not_negative("shear strength of the interface", self.shear_strength)?;

@@ -25,7 +25,7 @@
 use std::fmt::{Display, Write};
 use std::path::Path;
 
-use crate::error::{Error, Result, write_file};
+use crate::error::{Error, Result, require_part, write_file};
 use crate::geometry::ContactElement;
 use crate::interface::Mode;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
@@ -44,10 +44,8 @@ pub fn write_series(
     shape: &DeformedShape,
     histories: &TimeSeries,
 ) -> Result<usize> {
-    if histories.motion_frames().next().is_none() {
-        let needed = "tell the recorder to keep the motion";
-        return Err(Error::Scene { quantity: "series of the structure", needed });
-    }
+    let needed = "tell the recorder to keep the motion";
+    require_part("series of the structure", histories.motion_frames().next().is_some(), needed)?;
     write(folder.as_ref(), name, Some(shape), histories)
 }
 
@@ -58,10 +56,8 @@ pub fn write_series(
 /// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if a
 /// file cannot be written.
 pub fn write_base(folder: impl AsRef<Path>, name: &str, histories: &TimeSeries) -> Result<usize> {
-    if histories.contact_frames().next().is_none() {
-        let needed = "tell the recorder to keep the contact";
-        return Err(Error::Scene { quantity: "series of the base", needed });
-    }
+    let needed = "tell the recorder to keep the contact";
+    require_part("series of the base", histories.contact_frames().next().is_some(), needed)?;
     write(folder.as_ref(), name, None, histories)
 }
 
@@ -72,10 +68,8 @@ fn write(
     histories: &TimeSeries,
 ) -> Result<usize> {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-    if name.is_empty() || !name.chars().all(plain) {
-        let needed = "letters, digits, - and _ only, one at least";
-        return Err(Error::Scene { quantity: "name of a series", needed });
-    }
+    let needed = "letters, digits, - and _ only, one at least";
+    require_part("name of a series", !name.is_empty() && name.chars().all(plain), needed)?;
     let made = std::fs::create_dir_all(folder);
     made.map_err(|e| Error::Write { file: folder.display().to_string(), reason: e.kind() })?;
 

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use crate::error::{Error, MemoryError, Result, memory, same_length};
+use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::linalg::{Triplets, dense_multiply_add, weighted_dot};
 
 /// Bytes of a degree of freedom in the sparse matrices of a structure, their factor and its states.
@@ -54,13 +54,8 @@ impl SparseMatrix {
         check_order("rows of a matrix", order)?;
         let mut row_start = vec![0; order + 1];
         for &(row, column, value) in triplets.entries() {
-            let index = row.max(column);
-            if index >= order {
-                return Err(Error::Index { quantity: name, index, bound: order });
-            }
-            if !value.is_finite() {
-                return Err(Error::Input { quantity: name, value, needed: "finite" });
-            }
+            in_bounds(name, row.max(column), order)?;
+            finite(name, value)?;
             row_start[row + 1] += 1;
         }
         for row in 0..order {

@@ -1,7 +1,7 @@
 //! Free fields: the motion of the surface without the structure, and simple kinds of it.
 
 use super::Record;
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Result, finite, positive, require};
 
 /// Motion of the ground surface without the structure.
 #[auto_impl::auto_impl(Box)]
@@ -247,20 +247,15 @@ impl TravellingWave {
     /// the edge of the base that the wave reaches first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a velocity of zero or NaN, or an origin that is not finite.
+    /// [`Error::Input`](crate::Error::Input) for a velocity of zero or NaN, or an origin that is not finite.
     pub fn new(
         field: impl FreeField + 'static,
         apparent_velocity: f64,
         origin: f64,
     ) -> Result<Self> {
         let slowness = 1.0 / apparent_velocity;
-        if !slowness.is_finite() {
-            return Err(Error::Input {
-                quantity: "apparent velocity",
-                value: apparent_velocity,
-                needed: "not zero (infinite: everywhere at once)",
-            });
-        }
+        let needed = "not zero (infinite: everywhere at once)";
+        require("apparent velocity", apparent_velocity, slowness.is_finite(), needed)?;
         let origin = finite("origin of a wave", origin)?;
         Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
     }
@@ -288,7 +283,7 @@ impl TravellingWave {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless `azimuth` is finite.
+    /// [`Error::Input`](crate::Error::Input) unless `azimuth` is finite.
     pub fn with_azimuth(self, azimuth: f64) -> Result<Self> {
         let (sin, cos) = finite("azimuth of a wave", azimuth)?.sin_cos();
         Ok(Self { direction: [cos, sin], ..self })
@@ -359,18 +354,14 @@ impl RickerDisplacement {
     /// (s).
     ///
     /// # Errors
-    /// [`Error::Input`] unless `amplitude` is finite, `sigma` positive and
+    /// [`Error::Input`](crate::Error::Input) unless `amplitude` is finite, `sigma` positive and
     /// `center` at least 4 `sigma`, so that the pulse grows from rest.
     pub fn new(amplitude: f64, sigma: f64, center: f64) -> Result<Self> {
         finite("amplitude of the Ricker pulse", amplitude)?;
         positive("width of the Ricker pulse", sigma)?;
-        if !(center.is_finite() && center >= LEAST_DELAY * sigma) {
-            return Err(Error::Input {
-                quantity: "center of the Ricker pulse",
-                value: center,
-                needed: "finite and at least four times its width",
-            });
-        }
+        let quantity = "center of the Ricker pulse";
+        let needed = "finite and at least four times its width";
+        require(quantity, center, center.is_finite() && center >= LEAST_DELAY * sigma, needed)?;
         Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
     }
 

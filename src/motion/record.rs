@@ -2,7 +2,9 @@
 
 use super::Baseline;
 use super::integral::{Motion, integrate};
-use crate::error::{Error, MemoryError, RecordError, Result, all_finite, finite, memory, positive};
+use crate::error::{
+    Error, MemoryError, RecordError, Result, all_finite, finite, memory, positive, require,
+};
 use crate::text::column::{Cell, line};
 use crate::text::csv::Csv;
 
@@ -272,14 +274,10 @@ impl Record {
     /// [`Error::Input`] unless 0 ≤ `start` < `end` and `end` is not after the last sample.
     pub fn trimmed(&self, start: f64, end: f64) -> Result<Self> {
         let (step, last) = (self.time_step(), self.len() - 1);
-        if !(start >= 0.0 && start < self.duration()) {
-            let needed = "from zero to before the last sample";
-            return Err(Error::Input { quantity: "start of the part", value: start, needed });
-        }
-        if !(end > start && end / step <= last as f64 + SLACK) {
-            let needed = "after its start, not after the last sample";
-            return Err(Error::Input { quantity: "end of the part", value: end, needed });
-        }
+        let needed = "from zero to before the last sample";
+        require("start of the part", start, start >= 0.0 && start < self.duration(), needed)?;
+        let needed = "after its start, not after the last sample";
+        require("end of the part", end, end > start && end / step <= last as f64 + SLACK, needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
         let (first, end) = {
             let first = ((start / step + SLACK).floor() as usize).min(last - 1);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::site_warning::SiteWarning;
 use super::soil_column::{ControlPoint, Inside, SoilColumn, VerticalWave};
 use super::transform::SiteMotion;
-use crate::error::{Error, LayeredError, Result, SiteError, positive};
+use crate::error::{Error, LayeredError, Result, SiteError, positive, require};
 use crate::linalg::Complex;
 use crate::motion::{Record, STANDARD_GRAVITY};
 use crate::soil::{
@@ -50,14 +50,10 @@ impl EquivalentLinearOptions {
     }
 
     fn check(&self) -> Result<()> {
-        let input = |quantity, value, needed| Err(Error::Input { quantity, value, needed });
-        if !(self.strain_ratio > 0.0 && self.strain_ratio <= 1.0) {
-            let needed = "above 0 and at most 1 (a magnitude above 1 and at most 11)";
-            return input("effective strain ratio", self.strain_ratio, needed);
-        }
-        if self.most_iterations == 0 {
-            return input("most iterations of a site", 0.0, "at least 1");
-        }
+        let ratio = self.strain_ratio;
+        let needed = "above 0 and at most 1 (a magnitude above 1 and at most 11)";
+        require("effective strain ratio", ratio, ratio > 0.0 && ratio <= 1.0, needed)?;
+        require("most iterations of a site", 0.0, self.most_iterations > 0, "at least 1")?;
         positive("tolerance of strain-compatible properties", self.tolerance)?;
         GeneralizedMaxwell::constant_q(0.0, self.band, self.band[0]).map(drop)
     }

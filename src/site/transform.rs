@@ -11,7 +11,7 @@ use std::fmt;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
-use crate::error::{Error, Result, finite, memory, positive};
+use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::Complex;
 
 /// ηT: what wraps around is e^(−24).
@@ -62,21 +62,11 @@ impl Contour {
     /// For `samples`, `time_step` seconds apart, and waves that take `travel` seconds.
     pub(super) fn new(time_step: f64, samples: usize, travel: f64) -> Result<Self> {
         positive("time step of a motion", time_step)?;
-        if samples == 0 || samples > MOST_SAMPLES {
-            return Err(Error::Size {
-                quantity: "motion through a site",
-                found: samples,
-                needed: samples.clamp(1, MOST_SAMPLES),
-            });
-        }
+        same_length("motion through a site", samples, samples.clamp(1, MOST_SAMPLES))?;
         let steps = travel / time_step;
-        if !(0.0..=MOST_SAMPLES as f64).contains(&steps) {
-            return Err(Error::Input {
-                quantity: "time that waves take through a site, in time steps of the motion",
-                value: steps,
-                needed: "at most 2^24",
-            });
-        }
+        let quantity = "time that waves take through a site, in time steps of the motion";
+        let needed = "at most 2^24";
+        require(quantity, steps, (0.0..=MOST_SAMPLES as f64).contains(&steps), needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=2^24")]
         let travel = steps.ceil() as usize;
         // There and back, and later for damping that slows long waves.
@@ -149,13 +139,9 @@ impl Contour {
             *value = finite("sample of a motion", *sample)? * window(i as f64);
         }
         let size = values.iter().map(|value| value * value).sum::<f64>().sqrt();
-        if !size.is_finite() {
-            return Err(Error::Input {
-                quantity: "largest sample of a motion through a site",
-                value: largest(motion),
-                needed: "at most 1e150",
-            });
-        }
+        let quantity = "largest sample of a motion through a site";
+        let needed = "at most 1e150";
+        require(quantity, largest(motion), size.is_finite(), needed)?;
         let mut spectrum = forward.make_output_vec();
         let failed = |_| Error::Singular { matrix: "spectrum of a motion", order: length };
         forward.process(&mut values, &mut spectrum).map_err(failed)?;

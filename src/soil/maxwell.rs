@@ -2,7 +2,7 @@
 
 use super::relaxation::{Kind, Relaxation, rounded};
 use crate::error::{
-    Error, LayeredError, Result, damping_ratio, not_negative, positive, same_length,
+    LayeredError, Result, damping_ratio, not_negative, positive, require, same_length,
 };
 use crate::linalg::Complex;
 
@@ -52,8 +52,8 @@ impl GeneralizedMaxwell {
     /// Body with the long-term modulus ratio m, the shares yᵢ and the relaxation rates ωᵢ (1/s).
     ///
     /// # Errors
-    /// [`Error::Input`] unless m and all ωᵢ are positive and no yᵢ is negative; [`Error::Size`] for
-    /// lists of different lengths.
+    /// [`Error::Input`](crate::Error::Input) unless m and all ωᵢ are positive and no yᵢ is negative;
+    /// [`Error::Size`](crate::Error::Size) for lists of different lengths.
     pub fn new(long_term: f64, shares: Vec<f64>, rates: Vec<f64>) -> Result<Self> {
         positive("long-term modulus ratio of a layer", long_term)?;
         same_length("rates of a generalised Maxwell body", rates.len(), shares.len())?;
@@ -78,20 +78,16 @@ impl GeneralizedMaxwell {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] for a ratio not from 0 to below 1, frequencies that are not positive or a band that does not
-    /// increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body has.
+    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1, frequencies that are not positive or a
+    /// band that does not increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body has.
     pub fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> Result<Self> {
         damping_ratio("damping ratio of a layer", ratio)?;
         positive("lowest frequency of the damping band", band[0])?;
         positive("reference frequency of a damping law", reference)?;
         let width = band[1] / band[0];
-        if !(width > 1.0 && width <= 1e6) {
-            return Err(Error::Input {
-                quantity: "highest frequency of the damping band over the lowest",
-                value: width,
-                needed: "above 1 and at most 1e6",
-            });
-        }
+        let quantity = "highest frequency of the damping band over the lowest";
+        let needed = "above 1 and at most 1e6";
+        require(quantity, width, width > 1.0 && width <= 1e6, needed)?;
         if ratio == 0.0 {
             return Ok(Self {
                 fitted: Some([0.0, band[0], band[1]]),
@@ -241,6 +237,7 @@ fn restricted(matrix: &[f64], columns: usize, right: &[f64], free: &[bool]) -> V
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Error;
 
     #[test]
     fn damping_is_constant_over_the_band_and_waves_disperse_as_causality_wants() {

@@ -13,7 +13,7 @@ pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
 pub(crate) use strain_curves::Resolved;
 pub use strain_curves::StrainCurves;
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Result, finite, positive, require};
 
 /// Homogeneous, isotropic, linear elastic soil: shear modulus, Poisson's ratio, density.
 ///
@@ -41,17 +41,12 @@ impl Soil {
     /// Soil from its shear modulus μ (Pa), Poisson's ratio ν and density ρ (kg/m³).
     ///
     /// # Errors
-    /// [`Error::Input`] unless μ and ρ are finite and above zero and −1 < ν < 0.5.
+    /// [`Error::Input`](crate::Error::Input) unless μ and ρ are finite and above zero and −1 < ν < 0.5.
     pub fn new(shear_modulus: f64, poisson: f64, density: f64) -> Result<Self> {
         positive("shear modulus of the soil", shear_modulus)?;
         positive("density of the soil", density)?;
-        if !(poisson > -1.0 && poisson < 0.5) {
-            return Err(Error::Input {
-                quantity: "Poisson's ratio of the soil",
-                value: poisson,
-                needed: "above -1 and below 0.5",
-            });
-        }
+        let needed = "above -1 and below 0.5";
+        require("Poisson's ratio of the soil", poisson, poisson > -1.0 && poisson < 0.5, needed)?;
         let soil = Self { shear_modulus, poisson, density };
         positive("shear wave speed of the soil", soil.shear_wave_speed())?;
         finite("pressure wave speed of the soil", soil.pressure_wave_speed())?;
@@ -67,7 +62,7 @@ impl Soil {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] as for [`Soil::new`].
+    /// [`Error::Input`](crate::Error::Input) as for [`Soil::new`].
     pub fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> Result<Self> {
         positive("shear wave speed of the soil", speed)?;
         positive("density of the soil", density)?;
@@ -77,7 +72,7 @@ impl Soil {
     /// Soil from its wave speeds `c_S`, `c_P` (m/s) and density ρ (kg/m³).
     ///
     /// # Errors
-    /// [`Error::Input`] as for [`Soil::new`]; −1 < ν < 0.5 means `c_P` > 2/√3 · `c_S`.
+    /// [`Error::Input`](crate::Error::Input) as for [`Soil::new`]; −1 < ν < 0.5 means `c_P` > 2/√3 · `c_S`.
     pub fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> Result<Self> {
         positive("shear wave speed", shear)?;
         positive("pressure wave speed", pressure)?;

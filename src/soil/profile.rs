@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{Error, LayeredError, Result, SiteError, positive};
+use crate::error::{LayeredError, Result, SiteError, at_least, positive, require};
 use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
@@ -76,8 +76,8 @@ impl SoilProfile {
     /// Profile from its layers, from the surface down, and its base.
     ///
     /// # Errors
-    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`] for more than 1000 layers,
-    /// [`Error::Size`] for a rigid base without layers.
+    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
+    /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for a rigid base without layers.
     pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self> {
         let profile = Self { layers, base };
         profile.check_depth()?;
@@ -89,7 +89,8 @@ impl SoilProfile {
     /// [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
-    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`] for more than 1000 layers.
+    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
+    /// more than 1000 layers.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
         self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
         self.check_depth()?;
@@ -179,20 +180,13 @@ impl SoilProfile {
 
     /// Error for a rigid base without layers.
     pub(crate) fn check(&self) -> Result<()> {
-        if self.soils().next().is_none() {
-            return Err(Error::Size { quantity: "list of soil layers", found: 0, needed: 1 });
-        }
-        Ok(())
+        at_least("list of soil layers", self.soils().count(), 1)
     }
 
     fn check_depth(&self) -> Result<()> {
-        if self.layers.len() > MOST_LAYERS {
-            return Err(Error::Input {
-                quantity: "number of soil layers",
-                value: self.layers.len() as f64,
-                needed: "at most 1000",
-            });
-        }
+        let quantity = "number of soil layers";
+        let needed = "at most 1000";
+        require(quantity, self.layers.len() as f64, self.layers.len() <= MOST_LAYERS, needed)?;
         for (index, layer) in self.layers.iter().enumerate() {
             let of_layer = |error| SiteError::of_layer(index, error);
             positive("thickness (m)", layer.thickness).map_err(of_layer)?;

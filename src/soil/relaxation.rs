@@ -184,11 +184,14 @@ impl Kjartansson {
     #[cfg(feature = "serde")]
     fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
         positive("reference frequency of a damping law", reference)?;
-        if (0.0..=1.0).contains(&exponent) {
-            return Ok(Self { exponent, reference });
-        }
-        let (quantity, needed) = ("exponent of Kjartansson's damping", "from 0 to 1");
-        Err(crate::error::Error::Input { quantity, value: exponent, needed })
+        let is_known = (0.0..=1.0).contains(&exponent);
+        crate::error::require(
+            "exponent of Kjartansson's damping",
+            exponent,
+            is_known,
+            "from 0 to 1",
+        )?;
+        Ok(Self { exponent, reference })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Modulus reduction and damping of soils over shear strain.
 
-use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
+use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive, require};
 
 /// Secant shear modulus and damping ratio of a soil over the amplitude of its shear strain.
 ///
@@ -191,8 +191,7 @@ fn darendeli(
     let ratio = positive("overconsolidation ratio", overconsolidation)?;
     let stress = positive("mean effective stress (Pa)", stress)? / ATMOSPHERE;
     let least = |quantity, value: f64, least, needed| {
-        let fits = value >= least && value.is_finite();
-        if fits { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
+        require(quantity, value, value >= least && value.is_finite(), needed)
     };
     least("frequency of Darendeli's curves (Hz)", frequency, 0.05, "finite and at least 0.05")?;
     least("number of cycles of Darendeli's curves", cycles, 1.0, "finite and at least 1")?;
@@ -217,13 +216,8 @@ fn rows<const N: usize>(
 /// The two drawn curves beside an index, weighted.
 fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
     let last = VUCETIC_DOBRY.len() - 1;
-    if !(0.0..=VUCETIC_DOBRY[last].0).contains(&index) {
-        return Err(Error::Input {
-            quantity: "plasticity index",
-            value: index,
-            needed: "from 0 to 200",
-        });
-    }
+    let needed = "from 0 to 200";
+    require("plasticity index", index, (0.0..=VUCETIC_DOBRY[last].0).contains(&index), needed)?;
     let above = VUCETIC_DOBRY.partition_point(|(drawn, ..)| *drawn <= index).clamp(1, last);
     let ((low, ..), (high, ..)) = (VUCETIC_DOBRY[above - 1], VUCETIC_DOBRY[above]);
     let share = (index - low) / (high - low);
@@ -236,22 +230,15 @@ fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
 
 /// The rows of a table, if they are a curve.
 fn checked(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
-    if rows.is_empty() {
-        let (quantity, needed) = ("number of rows of a table of strain curves", "at least 1");
-        return Err(Error::Input { quantity, value: 0.0, needed });
-    }
+    require("number of rows of a table of strain curves", 0.0, !rows.is_empty(), "at least 1")?;
     let mut before = 0.0;
     for &[strain, reduction, damping] in rows {
         finite("strain of a table", strain)?;
-        if strain <= before {
-            let needed = "above zero and above the one before";
-            return Err(Error::Input { quantity: "strain of a table", value: strain, needed });
-        }
+        let needed = "above zero and above the one before";
+        require("strain of a table", strain, strain > before, needed)?;
         before = strain;
-        if !(reduction > 0.0 && reduction <= 1.0) {
-            let (quantity, needed) = ("G/G_max of a table", "above 0 and at most 1");
-            return Err(Error::Input { quantity, value: reduction, needed });
-        }
+        let needed = "above 0 and at most 1";
+        require("G/G_max of a table", reduction, reduction > 0.0 && reduction <= 1.0, needed)?;
         damping_ratio("damping ratio of a table", damping)?;
     }
     Ok(rows)

@@ -25,7 +25,7 @@
 
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{Structure, Tangent};
@@ -74,21 +74,13 @@ pub(crate) fn check(
             }
         }
     }
-    if lag > LAG {
-        let needed = "its contact nodes must be able to translate together";
-        return Err(Error::Scene { quantity: "structure", needed });
-    }
+    require_part("structure", lag <= LAG, "its contact nodes must be able to translate together")?;
     for (direction, translation) in translations.iter_mut().enumerate() {
         base.translate_nodes(direction, translation);
     }
     let error = base.translation_error(translations);
-    if error > EXACT {
-        return Err(Error::Input {
-            quantity: "error of the base under a rigid translation of 1 m",
-            value: error,
-            needed: "1e-14 or less: contact nodes must be able to translate together",
-        });
-    }
+    let needed = "1e-14 or less: contact nodes must be able to translate together";
+    require("error of the base under a rigid translation of 1 m", error, error <= EXACT, needed)?;
     Ok(())
 }
 

@@ -12,7 +12,7 @@ use super::choice::{Estimate, LONGEST_WINDOW};
 use super::convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
 use super::relaxed_fft::wave_level::Windowed;
 use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
-use crate::error::{CheckpointError, Error, MemoryError, Result, same_length};
+use crate::error::{CheckpointError, Error, MemoryError, Result, require, same_length};
 use crate::history::exponentials::passivity::{Cut, Lags};
 
 /// Tolerances that can be reached.
@@ -203,14 +203,8 @@ impl ExponentialHistory {
 
     /// `tolerance` if it can be reached.
     pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
-        if TOLERANCES.contains(&tolerance) {
-            return Ok(tolerance);
-        }
-        Err(Error::Input {
-            quantity: "tolerance of the history",
-            value: tolerance,
-            needed: "from 1e-12 to 1e-2",
-        })
+        let is_known = TOLERANCES.contains(&tolerance);
+        require("tolerance of the history", tolerance, is_known, "from 1e-12 to 1e-2")
     }
 
     fn size(&self) -> usize {
@@ -275,13 +269,8 @@ impl ExponentialHistory {
 /// Lags of the window: a block of the transforms, since these take the time of all of it.
 fn window(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
-    if lags > LONGEST_WINDOW {
-        return Err(Error::Input {
-            quantity: "lags before the exponentials",
-            value: lags as f64,
-            needed: "a million or fewer for a history by exponentials",
-        });
-    }
+    let needed = "a million or fewer for a history by exponentials";
+    require("lags before the exponentials", lags as f64, lags <= LONGEST_WINDOW, needed)?;
     Ok(lags.next_power_of_two().max(LEAF))
 }
 

@@ -3,7 +3,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::error::{Error, Result, finite, not_negative, same_length};
+use crate::error::{Error, Result, finite, in_bounds, not_negative, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
@@ -58,9 +58,8 @@ impl ExponentialSum {
             }
         }
         for TailProduct { functions: pair, normal, tangential } in &products {
-            if let Some(&index) = pair.iter().find(|&&index| index >= functions.len()) {
-                let (quantity, bound) = ("function of a product", functions.len());
-                return Err(Error::Index { quantity, index, bound });
+            for index in pair {
+                in_bounds("function of a product", *index, functions.len())?;
             }
             same_length("tangential weights", tangential.len(), normal.len())?;
             if normal.len() > rates.len() {
