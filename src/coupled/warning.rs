@@ -5,6 +5,7 @@ use std::fmt;
 use super::energy_balance::EnergyBalance;
 use super::scene::Scene;
 use crate::bem::Ground;
+use crate::error::along;
 use crate::motion::{FreeField, STANDARD_GRAVITY};
 use crate::soil::Soil;
 
@@ -346,11 +347,6 @@ impl fmt::Display for Warning {
             ),
         }
     }
-}
-
-/// The axis that is meant, in plan.
-fn along(axis: Option<char>) -> String {
-    axis.map_or(String::new(), |axis| format!(" along {axis}"))
 }
 
 fn within([least, most]: [f64; 2], value: f64) -> bool {

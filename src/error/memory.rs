@@ -43,10 +43,9 @@ pub fn memory_limit() -> u64 {
 /// Sets the limit (bytes) for the whole process: to what the machine has, less what else runs on
 /// it.
 ///
-/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of
-/// a record, convolution weights of layered ground) are compared with it before anything is allocated: a
-/// [`MemoryError`] says what they would take. It is an estimate for each part by itself, no account of all
-/// that a program holds.
+/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a record,
+/// convolution weights of layered ground) are compared with it before anything is allocated: a [`MemoryError`] says
+/// what they would take. It is an estimate for each part by itself, not a count of all that a program holds.
 ///
 /// ```
 /// use basemat::bem::Strip;

@@ -30,6 +30,7 @@ pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, write_file,
 };
+pub(crate) use step::along;
 pub use step::{CheckpointError, StabilityError, StepError};
 
 /// Result of every fallible function of the crate.

@@ -9,10 +9,10 @@ use crate::geometry::Direction;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum MassKind {
-    /// With the same shape functions as the stiffness: a full matrix.
+    /// Mass by the shape functions of the stiffness: a full matrix.
     #[default]
     Consistent,
-    /// At the nodes: a diagonal matrix of the same total mass.
+    /// Mass at the nodes: a diagonal matrix of the same total mass.
     Lumped,
 }
 
@@ -54,7 +54,7 @@ words! { MassKind, "kind of mass", {
 /// ```
 #[auto_impl::auto_impl(Box)]
 pub trait Element: Send + Sync {
-    /// Its nodes, as indices into the mesh.
+    /// Nodes of the element, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 
     /// The degrees of freedom it uses, the same ones at each of its nodes.

@@ -271,7 +271,7 @@ pub struct Layer {
     pub height: f64,
     /// Rows of elements, of equal height.
     pub rows: usize,
-    /// Its material.
+    /// Material of the layer.
     pub material: Material,
     /// Integration of its quadrilaterals.
     pub formulation: QuadFormulation,
@@ -283,7 +283,7 @@ impl Layer {
         Self { height, rows, material, formulation: QuadFormulation::default() }
     }
 
-    /// The same layer with another formulation of its quadrilaterals.
+    /// Sets the formulation of the layer's quadrilaterals.
     #[must_use]
     pub fn with_formulation(self, formulation: QuadFormulation) -> Self {
         Self { formulation, ..self }

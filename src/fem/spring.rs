@@ -60,7 +60,7 @@ impl Element for Spring {
         pair(&self.directions, self.coefficient, coordinates, matrix);
     }
 
-    /// None.
+    /// Adds nothing.
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial spring coincide.
@@ -137,10 +137,10 @@ impl Element for Dashpot {
         &self.directions
     }
 
-    /// None.
+    /// Adds nothing.
     fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
-    /// None.
+    /// Adds nothing.
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
@@ -203,7 +203,7 @@ impl Element for LumpedMass {
         if self.rotary_inertia > 0.0 { FRAME } else { TRANSLATIONS }
     }
 
-    /// None.
+    /// Adds nothing.
     fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, matrix: &mut [f64]) {

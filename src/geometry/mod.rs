@@ -42,7 +42,7 @@ pub(crate) struct ContactLayout {
 }
 
 impl ContactLayout {
-    /// For elements with so many components: [`PLANE`] or [`SPACE`].
+    /// Layout of elements with [`PLANE`] or [`SPACE`] components each.
     pub(crate) const fn new(components: usize, elements: usize) -> Self {
         Self { components, elements }
     }
@@ -125,9 +125,9 @@ pub(crate) struct Patch {
 }
 
 impl Patch {
-    /// Elements of a ground with so many directions, that reach from front to back along y (m), and of whose areas
-    /// these parts are inside the outline; an error unless they have a size and do not overlap, in the plane from left
-    /// to right.
+    /// Elements of a ground with this number of directions, with their `depths` from front to back along y (m) and the
+    /// fractions of their areas inside the outline; an error unless they have a size and do not overlap, in the plane
+    /// from left to right.
     pub(crate) fn new(
         components: usize,
         elements: Vec<ContactElement>,
@@ -265,7 +265,7 @@ impl std::ops::Deref for Patch {
 /// elements: 202 to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
 const BYTES_PER_PAIR: f64 = 400.0;
 
-/// Error for so many elements with so many components that the matrices between them would not fit into memory.
+/// Error for more elements, with this number of components each, than fit into memory with the matrices between them.
 pub(crate) fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
     let numbers = count * (components as f64 / PLANE as f64);

@@ -20,7 +20,7 @@ pub trait ConvolutionHistory: Send {
     /// If a kernel cannot be evaluated.
     fn reserve(&mut self, steps: usize) -> Result<()>;
 
-    /// Reserves for so many steps with an observer; by default, for what is quick, without.
+    /// Reserves for `steps` with an observer; by default without, for what is quick.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for

@@ -171,7 +171,7 @@ pub(super) struct Grid<'a> {
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// VTK's number for a cell of so many points (vtkCellType.h).
+/// VTK's number for a cell of this number of points (vtkCellType.h).
 fn cell_type(points: usize) -> u8 {
     match points {
         1 => 1,  // vertex

@@ -233,9 +233,9 @@ impl Deref for Thinned {
 /// A matrix of the equations of motion in the coordinates in which they are stepped.
 #[derive(Debug, Clone)]
 pub(crate) enum Matrix {
-    /// In the structure's own degrees of freedom.
+    /// Matrix in the structure's own degrees of freedom.
     Sparse(SparseMatrix),
-    /// In its modes.
+    /// Diagonal of the matrix in modal coordinates.
     Diagonal(Vec<f64>),
 }
 

@@ -163,7 +163,7 @@ impl Triplets {
     }
 }
 
-/// Of the order that the largest index asks for: rows without entries at the end are not known. With
+/// Triplets of the order that the largest index needs: rows without entries at the end are not known. With
 /// [`Triplets::from_entries`] they are.
 impl FromIterator<(usize, usize, f64)> for Triplets {
     fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {

@@ -8,7 +8,7 @@ use crate::error::{
 use crate::text::column::{Cell, line};
 use crate::text::csv::Csv;
 
-/// Error for so many samples that they would not fit into memory, with their two integrals.
+/// Error for more samples than fit into memory, with their two integrals.
 pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> {
     memory::check("samples of the record", count, 40.0 * count)
 }

@@ -93,7 +93,7 @@ impl Record {
         Ok(found)
     }
 
-    /// Calls `after` with the number of samples behind it, every so many substeps.
+    /// Calls `after` with the number of samples behind it, after a block of substeps.
     fn ordinate(
         &self,
         period: f64,

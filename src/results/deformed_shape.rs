@@ -87,7 +87,7 @@ impl DeformedShape {
     }
 
     /// A rigid block of the plane as a rectangle of this height (m), or rigid bodies in plan as prisms on the faces of
-    /// their bases. Of other structures it is what the base carries with it.
+    /// their bases. Other structures are drawn as if their base carried such a body.
     ///
     /// ```
     /// use basemat::results::DeformedShape;

@@ -114,9 +114,8 @@ impl Recorder {
 }
 
 impl TimeSeries {
-    /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then
-    /// (but for frames of motion of a structure that is stepped in its modes, whose degrees of freedom the
-    /// state then makes).
+    /// Reserves memory for `steps` more steps, at most a million: recording them then allocates nothing (but for frames
+    /// of motion of a structure that is stepped in its modes, whose degrees of freedom the state then makes).
     pub fn reserve(&mut self, steps: usize) {
         let steps = steps.min(MOST_RESERVED);
         let count = steps / self.recorder.every + 1;
@@ -280,7 +279,7 @@ impl ContactFrames {
         self.modes.extend_from_slice(&state.modes);
     }
 
-    /// For so many more steps of `count` elements each.
+    /// Reserves memory for `steps` more steps of `count` elements each.
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);
@@ -336,7 +335,7 @@ impl MotionFrames {
         self.free_field_across.push(state.free_field_across);
     }
 
-    /// For so many more steps of `count` degrees of freedom each.
+    /// Reserves memory for `steps` more steps of `count` degrees of freedom each.
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);

@@ -226,7 +226,7 @@ pub struct SiteMotion {
 }
 
 impl SiteMotion {
-    /// Share of the peak that passes for nothing.
+    /// Fraction of the peak below which motion counts as rest.
     pub const LIMIT: f64 = 1e-9;
 
     /// Largest sample.

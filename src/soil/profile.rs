@@ -24,9 +24,9 @@ pub struct SoilLayer {
 pub enum Base {
     /// A half-plane that waves leave through.
     HalfPlane {
-        /// Its elastic constants.
+        /// Elastic constants of the layer.
         soil: Soil,
-        /// Its damping law.
+        /// Damping law of the layer.
         damping: Arc<dyn Relaxation>,
     },
     /// A base that does not move and reflects everything.
@@ -85,8 +85,7 @@ impl SoilProfile {
         Ok(profile)
     }
 
-    /// With one more layer, below those that are there; elastic until
-    /// [`with_damping`](SoilProfile::with_damping) is called.
+    /// Adds a layer below all others; elastic until [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
     /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
@@ -97,7 +96,7 @@ impl SoilProfile {
         Ok(self)
     }
 
-    /// With damping of the layer that was put on last; of the base if there is none.
+    /// Sets the damping of the layer added last; of the base if there is none.
     #[must_use]
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
@@ -107,7 +106,7 @@ impl SoilProfile {
         self
     }
 
-    /// With damping of the half-plane below; a rigid base has none.
+    /// Sets the damping of the half-plane below; a rigid base has none.
     #[must_use]
     pub fn with_base_damping(mut self, law: impl Relaxation + 'static) -> Self {
         if let Base::HalfPlane { damping, .. } = &mut self.base {
@@ -121,7 +120,7 @@ impl SoilProfile {
         &self.layers
     }
 
-    /// What is under them.
+    /// Base under the layers.
     pub fn base(&self) -> &Base {
         &self.base
     }
@@ -147,7 +146,7 @@ impl SoilProfile {
         self.layers.iter().map(|layer| layer.thickness / layer.soil.shear_wave_speed()).sum()
     }
 
-    /// Whether it is a half-plane without layers or damping, which has a closed form.
+    /// Whether the profile is a half-plane without layers or damping, which has a closed form.
     pub(crate) fn is_elastic_half_plane(&self) -> bool {
         let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Elastic.identity();
         self.layers.is_empty()

@@ -181,7 +181,7 @@ impl Parameter {
         self.len() == 0
     }
 
-    /// The number at `place`, if it takes numbers and so many of them.
+    /// Number at `place` of a parameter that takes numbers, if it has one there.
     pub(super) fn number(&self, place: usize) -> Option<f64> {
         match &self.values {
             Values::Numbers(numbers) => numbers.get(place).copied(),
@@ -189,7 +189,7 @@ impl Parameter {
         }
     }
 
-    /// The text at `place`, if it takes texts and so many of them.
+    /// Text at `place` of a parameter that takes texts, if it has one there.
     pub(super) fn text(&self, place: usize) -> Option<&str> {
         match &self.values {
             Values::Numbers(_) => None,

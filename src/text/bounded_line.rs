@@ -16,7 +16,7 @@ const MARK: &[u8] = b"\xef\xbb\xbf";
 pub(crate) enum Unread {
     /// The source failed.
     Failed(ErrorKind),
-    /// There was no line end in so many bytes.
+    /// This number of bytes had no line end.
     TooLong(usize),
 }
 

@@ -24,8 +24,8 @@ use crate::structure::{FaceNode, HeldBase, stiffest};
 
 /// From one shift to the next.
 const RATIO: f64 = 4.0;
-/// Directions are left out of which less than this fraction is new, and less than so many times the root
-/// of the tolerance: their part of the responses is its square.
+/// Directions are left out if the fraction of them that is new is below this, and below this multiple of the root of
+/// the tolerance: their part of the responses is its square.
 const NEW: f64 = 1e-2;
 const NEW_BY_ROOT: f64 = 10.0;
 /// Least fraction of a direction that must be new, in the end.

@@ -32,7 +32,7 @@ use crate::structure::{Structure, Tangent};
 
 /// Largest lag: far above rounding, and what a weight may be off.
 const LAG: f64 = 1e-6;
-/// Force r·K r of no account, relative to the largest stiffness.
+/// Largest work r·K r, relative to the largest stiffness, that is ignored.
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
 const ROW: f64 = 3e-10;
@@ -42,7 +42,7 @@ const DIAGONAL: f64 = 1e-13;
 const WORK: f64 = 1e-15;
 /// Largest |r − s| that bends nothing.
 const BENT: f64 = 1e-9;
-/// Largest |r − s| with which s is what r is meant to be.
+/// Largest |r − s| with which r is taken to be s.
 const WHOLE: f64 = 0.25;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
@@ -168,7 +168,7 @@ struct Resistance {
     bent: f64,
     /// Whether every row of K s is free of force.
     is_free: bool,
-    /// Where the force is largest beside the stiffness around: the force, its row and its share.
+    /// Largest force relative to the stiffness around it, its row, and that ratio.
     force: f64,
     dof: usize,
     share: f64,

@@ -184,14 +184,14 @@ impl Tail {
         self.states.iter().flatten().flatten().copied()
     }
 
-    /// Takes the state back, of which there must be as much as [`Tail::state_length`].
+    /// Restores the state, of length [`Tail::state_length`].
     pub(super) fn set_state(&mut self, state: &[f64]) {
         for (own, saved) in self.states.iter_mut().flatten().flatten().zip(state) {
             *own = *saved;
         }
     }
 
-    /// One step on: all that is held decays, `leaving` (2Q) leaves the window and comes in.
+    /// Advances by a step: the state decays, and `leaving` (2Q), which leaves the window, is added.
     pub(super) fn advance(&mut self, leaving: Option<&[f64]>) {
         let layout = ContactLayout::new(PLANE, self.lengths.len());
         for (part, states) in self.states.iter_mut().enumerate() {

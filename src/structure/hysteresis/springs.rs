@@ -25,7 +25,7 @@ impl Spring {
 pub(crate) struct Springs(Vec<Spring>);
 
 impl Springs {
-    /// Adds a spring to a structure of so many degrees of freedom.
+    /// Adds a spring to a structure with this number of degrees of freedom.
     pub(crate) fn add(
         &mut self,
         row: DofCombination,
