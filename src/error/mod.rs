@@ -38,9 +38,9 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Faults of this crate, with the quantity, its value and the requirement.
 ///
-/// Printed, an error is complete: its text contains that of the error behind it, which is in a field
-/// and not in [`source`](std::error::Error::source), so that chains of sources do not repeat it. `Debug` prints the same
-/// text: that is what `unwrap` and a `main` that returns [`Result`] show.
+/// Printed, an error is complete: its text contains that of the error behind it, which is in a field and not in
+/// [`source`](std::error::Error::source), so that chains of sources do not repeat it. `Debug` prints the same text:
+/// that is what `unwrap` and a `main` that returns [`Result`] show.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -50,7 +50,8 @@ pub enum StepError {
         iterations: usize,
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
-        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the contact modes of the last iteration, left to right.
+        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the contact modes of the last iteration, left to
+        /// right.
         modes: Vec<&'static str>,
     },
     /// The ground could not give its history.

@@ -28,7 +28,8 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// Spring that sees the relative motion of two nodes in one `direction`; `coefficient` in N/m (N m/rad for rotations) per metre of thickness.
+    /// Spring that sees the relative motion of two nodes in one `direction`; `coefficient` in N/m (N m/rad for
+    /// rotations) per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -37,7 +38,8 @@ impl Spring {
         Ok(Self { nodes, directions: vec![direction], coefficient })
     }
 
-    /// Spring that sees the change of distance between two nodes; `coefficient` in N/m (N m/rad for rotations) per metre of thickness.
+    /// Spring that sees the change of distance between two nodes; `coefficient` in N/m (N m/rad for rotations) per
+    /// metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -109,7 +111,8 @@ pub struct Dashpot {
 }
 
 impl Dashpot {
-    /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for
+    /// rotations) per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -118,7 +121,8 @@ impl Dashpot {
         Ok(Self { nodes, directions: vec![direction], coefficient })
     }
 
-    /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per
+    /// metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.

@@ -253,8 +253,8 @@ impl PairClasses {
         hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[least, _]| least)
     }
 
-    /// Whether that of a real symbol is above `bound`, by a factorisation that is much quicker; where it is near, it may
-    /// say no.
+    /// Whether that of a real symbol is above `bound`, by a factorisation that is much quicker; where it is near, it
+    /// may say no.
     pub(crate) fn exceeds<const KINDS: usize>(
         &self,
         bound: f64,

@@ -1,12 +1,11 @@
 //! Files for ParaView: a `.pvd` collection of `.vtu` grids, one pair for every frame.
 //!
-//! The first grid of a frame is the structure, with the vectors `displacement` (m, change against
-//! the static state, relative to the free field) and `velocity` (m/s, total) at its points: apply
-//! *Warp By Vector* to see it move. The
-//! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and
-//! `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for
-//! every element, with `shear_across` and `slip_across` (along y) and mode 7, slip in any direction. Points are (x, y, 0) in
-//! the plane, y up, and (x, y, z) in plan, z up.
+//! The first grid of a frame is the structure, with the vectors `displacement` (m, change against the static state,
+//! relative to the free field) and `velocity` (m/s, total) at its points: apply *Warp By Vector* to see it move. The
+//! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and `slip` (m) and
+//! `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for every element, with
+//! `shear_across` and `slip_across` (along y) and mode 7, slip in any direction. Points are (x, y, 0) in the plane, y
+//! up, and (x, y, z) in plan, z up.
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -49,12 +48,12 @@ pub fn write_series(
     write(folder.as_ref(), name, Some(shape), histories)
 }
 
-/// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`, …),
-/// as [`write_series`] does: for structures without a [`DeformedShape`].
+/// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`,
+/// …), as [`write_series`] does: for structures without a [`DeformedShape`].
 ///
 /// # Errors
-/// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if a
-/// file cannot be written.
+/// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if
+/// a file cannot be written.
 pub fn write_base(folder: impl AsRef<Path>, name: &str, histories: &TimeSeries) -> Result<usize> {
     let needed = "tell the recorder to keep the contact";
     require_part("series of the base", histories.contact_frames().next().is_some(), needed)?;

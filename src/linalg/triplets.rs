@@ -127,8 +127,8 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`, where the row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list of (degree of freedom,
-    /// weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
+    /// Adds `factor · l lᵀ`, where the row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list
+    /// of (degree of freedom, weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
     pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {
         let terms = row.as_ref();
         for &(i, a) in terms {

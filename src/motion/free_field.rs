@@ -76,8 +76,8 @@ type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
 /// Free field from a closure for the displacement, and one for the velocity if it is known.
 ///
-/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0: until then the field is zero.
-/// The displacement should start from zero: what it is just after t = 0 comes as a jump.
+/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0: until then the field is
+/// zero. The displacement should start from zero: what it is just after t = 0 comes as a jump.
 ///
 /// A wave that runs to the right at 1000 m/s:
 /// ```
@@ -326,8 +326,8 @@ impl FreeField for TravellingWave {
 /// Ricker pulse u(t) = A (1 − 2a²) e^(−a²), a = (t − center)/sigma, the same at all points.
 ///
 /// Displacement and velocity are exact. The peak A is at t = `center`; the spectrum peaks at 1/(π sigma) Hz (Ricker,
-/// "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953), 10–40). At and before t = 0 the field is zero, so the pulse
-/// starts with a jump of A (1 − 2a₀²) e^(−a₀²), a₀ = center/sigma: 7e-10 A for a₀ = 5.
+/// "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953), 10–40). At and before t = 0 the field
+/// is zero, so the pulse starts with a jump of A (1 − 2a₀²) e^(−a₀²), a₀ = center/sigma: 7e-10 A for a₀ = 5.
 ///
 /// ```
 /// use basemat::motion::{FreeField, RickerDisplacement};

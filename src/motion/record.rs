@@ -215,8 +215,8 @@ impl Record {
         Self::new(self.step, baseline.apply(&self.acceleration)?)
     }
 
-    /// Motion at any `time` (s): between samples the acceleration is linear; after the last one it is zero, the velocity
-    /// constant and the displacement linear in time. Before t = 0 all are zero.
+    /// Motion at any `time` (s): between samples the acceleration is linear; after the last one it is zero, the
+    /// velocity constant and the displacement linear in time. Before t = 0 all are zero.
     pub fn at(&self, time: f64) -> Motion {
         let last = self.len() - 1;
         if time.is_nan() || time <= 0.0 {

@@ -26,8 +26,8 @@ const MOST_TIMES: usize = 150;
 /// the surface of the soil, the contact mode of every element below it, a clock, and a bar for the
 /// scale of lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
-/// In plan it is seen from the front, the right and above, all lengths along the axes at one scale; its elements lie below
-/// it, and once more in a small plan at the side, with x to the right.
+/// In plan it is seen from the front, the right and above, all lengths along the axes at one scale; its elements lie
+/// below it, and once more in a small plan at the side, with x to the right.
 ///
 /// Frames of contact are shown if they were kept as often as those of motion.
 ///

@@ -33,8 +33,8 @@ struct Cell {
 /// in which sliding ones move over the soil.
 ///
 /// # Errors
-/// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground is not one in
-/// plan; [`Error::Input`] for a time that is not finite.
+/// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground is not one
+/// in plan; [`Error::Input`] for a time that is not finite.
 pub fn contact_plan(title: &str, histories: &TimeSeries, time: f64) -> Result<Svg> {
     finite("time of a picture", time)?;
     let apart = |frame: &crate::results::ContactFrame<'_>| (frame.time - time).abs();

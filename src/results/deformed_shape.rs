@@ -209,8 +209,8 @@ impl DeformedShape {
         self.points.iter().any(|point| !point.across.is_empty())
     }
 
-    /// [horizontal, up, along y] of every point (m, or m/s) for these degrees of freedom (or their rates); nothing moves
-    /// along y in the plane.
+    /// [horizontal, up, along y] of every point (m, or m/s) for these degrees of freedom (or their rates); nothing
+    /// moves along y in the plane.
     ///
     /// # Errors
     /// [`Error::Index`] if a point is moved by a degree of freedom that is not there.

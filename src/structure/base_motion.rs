@@ -72,8 +72,8 @@ impl DofCombination {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`] for a
-    /// place that is not finite, or contact nodes at one place or in plan on one line.
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`]
+    /// for a place that is not finite, or contact nodes at one place or in plan on one line.
     pub fn of_base(structure: &dyn Structure, place: [f64; 3]) -> Result<[Self; 3]> {
         let [x, y, height] = place;
         finite("height above the base", height)?;

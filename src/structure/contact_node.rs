@@ -86,8 +86,8 @@ impl FaceNode {
         corners.iter().map(corner).collect()
     }
 
-    /// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and turn
-    /// about the vertical.
+    /// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and
+    /// turn about the vertical.
     pub(crate) fn mean_rotations(nodes: &[Self]) -> [DofCombination; 3] {
         let count = nodes.len() as f64;
         let mean = |of: &dyn Fn(&Self) -> f64| nodes.iter().map(of).sum::<f64>() / count;

@@ -134,8 +134,8 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
 
 /// A parameter of a [`Sweep`]: its name and the values that it takes, numbers or texts.
 ///
-/// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its column
-/// then tells the tables of different studies apart.
+/// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its
+/// column then tells the tables of different studies apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,

@@ -37,8 +37,8 @@ pub(crate) struct Assembled {
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong signs, parts that nothing holds, supports
-    /// beside the ground, and mechanisms that cannot be factored.
+    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong
+    /// signs, parts that nothing holds, supports beside the ground, and mechanisms that cannot be factored.
     pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
         let base = Base::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());

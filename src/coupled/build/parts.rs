@@ -328,9 +328,9 @@ fn safety_friction(
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Coordinates {
-    /// Whichever is expected to take less time, with the modes' own computation counted against
-    /// them; see [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures, and those that
-    /// modes do not decouple, keep their degrees of freedom.
+    /// Whichever is expected to take less time, with the modes' own computation counted against them; see
+    /// [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures,
+    /// and those that modes do not decouple, keep their degrees of freedom.
     #[default]
     Auto,
     /// The structure's degrees of freedom: sparse matrices, one back-substitution per step.
@@ -351,17 +351,17 @@ pub enum Coordinates {
     /// they are looked at only where a probe reads them. What no probe reads is as good as the base's motion
     /// makes it; it is not checked.
     ///
-    /// A bonded run is a sum of such responses. Contact amplifies their errors, which nothing
-    /// bounds; on towers of 1 092 to 13 122 degrees of freedom with 2 and 5 % of damping that slide and uplift, errors of
-    /// base, roof and base shear stayed thirty times below the tolerance, and those of the roof's
-    /// acceleration below it. Undamped structures are an error: no few vectors have what rings on above
-    /// the frequency 2/Δt, and their accelerations would be lost first.
+    /// A bonded run is a sum of such responses. Contact amplifies their errors, which nothing bounds; on towers of 1
+    /// 092 to 13 122 degrees of freedom with 2 and 5 % of damping that slide and uplift, errors of base, roof and base
+    /// shear stayed thirty times below the tolerance, and those of the roof's acceleration below it. Undamped
+    /// structures are an error: no few vectors have what rings on above the frequency 2/Δt, and their accelerations
+    /// would be lost first.
     ///
-    /// Needs a linear structure with symmetric matrices, a positive definite mass and proportional
-    /// damping; [`ReducedError`](crate::ReducedError) names what is wrong. A load of the structure's own
-    /// is looked at 17 times over the expected steps: what acts only in between is projected. Loads of
-    /// the builder have no such gap. Building takes three to six times that of other coordinates: orthogonalizing 100 to
-    /// 250 vectors is 70 % of it, factors at other shifts are a tenth.
+    /// Needs a linear structure with symmetric matrices, a positive definite mass and proportional damping;
+    /// [`ReducedError`](crate::ReducedError) names what is wrong. A load of the structure's own is looked at 17 times
+    /// over the expected steps: what acts only in between is projected. Loads of the builder have no such gap. Building
+    /// takes three to six times that of other coordinates: orthogonalizing 100 to 250 vectors is 70 % of it, factors at
+    /// other shifts are a tenth.
     Reduced {
         /// Relative error of responses to sudden tractions, above 0 and below 1; below about 1e-9
         /// rounding may get in the way.

@@ -175,8 +175,8 @@ fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (
     parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
 }
 
-/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more than
-/// the slack.
+/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more
+/// than the slack.
 fn beyond(
     middles: impl Iterator<Item = [f64; 2]>,
     axis: usize,

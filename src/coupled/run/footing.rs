@@ -1,5 +1,5 @@
-//! The base as a whole or one foundation after a step: sums and means over it, and its factors of safety against sliding
-//! and overturning.
+//! The base as a whole or one foundation after a step: sums and means over it, and its factors of safety against
+//! sliding and overturning.
 //!
 //! Factors of safety are made of the contact tractions that did act. Tractions of a base that may open and slide
 //! cannot go beyond its strength: such a factor stays at or above one, and reaches it when the base
@@ -165,7 +165,8 @@ pub(super) fn against_sliding(friction: &[f64], footing: Footing<'_>) -> f64 {
 }
 
 /// N b over the moment of the pressure about the middle of the base, b the half width. In plan the least of the edges
-/// that face along `axis` (x 0, y 1), at their distances b from the middle of the outline; infinite along y in the plane.
+/// that face along `axis` (x 0, y 1), at their distances b from the middle of the outline; infinite along y in the
+/// plane.
 pub(super) fn against_overturning(footing: Footing<'_>, axis: usize) -> f64 {
     let Footing { elements, outline, .. } = footing;
     if elements.is_empty() || outline.is_empty() && axis > 0 {
@@ -249,8 +250,8 @@ mod tests {
         assert!((against_overturning(on(&state), 0) - 70.0 * 1.5 / 20.0).abs() < 1e-14);
     }
 
-    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5) along x
-    /// 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
+    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5)
+    /// along x 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
     #[test]
     fn by_hand_in_plan() {
         let mut state = contact([30.0, 10.0], [-10.0, 6.0]);

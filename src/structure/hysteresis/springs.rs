@@ -168,8 +168,8 @@ impl WithSprings {
     /// Adds a spring, whose deformation is `row`.
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have, [`Error::Input`](crate::Error::Input) for a
-    /// weight that is not finite.
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have,
+    /// [`Error::Input`](crate::Error::Input) for a weight that is not finite.
     pub fn spring(
         mut self,
         row: impl Into<DofCombination>,

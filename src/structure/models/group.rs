@@ -83,9 +83,9 @@ impl StructureGroup {
     /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at)).
     ///
     /// # Errors
-    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the
-    /// one before ends; [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a structure
-    /// in plan among those of the plane, or one among those in plan, and for a base that touches another in plan.
+    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the one before ends;
+    /// [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a structure in plan among
+    /// those of the plane, or one among those in plan, and for a base that touches another in plan.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
         let (nodes, faces) = (structure.contact_nodes(), structure.contact_faces());

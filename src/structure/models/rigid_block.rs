@@ -149,13 +149,13 @@ const DAMPING: &str = "damping matrix";
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
-/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure
-/// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
-/// force beyond rounding (entries of ten digits may leave too much, those of twelve do not).
-/// Matrices are per metre of thickness, but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
-/// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed
-/// rows ([`Triplets::from_csr`]); large models march faster after a
-/// [`CraigBampton`](crate::structure::CraigBampton) reduction.
+/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure is
+/// **free**, without supports: the ground holds it up, so a rigid translation must give no elastic force beyond
+/// rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness,
+/// but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
+/// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
+/// ([`Triplets::from_csr`]); large models march faster after a [`CraigBampton`](crate::structure::CraigBampton)
+/// reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
 /// checked here; a symmetric stiffness matrix must be so where the base is held, Lagrange

@@ -126,8 +126,8 @@ impl StoreyBuilding {
     }
 
     /// The same building with `storey` (0: the lowest) following `law` in one `direction`:
-    /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The law
-    /// sees the storey's [`drift`](StoreyBuilding::drift) and takes the place of its stiffness there.
+    /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The
+    /// law sees the storey's [`drift`](StoreyBuilding::drift) and takes the place of its stiffness there.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
@@ -199,8 +199,8 @@ impl StoreyBuilding {
         Ok(self.deformation([storey, storey + 1], place))
     }
 
-    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the mat's
-    /// base) less the rigid motion of the mat there: the sum of the drifts below.
+    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the
+    /// mat's base) less the rigid motion of the mat there: the sum of the drifts below.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
