@@ -88,8 +88,8 @@ impl RayleighDamping {
 ///   first mode has the given ratio less the part of it that the ground's compliance takes.
 /// * [`on`](ModalDamping::on): modes of the structure by itself, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They stay
 ///   the modes of the damped structure, so that it can be stepped in them
-/// ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base, where
-/// the first mode gets much less than its ratio: five storeys 0.9 % of 5 %.
+///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base,
+///   where the first mode gets much less than its ratio: five storeys 0.9 % of 5 %.
 ///
 /// ```
 /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
