@@ -62,8 +62,8 @@
 //! s^N = s_{ff}^N + \sum_{m=1}^{N} G^{\,N-m+1}\, \tau^m
 //! ```
 //!
-//! with τᵐ constant over element and step, Gⁿ in closed form for the half-plane and by convolution
-//! quadrature for layers, and `s_ff` the free field. The structure obeys the midpoint rule (or another [`coupled::TimeScheme`]),
+//! with τᵐ constant over element and step, Gⁿ in closed form for the half-plane and by convolution quadrature for
+//! layers, and `s_ff` the free field. The structure obeys the midpoint rule (or another [`coupled::TimeScheme`]),
 //!
 //! ```math
 //! M \frac{v_1 - v_0}{\Delta t} + C \bar v + K \bar u + f(\bar u) = p(t_{1/2}) - B^T A\, \tau,
@@ -177,11 +177,11 @@
 //!
 //! # Examples
 //!
-//! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
-//! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
-//! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `mat_in_plan`, `friction_sweep`,
-//! `travelling_wave`, `from_matrices`; `containment` is the problem of Patel & Spyrakos; `pictures` draws everything (feature `png`). What
-//! each prints is in [the list of examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
+//! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`, `portal_frame`,
+//! `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`, `machine_foundation`, `floor_spectra`,
+//! `layered_site`, `impedances`, `mat_in_plan`, `friction_sweep`, `travelling_wave`, `from_matrices`; `containment` is
+//! the problem of Patel & Spyrakos; `pictures` draws everything (feature `png`). What each prints is in [the list of
+//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

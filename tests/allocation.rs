@@ -20,8 +20,8 @@ use basemat::structure::{
 };
 
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
-use basemat_problems::needed_from;
 use basemat_problems::scenes::{SI, block, friction, scene, soil, tower};
+use basemat_problems::{needed_from, own_force};
 
 /// The system's allocator, with a count for each thread.
 struct Counting;
@@ -65,13 +65,7 @@ struct Quadratic(RigidBlock);
 impl Structure for Quadratic {
     needed_from!(0);
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Quadratic {

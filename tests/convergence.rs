@@ -4,54 +4,22 @@
 
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Grading, Strip};
-use basemat::interface::{Bonded, Coulomb};
-use basemat::motion::RickerDisplacement;
 use basemat::soil::Elastic;
 use basemat::structure::RigidBlock;
-use basemat::{Simulation, Soil};
 
 use basemat_problems::profiles::{gmb, p1, p3};
-use basemat_problems::sampled_block::{History, distance, sample, under_pulse};
-use basemat_problems::series::{Series, print_errors, whole};
-use basemat_problems::table;
-
-/// Sampling of the histories: all time steps are fractions of it.
-const SAMPLE: f64 = 0.2;
-
-/// A block of width and mass 2 and 4 under a Ricker pulse of peak 1 that ends before `duration`.
-#[derive(Debug, Clone, Copy)]
-struct Scene {
-    height: f64,
-    gravity: f64,
-    sigma: f64,
-    friction: Option<f64>,
-    duration: f64,
-}
+use basemat_problems::sampled_block::{
+    History, PulsedBlock, SAMPLE, distance, sample, under_pulse,
+};
+use basemat_problems::series::{print_errors, whole};
 
 const NAMES: [&str; 3] = ["u_base", "theta", "V"];
 
-/// The bonded block of the reference table.
-const BONDED: Scene =
-    Scene { height: 2.0, gravity: 0.0, sigma: 1.0, friction: None, duration: 20.0 };
-
-fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) -> History {
-    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
-    let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
-    let builder = Simulation::builder(time_step)
-        .structure(RigidBlock::new(2.0, scene.height, 2.0 / scene.height).unwrap())
-        .ground(ElasticGround::new(soil, strip).unwrap())
-        .motion(RickerDisplacement::new(1.0, scene.sigma, 5.0 * scene.sigma).unwrap())
-        .gravity(scene.gravity);
-    let builder = match scene.friction {
-        Some(friction) => builder.interface(Coulomb::new(friction).unwrap()),
-        None => builder.interface(Bonded),
-    };
-    let mut simulation = builder.build().unwrap();
-    let every = whole(SAMPLE / time_step);
-    let (history, run) = sample(&mut simulation, whole(scene.duration / time_step), every).unwrap();
+fn history(scene: PulsedBlock, mesh: (Grading, usize), time_step: f64) -> History {
+    let (history, run) = scene.history(mesh, time_step).unwrap();
     assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
     println!(
-        "{scene:?} {grading:?} {elements}, step {time_step}: uplift {:.2}, slip {:.2}",
+        "{scene:?} {mesh:?}, step {time_step}: uplift {:.2}, slip {:.2}",
         run.whole.uplifted_fraction.largest().value,
         run.whole.largest_slip.largest().value
     );
@@ -89,7 +57,8 @@ fn check(scene: &str, orders: [f64; 3], wanted: std::ops::Range<f64>) {
 /// REFERENCE: each run against the next finer one.
 #[test]
 fn time_step_bonded() {
-    let runs = [0.2, 0.1, 0.05, 0.025].map(|step| history(BONDED, (Grading::Cosine, 8), step));
+    let runs = [0.2, 0.1, 0.05, 0.025]
+        .map(|step| history(PulsedBlock::BONDED, (Grading::Cosine, 8), step));
     check("time step", orders("time step", &successive(&runs), 1), 1.8..2.2);
 }
 
@@ -98,12 +67,11 @@ fn time_step_bonded() {
 /// REFERENCE: a step four times finer than the finest.
 #[test]
 fn time_step_contact() {
-    let quick =
-        Scene { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 };
-    let slow = Scene { height: 6.0, gravity: 0.15, sigma: 2.0, friction: None, duration: 25.0 };
+    let quick = PulsedBlock::SLIDING;
+    let slow = PulsedBlock::SLENDER;
     for (name, scene) in [
-        ("sliding", Scene { friction: Some(0.5), ..slow }),
-        ("rocking", Scene { friction: Some(f64::INFINITY), ..slow }),
+        ("sliding", PulsedBlock { friction: Some(0.5), ..slow }),
+        ("rocking", PulsedBlock { friction: Some(f64::INFINITY), ..slow }),
         ("rocking and sliding", quick),
     ] {
         let run = |step| history(scene, (Grading::Cosine, 8), step);
@@ -118,22 +86,10 @@ fn time_step_contact() {
 /// REFERENCE: each run against the next finer one, and the frequency-domain table.
 #[test]
 fn element_size() {
-    let table = table("td_block_SV_nu0333_h2_rho1.csv");
-    let column = |name| Series::new(&table, name);
-    let (base, rotation, shear) = (column("u_base"), column("theta"), column("V"));
-    let times = (1..=whole(BONDED.duration / SAMPLE)).map(|n| n as f64 * SAMPLE);
-    // Mean of the shear over a sample, from means over its eighths.
-    let mean = |time: f64| -> f64 {
-        (0..8).map(|k| shear.mean(time - f64::from(k) * SAMPLE / 8.0, SAMPLE / 8.0)).sum::<f64>()
-            / 8.0
-    };
-    let exact: History = [
-        times.clone().map(|time| base.at(time)).collect(),
-        times.clone().map(|time| -rotation.at(time)).collect(),
-        times.map(mean).collect(),
-    ];
+    let exact = PulsedBlock::exact();
     for (grading, wanted) in [(Grading::Uniform, 0.8..1.2), (Grading::Cosine, 1.7..2.3)] {
-        let runs = [4, 8, 16, 32].map(|count| history(BONDED, (grading, count), 0.025));
+        let runs =
+            [4, 8, 16, 32].map(|count| history(PulsedBlock::BONDED, (grading, count), 0.025));
         let scene = format!("{grading:?}, next finer");
         check(&scene, orders(&scene, &successive(&runs), 1), wanted.clone());
         let scene = format!("{grading:?}, table");

@@ -34,7 +34,9 @@ impl State {
             .collect();
         let start = PreviousContacts::new(&scene.laws, &start)?;
         let (base, patch) = (&scene.base, &scene.elements);
-        let foundations = base.foundations().map(|(_, elements)| Foundation::new(elements));
+        let foundations = base
+            .foundations()
+            .map(|(_, elements)| Foundation { elements, ..Foundation::default() });
         let shapes = base.foundations().zip(base.outlines());
         let footings = shapes.map(|((_, own), outline)| Footing::new(patch, own, outline));
         let mut state = Self {

@@ -37,7 +37,7 @@ pub struct Checkpoint {
     format: u32,
     identity: Identity,
     steps: usize,
-    /// Per element: which of its law's modes, and whether it has been open.
+    /// For each element, the number of its mode among its law's, and whether it has been open.
     modes: Vec<(usize, bool)>,
     /// Memory of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -59,7 +59,7 @@ pub struct Checkpoint {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 struct Identity {
     dofs: usize,
-    /// Whether a energy balance is kept.
+    /// Whether an energy balance is kept.
     energy_balance: bool,
     probes: Vec<String>,
     /// Ends of the state variables of each element's law; empty if no law has any.
@@ -313,7 +313,7 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance:
     }
 }
 
-/// Every number that a step leaves to the next in so many directions, always in this order.
+/// Every number that a step leaves to the next, for two or three directions, always in this order.
 fn numbers<'a>(
     directions: usize,
     state: &'a mut State,

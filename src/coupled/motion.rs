@@ -7,7 +7,7 @@ use super::scene::influence::Influence;
 use super::scene::operators::Model;
 use super::scene::transformation::{Transformation, Weights};
 use super::scheme::SchemeCoefficients;
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, at_least, finite, positive, same_length};
 use crate::motion::Record;
 use crate::structure::DofCombination;
 
@@ -207,10 +207,8 @@ impl Load {
     /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers
     /// that are not finite or times that do not ascend.
     pub fn table(row: impl Into<DofCombination>, times: &[f64], forces: &[f64]) -> Result<Self> {
-        let sizes = |found, needed| Error::Size { quantity: "table of a load", found, needed };
-        if times.len() != forces.len() || times.is_empty() {
-            return Err(sizes(forces.len(), times.len().max(1)));
-        }
+        at_least("table of a load", times.len(), 1)?;
+        same_length("table of a load", forces.len(), times.len())?;
         for (time, force) in times.iter().zip(forces) {
             finite("time of a load", *time)?;
             finite("value of a load", *force)?;

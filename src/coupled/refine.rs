@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use super::run::clock;
-use crate::error::{Error, Result, all_finite, positive, same_length};
+use crate::error::{Result, all_finite, at_least, positive, same_length};
 use crate::text::table::Table;
 
 /// Orders of convergence that differences are extrapolated with: observed ones beyond are not those
@@ -104,9 +104,9 @@ pub struct Refinement {
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`] unless there is an element and the time step is above zero, [`Error::Size`]
-/// unless every run gives as many results, at least one, [`Error::NotFinite`] if one of them is not
-/// finite, and whatever `scene` returns.
+/// [`Error::Input`](crate::Error::Input) unless there is an element and the time step is above zero,
+/// [`Error::Size`](crate::Error::Size) unless every run gives as many results, at least one,
+/// [`Error::NotFinite`](crate::Error::NotFinite) if one of them is not finite, and whatever `scene` returns.
 pub fn refine(
     elements: usize,
     time_step: f64,
@@ -122,9 +122,7 @@ pub fn refine(
         let begin = clock();
         let results = scene(elements, time_step)?;
         let wall = begin.map_or(Duration::ZERO, |begin| begin.elapsed());
-        if results.is_empty() {
-            return Err(Error::Size { quantity: NAME, found: 0, needed: 1 });
-        }
+        at_least(NAME, results.len(), 1)?;
         if let Some(first) = settings.first() {
             same_length(NAME, results.len(), first.results.len())?;
         }

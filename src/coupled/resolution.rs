@@ -24,23 +24,22 @@
 //! (its r within 0.95 and 1.1 of the ground's) and 0.9 r² elsewhere, and runs warn from 5 % on even
 //! within the limits above.
 //!
-//! Measured with 108 scenes at six steps from 3 to 100 ms (rigid blocks, shear buildings, walls of finite
-//! elements; c_S 120 to 600 m/s; bonded and with friction 0.5; El Centro and Ricker pulses of 1 and 3 Hz), against
-//! halved steps down to 1.6 ms, extrapolated (Richardson). Where it is more than 3 %, the estimate is half
-//! the error or more in nine cases of ten, within a factor of three in three of four; at the worst the error is 7.5 times as
-//! large: in lightly damped rocking, whose radiation the steps overestimate. Of 579 runs with r below one 213 warn
-//! (13 of them err by less than 2 %, 42 by less than 5 %), 13 that err by more than 10 % do not, nor 6 beyond
-//! 15 %. Half the step tells what no estimate does.
+//! Measured with 108 scenes at six steps from 3 to 100 ms (rigid blocks, shear buildings, walls of finite elements; c_S
+//! 120 to 600 m/s; bonded and with friction 0.5; El Centro and Ricker pulses of 1 and 3 Hz), against halved steps down
+//! to 1.6 ms, extrapolated (Richardson). Where it is more than 3 %, the estimate is half the error or more in nine
+//! cases of ten, within a factor of three in three of four; at the worst the error is 7.5 times as large: in lightly
+//! damped rocking, whose radiation the steps overestimate. Of 579 runs with r below one 213 warn (13 of them err by
+//! less than 2 %, 42 by less than 5 %), 13 that err by more than 10 % do not, nor 6 beyond 15 %. Half the step tells
+//! what no estimate does.
 //!
-//! For elements, on the half-plane with 1 to 24 elements: one under a foundation has no stiffness in
-//! rocking (series off by 28 to 104 %), two are off by 16 to 123 %, three by 16 to 97 % where the base
-//! moment exceeds half of base shear times width. Waves that run along the base need four elements per
-//! wavelength of the shear wave; where the free field is the same everywhere, long elements do no harm. In plan twelve
-//! cells per wavelength leave 1.6 % of the rocking impedance of a rigid mat, whatever runs along it: the edge is theirs,
-//! so that of unions the narrowest count.
+//! For elements, on the half-plane with 1 to 24 elements: one under a foundation has no stiffness in rocking (series
+//! off by 28 to 104 %), two are off by 16 to 123 %, three by 16 to 97 % where the base moment exceeds half of base
+//! shear times width. Waves that run along the base need four elements per wavelength of the shear wave; where the free
+//! field is the same everywhere, long elements do no harm. In plan twelve cells per wavelength leave 1.6 % of the
+//! rocking impedance of a rigid mat, whatever runs along it: the edge is theirs, so that of unions the narrowest count.
 //!
-//! In plan, steps also damp rocking that only radiation damps. Largest base shear of bonded cuboids, 10 m square and 3, 10
-//! and 20 m high, under El Centro on soil with c_S from 200 to 1500 m/s, by steps over the time in which shear waves
+//! In plan, steps also damp rocking that only radiation damps. Largest base shear of bonded cuboids, 10 m square and 3,
+//! 10 and 20 m high, under El Centro on soil with c_S from 200 to 1500 m/s, by steps over the time in which shear waves
 //! cross the base: 0.1: −0.6 %, 0.2: −1 to −3 %, 0.4: −4 to −9 %, 0.8: −10 to −25 %; of the lowest one, which follows
 //! the ground, 1 % at most.
 

@@ -269,8 +269,8 @@ impl Simulation {
     /// most for the exponentials.
     ///
     /// # Errors
-    /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the structure cannot save its
-    /// state.
+    /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the
+    /// structure cannot save its state.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -310,9 +310,9 @@ impl Simulation {
     /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
     /// wherever this one is; what follows is the same to the last bit on the same processor.
     ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, initial and ground motion, gravity and laws
-    /// are not, nor what a user's structure leaves out of what it [saves][`save`]. The
-    /// transitions, trials and method of the step before the checkpoint are not kept.
+    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, initial and ground motion,
+    /// gravity and laws are not, nor what a user's structure leaves out of what it [saves][`save`]. The transitions,
+    /// trials and method of the step before the checkpoint are not kept.
     ///
     /// # Errors
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with

@@ -43,7 +43,7 @@ impl Transition {
 /// Forces of one foundation on the soil, and motion of its base.
 ///
 /// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
@@ -80,26 +80,6 @@ pub struct Foundation {
     /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub twist: f64,
-}
-
-impl Foundation {
-    pub(crate) fn new(elements: std::ops::Range<usize>) -> Self {
-        Self {
-            elements,
-            base_shear: 0.0,
-            base_moment: 0.0,
-            normal_force: 0.0,
-            uplifted_fraction: 0.0,
-            mean_slip: 0.0,
-            base_rotation: 0.0,
-            shear_across: 0.0,
-            moment_across: 0.0,
-            torque: 0.0,
-            mean_slip_across: 0.0,
-            rotation_across: 0.0,
-            twist: 0.0,
-        }
-    }
 }
 
 /// Data of the simulation that results of a state need; two states are compared without them.

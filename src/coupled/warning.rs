@@ -5,6 +5,7 @@ use std::fmt;
 use super::energy_balance::EnergyBalance;
 use super::scene::Scene;
 use crate::bem::Ground;
+use crate::error::along;
 use crate::motion::{FreeField, STANDARD_GRAVITY};
 use crate::soil::Soil;
 
@@ -144,8 +145,8 @@ pub enum Warning {
         /// Largest component at any step, m/s².
         acceleration: f64,
     },
-    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear, where waves run along
-    /// the base; in plan cells longer than a twelfth.
+    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear, where waves run
+    /// along the base; in plan cells longer than a twelfth.
     LongElements {
         /// Longest element, m; in plan the narrowest along x or along y.
         element_length: f64,
@@ -173,7 +174,8 @@ impl Warning {
     /// Densities of soils, kg/m³.
     const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
 
-    /// Period above which a structure is unusually slow, s: only the tallest towers and liquid in wide tanks are slower.
+    /// Period above which a structure is unusually slow, s: only the tallest towers and liquid in wide tanks are
+    /// slower.
     const LONGEST_PERIOD: f64 = 8.0;
     /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
     const LARGEST_ACCELERATION: f64 = 60.0;
@@ -346,11 +348,6 @@ impl fmt::Display for Warning {
             ),
         }
     }
-}
-
-/// The axis that is meant, in plan.
-fn along(axis: Option<char>) -> String {
-    axis.map_or(String::new(), |axis| format!(" along {axis}"))
 }
 
 fn within([least, most]: [f64; 2], value: f64) -> bool {

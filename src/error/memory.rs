@@ -2,8 +2,6 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{Error, Result};
-
 /// A size for which more memory would be needed than is allowed: by [`memory_limit`](crate::memory_limit) for what is
 /// given, by [`HistoryOptions::memory`](crate::history::HistoryOptions::memory) for a convolution history. Nothing was
 /// allocated.
@@ -45,10 +43,9 @@ pub fn memory_limit() -> u64 {
 /// Sets the limit (bytes) for the whole process: to what the machine has, less what else runs on
 /// it.
 ///
-/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of
-/// a record, convolution weights of layered ground) are compared with it before anything is allocated: a
-/// [`MemoryError`] says what they would take. It is an estimate for each part by itself, no account of all
-/// that a program holds.
+/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a record,
+/// convolution weights of layered ground) are compared with it before anything is allocated: a [`MemoryError`] says
+/// what they would take. It is an estimate for each part by itself, not a count of all that a program holds.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -77,81 +74,6 @@ pub(crate) fn check(
     } else {
         Err(MemoryError { quantity, asked, needed, limit, remedy })
     }
-}
-
-// Checks of numbers and sizes.
-
-/// Writes a file, in a folder that is made if it is not there.
-pub(crate) fn write_file(path: &std::path::Path, content: impl AsRef<[u8]>) -> Result<()> {
-    path.parent()
-        .map_or(Ok(()), std::fs::create_dir_all)
-        .and_then(|()| std::fs::write(path, content))
-        .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
-}
-
-/// `value` if what is `needed` of it `holds`.
-pub(crate) fn require(
-    quantity: &'static str,
-    value: f64,
-    holds: bool,
-    needed: &'static str,
-) -> Result<f64> {
-    if holds { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
-}
-
-/// `value` if it is finite and above zero.
-pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64> {
-    require(quantity, value, value.is_finite() && value > 0.0, "finite and above zero")
-}
-
-/// `value` if it is finite and not below zero.
-pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
-    require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
-}
-
-/// `value` if it is a damping ratio: that of critical damping is 1, and 5 % are 0.05.
-pub(crate) fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
-    require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
-}
-
-/// `value` if it is finite.
-pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
-    require(quantity, value, value.is_finite(), "finite")
-}
-
-/// The first of `values` that is not finite, with its place.
-pub(crate) fn not_finite(values: &[f64]) -> Option<(usize, f64)> {
-    values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
-}
-
-/// Refuses `values` of which one is not finite.
-pub(crate) fn all_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
-    match not_finite(values) {
-        None => Ok(()),
-        Some((index, value)) => Err(Error::NotFinite { quantity, index, value }),
-    }
-}
-
-/// Error unless `found == needed`.
-pub(crate) fn same_length(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
-    if found == needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
-}
-
-impl Error {
-    /// [`Error::Name`] for a name that none of `known` is.
-    pub(crate) fn no_name<T: Into<String>>(
-        quantity: &'static str,
-        name: &str,
-        known: impl Iterator<Item = T>,
-    ) -> Self {
-        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
-    }
-}
-
-/// The first twelve of the names that there are.
-pub(crate) fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(12)].join(", ");
-    if known.is_empty() { listed } else { format!(", only {listed}") }
 }
 
 #[cfg(test)]

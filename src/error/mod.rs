@@ -13,24 +13,24 @@ mod part;
 mod plan;
 mod progress;
 mod record;
-mod site;
+mod requirement;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
 #[cfg(feature = "io")]
 pub use input_file::{MatrixFileError, MeshFileError};
-pub use layered::{KernelFileError, LayeredError};
+pub use layered::{KernelFileError, LayeredError, SiteError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
-pub(crate) use memory::{
-    all_finite, damping_ratio, finite, names, not_finite, not_negative, positive, require,
-    same_length, write_file,
-};
 pub use part::{LawError, ReducedError};
 pub use plan::PlanError;
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub use record::RecordError;
-pub use site::SiteError;
+pub(crate) use requirement::{
+    all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
+    positive, require, require_part, same_length, write_file,
+};
+pub(crate) use step::along;
 pub use step::{CheckpointError, StabilityError, StepError};
 
 /// Result of every fallible function of the crate.
@@ -38,9 +38,9 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Faults of this crate, with the quantity, its value and the requirement.
 ///
-/// Printed, an error is complete: its text contains that of the error behind it, which is in a field
-/// and not in [`source`](std::error::Error::source), so that chains of sources do not repeat it. `Debug` prints the same
-/// text: that is what `unwrap` and a `main` that returns [`Result`] show.
+/// Printed, an error is complete: its text contains that of the error behind it, which is in a field and not in
+/// [`source`](std::error::Error::source), so that chains of sources do not repeat it. `Debug` prints the same text:
+/// that is what `unwrap` and a `main` that returns [`Result`] show.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

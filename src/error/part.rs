@@ -62,7 +62,8 @@ pub enum LawError {
     NotFinite {
         /// Element, from the left, from 0.
         element: usize,
-        /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode that the law was asked about; for its memory, the mode that the step ends in.
+        /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode that the law was asked about; for its
+        /// memory, the mode that the step ends in.
         mode: &'static str,
         /// Name of the quantity.
         quantity: &'static str,

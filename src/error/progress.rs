@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::{Error, Result};
 
-/// Progress of a long call: so many parts of its work are done, of so many in all.
+/// Progress of a long call: the parts of its work that are done, and all of them.
 ///
 /// `done` never falls, and ends at `total`, which does not change during a call. Parts take about the same time
 /// each.

@@ -50,7 +50,8 @@ pub enum StepError {
         iterations: usize,
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
-        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the contact modes of the last iteration, left to right.
+        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the contact modes of the last iteration, left to
+        /// right.
         modes: Vec<&'static str>,
     },
     /// The ground could not give its history.
@@ -218,14 +219,14 @@ pub enum StabilityError {
         across: Option<[f64; 2]>,
         /// In plan: `x` if it overturns to the left or the right, `y` if to the front or the back.
         axis: Option<char>,
-        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan that which raises
-        /// what lies ahead along the axis.
+        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan positive if it
+        /// lifts the side to which the axis points.
         moment: f64,
         /// Normal force, N/m.
         normal: f64,
         /// Distance of the resultant from the middle of the base, positive to the right, in plan along the axis, m.
         eccentricity: f64,
-        /// That over half the width; in plan, of a base that is no rectangle, over the distance to its edge.
+        /// Eccentricity over half the width; in plan, for a base that is no rectangle, over the distance to its edge.
         ratio: f64,
     },
     /// The bearing pressure of the interface does not carry the weight.
@@ -315,7 +316,7 @@ fn grip(elements: usize, reach: [f64; 2], axis: char) -> String {
     }
 }
 
-/// The base that is meant.
+/// Text that names the base in a message.
 fn on([left, right]: [f64; 2], across: Option<[f64; 2]>) -> String {
     let depth = across.map_or(String::new(), |[front, back]| format!(", y = {front} to {back} m"));
     format!(" (base from x = {left} to {right} m{depth})")
@@ -326,8 +327,8 @@ fn force(across: Option<[f64; 2]>) -> &'static str {
     if across.is_some() { "N" } else { "N/m" }
 }
 
-/// The axis that is meant, in plan.
-fn along(axis: Option<char>) -> String {
+/// Text that names the axis in plan, empty in the plane.
+pub(crate) fn along(axis: Option<char>) -> String {
     axis.map_or(String::new(), |axis| format!(" along {axis}"))
 }
 

@@ -1,4 +1,4 @@
-//! From element matrices to those of the whole mesh.
+//! Assembly of element matrices into those of the whole mesh.
 
 use super::element::{Element, MassKind};
 use super::mesh::Mesh;
@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::geometry::Direction;
 use crate::linalg::Triplets;
 
-/// Which matrix of the elements is meant.
+/// Matrix of the elements that is assembled.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Quantity {
     Stiffness,

@@ -121,7 +121,7 @@ impl Beam {
         [0.0, near(s, t), turn(s, t), 0.0, near(t, s), -turn(t, s)]
     }
 
-    /// Its slope along the beam, 1/m.
+    /// Slope of the deflection along the beam, 1/m.
     fn slope(ratio: f64, length: f64, s: f64) -> [f64; 6] {
         let t = 1.0 - s;
         let scale = 1.0 / (length * (1.0 + ratio));

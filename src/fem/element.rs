@@ -1,6 +1,6 @@
 //! The trait of finite elements, and their material.
 
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{Result, finite, not_negative, positive, require};
 use crate::geometry::Direction;
 
 /// Distribution of an element's mass over its degrees of freedom.
@@ -9,10 +9,10 @@ use crate::geometry::Direction;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum MassKind {
-    /// With the same shape functions as the stiffness: a full matrix.
+    /// Mass by the shape functions of the stiffness: a full matrix.
     #[default]
     Consistent,
-    /// At the nodes: a diagonal matrix of the same total mass.
+    /// Mass at the nodes: a diagonal matrix of the same total mass.
     Lumped,
 }
 
@@ -54,7 +54,7 @@ words! { MassKind, "kind of mass", {
 /// ```
 #[auto_impl::auto_impl(Box)]
 pub trait Element: Send + Sync {
-    /// Its nodes, as indices into the mesh.
+    /// Nodes of the element, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 
     /// The degrees of freedom it uses, the same ones at each of its nodes.
@@ -153,17 +153,13 @@ impl Material {
     /// E and ν are those of the solid; the plane-strain stiffness follows from them.
     ///
     /// # Errors
-    /// [`Error::Input`] unless E > 0, −1 < ν < 0.5, ρ ≥ 0, all finite.
+    /// [`Error::Input`](crate::Error::Input) unless E > 0, −1 < ν < 0.5, ρ ≥ 0, all finite.
     pub fn new(young_modulus: f64, poisson: f64, density: f64) -> Result<Self> {
         positive("Young's modulus", young_modulus)?;
         not_negative("density of the material", density)?;
-        if !(poisson > -1.0 && poisson < 0.5) {
-            return Err(Error::Input {
-                quantity: "Poisson's ratio of the material",
-                value: poisson,
-                needed: "above -1 and below 0.5",
-            });
-        }
+        let quantity = "Poisson's ratio of the material";
+        let needed = "above -1 and below 0.5";
+        require(quantity, poisson, poisson > -1.0 && poisson < 0.5, needed)?;
         let material = Self { young_modulus, poisson, density };
         finite("plane-strain modulus of the material", material.elasticity()[0][0])?;
         Ok(material)

@@ -6,7 +6,10 @@ use std::sync::Arc;
 
 use super::element::{Element, MassKind, Material};
 use super::quad4::{Quad4, QuadFormulation};
-use crate::error::{Error, MemoryError, Result, finite, memory, not_negative, positive};
+use crate::error::{
+    Error, MemoryError, Result, at_least, finite, in_bounds, memory, not_negative, positive,
+    require_part,
+};
 
 /// Farthest that a node may be from where it is looked for, over the size of the mesh: far below
 /// any element, far above the rounding of a coordinate.
@@ -72,24 +75,11 @@ impl Mesh {
     /// [`Element::check`] finds.
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
         let nodes = element.nodes();
-        if element.order() == 0 {
-            return Err(Error::Size {
-                quantity: "degrees of freedom of the element",
-                found: 0,
-                needed: 1,
-            });
-        }
-        if repeats(nodes) || repeats(element.directions()) {
-            return Err(Error::Scene {
-                quantity: "nodes and directions of the element",
-                needed: "each only once",
-            });
-        }
+        at_least("degrees of freedom of the element", element.order(), 1)?;
+        let differ = !(repeats(nodes) || repeats(element.directions()));
+        require_part("nodes and directions of the element", differ, "each only once")?;
         for &index in nodes {
-            if index >= self.nodes.len() {
-                let bound = self.nodes.len();
-                return Err(Error::Index { quantity: "node of the element", index, bound });
-            }
+            in_bounds("node of the element", index, self.nodes.len())?;
         }
         element.check(&self.coordinates(nodes))?;
         let key = place(&element);
@@ -243,10 +233,10 @@ impl Mesh {
             let points: Vec<[f64; 2]> =
                 element.nodes().iter().map(|&index| self.nodes[index]).collect();
             let Some(changed) = other(element.as_ref(), &points) else { continue };
-            if changed.nodes() != element.nodes() || changed.directions() != element.directions() {
-                let quantity = "element in the static state";
-                return Err(Error::Scene { quantity, needed: "its own nodes and directions" });
-            }
+            let is_like =
+                changed.nodes() == element.nodes() && changed.directions() == element.directions();
+            let needed = "its own nodes and directions";
+            require_part("element in the static state", is_like, needed)?;
             *element = Arc::from(changed);
         }
         Ok(())
@@ -281,7 +271,7 @@ pub struct Layer {
     pub height: f64,
     /// Rows of elements, of equal height.
     pub rows: usize,
-    /// Its material.
+    /// Material of the layer.
     pub material: Material,
     /// Integration of its quadrilaterals.
     pub formulation: QuadFormulation,
@@ -293,7 +283,7 @@ impl Layer {
         Self { height, rows, material, formulation: QuadFormulation::default() }
     }
 
-    /// The same layer with another formulation of its quadrilaterals.
+    /// Sets the formulation of the layer's quadrilaterals.
     #[must_use]
     pub fn with_formulation(self, formulation: QuadFormulation) -> Self {
         Self { formulation, ..self }
@@ -337,13 +327,8 @@ impl Mesh {
     /// # Errors
     /// As for [`Mesh::layered_block`]; [`Error::Input`] also when the grid does not ascend.
     pub fn graded_block(grid: &[f64], layers: &[Layer]) -> Result<Self> {
-        if grid.len() < 2 {
-            let (found, needed) = (grid.len(), 2);
-            return Err(Error::Size { quantity: "grid lines of the block", found, needed });
-        }
-        if layers.is_empty() {
-            return Err(Error::Size { quantity: "layers of the block", found: 0, needed: 1 });
-        }
+        at_least("grid lines of the block", grid.len(), 2)?;
+        at_least("layers of the block", layers.len(), 1)?;
         for &line in grid {
             finite("grid line of the block", line)?;
         }
@@ -356,9 +341,7 @@ impl Mesh {
         let mut base = 0.0;
         for layer in layers {
             positive("height of a layer", layer.height)?;
-            if layer.rows == 0 {
-                return Err(Error::Size { quantity: "rows of a layer", found: 0, needed: 1 });
-            }
+            at_least("rows of a layer", layer.rows, 1)?;
             for row in 1..=layer.rows {
                 let y = base + layer.height * (row as f64 / layer.rows as f64);
                 let upper = add_row(&mut mesh, grid, y)?;

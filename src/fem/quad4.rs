@@ -1,7 +1,7 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
 use super::element::{Element, MassKind, Material, add_square};
-use crate::error::{Error, Result, same_length};
+use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 use crate::linalg::gauss;
 
@@ -180,18 +180,14 @@ impl Element for Quad4 {
         add_square(matrix, &block);
     }
 
-    /// [`Error::Input`] unless the quadrilateral is convex and its nodes run counter-clockwise.
+    /// [`Error::Input`](crate::Error::Input) unless the quadrilateral is convex and its nodes run counter-clockwise.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
         same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
         for corner in CORNERS {
             let value = Jacobian::at(corner, coordinates).determinant;
-            if !(value.is_finite() && value > 0.0) {
-                return Err(Error::Input {
-                    quantity: "Jacobian at a corner of a quadrilateral",
-                    value,
-                    needed: "above zero: convex, nodes counter-clockwise",
-                });
-            }
+            let quantity = "Jacobian at a corner of a quadrilateral";
+            let needed = "above zero: convex, nodes counter-clockwise";
+            require(quantity, value, value.is_finite() && value > 0.0, needed)?;
         }
         Ok(())
     }

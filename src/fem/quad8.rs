@@ -1,7 +1,7 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
 use super::element::{Element, MassKind, Material, add_square};
-use crate::error::{Error, Result, same_length};
+use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 use crate::linalg::gauss;
 
@@ -196,19 +196,15 @@ impl Element for Quad8 {
         add_square(matrix, &block);
     }
 
-    /// [`Error::Input`] unless the element's map is regular at its nodes and Gauss points.
+    /// [`Error::Input`](crate::Error::Input) unless the element's map is regular at its nodes and Gauss points.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
         same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
         let points = gauss::square(Quad8Integration::Full.order()).map(|(point, _)| point);
         for point in points.chain(PLACES) {
             let value = slopes(point, coordinates).1;
-            if !(value.is_finite() && value > 0.0) {
-                return Err(Error::Input {
-                    quantity: "Jacobian of an eight-node quadrilateral",
-                    value,
-                    needed: "above zero: nodes counter-clockwise, those of edges near the middle",
-                });
-            }
+            let quantity = "Jacobian of an eight-node quadrilateral";
+            let needed = "above zero: nodes counter-clockwise, those of edges near the middle";
+            require(quantity, value, value.is_finite() && value > 0.0, needed)?;
         }
         Ok(())
     }

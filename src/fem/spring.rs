@@ -28,7 +28,8 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// Spring that sees the relative motion of two nodes in one `direction`; `coefficient` in N/m (N m/rad for rotations) per metre of thickness.
+    /// Spring that sees the relative motion of two nodes in one `direction`; `coefficient` in N/m (N m/rad for
+    /// rotations) per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -37,7 +38,8 @@ impl Spring {
         Ok(Self { nodes, directions: vec![direction], coefficient })
     }
 
-    /// Spring that sees the change of distance between two nodes; `coefficient` in N/m (N m/rad for rotations) per metre of thickness.
+    /// Spring that sees the change of distance between two nodes; `coefficient` in N/m (N m/rad for rotations) per
+    /// metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -60,7 +62,7 @@ impl Element for Spring {
         pair(&self.directions, self.coefficient, coordinates, matrix);
     }
 
-    /// None.
+    /// Adds nothing.
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial spring coincide.
@@ -109,7 +111,8 @@ pub struct Dashpot {
 }
 
 impl Dashpot {
-    /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for
+    /// rotations) per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -118,7 +121,8 @@ impl Dashpot {
         Ok(Self { nodes, directions: vec![direction], coefficient })
     }
 
-    /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per
+    /// metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -137,10 +141,10 @@ impl Element for Dashpot {
         &self.directions
     }
 
-    /// None.
+    /// Adds nothing.
     fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
-    /// None.
+    /// Adds nothing.
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
@@ -203,7 +207,7 @@ impl Element for LumpedMass {
         if self.rotary_inertia > 0.0 { FRAME } else { TRANSLATIONS }
     }
 
-    /// None.
+    /// Adds nothing.
     fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, matrix: &mut [f64]) {

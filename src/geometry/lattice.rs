@@ -61,8 +61,8 @@ impl Lattice {
         (i * rows - i * (i + 1) / 2 + j, exchanged)
     }
 
-    /// Class of an offset, and per component of the receiver's displacement (down, along x, along y) and of the source's
-    /// traction the series and its factor: for a receiver that is `offset` cells from the source.
+    /// Class of an offset, and per component of the receiver's displacement (down, along x, along y) and of the
+    /// source's traction the series and its factor: for a receiver that is `offset` cells from the source.
     pub(crate) fn terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
         let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
         let [right, away] = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });

@@ -7,7 +7,7 @@ mod lattice;
 pub(crate) use footing::{Edge, Footing};
 pub(crate) use lattice::{Lattice, SERIES, offset};
 
-use crate::error::{Error, MemoryError, Result, finite, memory, positive};
+use crate::error::{Error, MemoryError, Result, at_least, finite, memory, positive, require};
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ pub(crate) struct ContactLayout {
 }
 
 impl ContactLayout {
-    /// For elements with so many components: [`PLANE`] or [`SPACE`].
+    /// Layout of elements with [`PLANE`] or [`SPACE`] components each.
     pub(crate) const fn new(components: usize, elements: usize) -> Self {
         Self { components, elements }
     }
@@ -128,18 +128,18 @@ pub(crate) struct Patch {
 }
 
 impl Patch {
-    /// Elements of a ground with so many directions, that reach from front to back along y (m), and of whose areas
-    /// these parts are inside the outline; an error unless they have a size and do not overlap, in the plane from left
-    /// to right.
+    /// Elements of a ground with this number of directions, with their `depths` from front to back along y (m) and the
+    /// fractions of their areas inside the outline; an error unless they have a size and do not overlap, in the plane
+    /// from left to right.
     pub(crate) fn new(
         components: usize,
         elements: Vec<ContactElement>,
         depths: Vec<[f64; 2]>,
         inside: Vec<f64>,
     ) -> Result<Self> {
-        if let Some(&value) = inside.iter().find(|part| !(**part > 0.0 && **part <= 1.0)) {
+        for &part in &inside {
             let quantity = "fraction of an element inside the outline";
-            return Err(Error::Input { quantity, value, needed: "above 0 and at most 1" });
+            require(quantity, part, part > 0.0 && part <= 1.0, "above 0 and at most 1")?;
         }
         match components {
             PLANE => check_order(&elements)?,
@@ -242,7 +242,7 @@ impl std::ops::Deref for Patch {
 /// elements: 202 to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
 const BYTES_PER_PAIR: f64 = 400.0;
 
-/// Error for so many elements with so many components that the matrices between them would not fit into memory.
+/// Error for more elements, with this number of components each, than fit into memory with the matrices between them.
 pub(crate) fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
     let numbers = count * (components as f64 / PLANE as f64);
@@ -251,9 +251,7 @@ pub(crate) fn check_count(count: usize, components: usize) -> std::result::Resul
 
 /// Error unless each element has finite ends, the left one first, and there are not too many.
 fn check_lengths(elements: &[ContactElement], components: usize) -> Result<()> {
-    if elements.is_empty() {
-        return Err(Error::Size { quantity: "list of contact elements", found: 0, needed: 1 });
-    }
+    at_least("list of contact elements", elements.len(), 1)?;
     check_count(elements.len(), components)?;
     for element in elements {
         finite("left end of a contact element", element.left)?;
@@ -271,13 +269,9 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
     check_lengths(elements, PLANE)?;
     for pair in elements.windows(2) {
         let overlap = pair[0].right - pair[1].left;
-        if overlap > OVERLAP * pair[0].length().min(pair[1].length()) {
-            return Err(Error::Input {
-                quantity: "left end of a contact element",
-                value: pair[1].left,
-                needed: "at or right of the end of the element before it",
-            });
-        }
+        let is_apart = overlap <= OVERLAP * pair[0].length().min(pair[1].length());
+        let needed = "at or right of the end of the element before it";
+        require("left end of a contact element", pair[1].left, is_apart, needed)?;
     }
     Ok(())
 }
@@ -300,13 +294,9 @@ fn check_cells(elements: &[ContactElement], depths: &[[f64; 2]]) -> Result<()> {
                 break;
             }
             let across = back.min(*far) - front.max(*near);
-            if across > OVERLAP * (back - front).min(far - near) {
-                return Err(Error::Input {
-                    quantity: "left end of a contact element",
-                    value: other.left,
-                    needed: "beside or behind all others: elements do not overlap",
-                });
-            }
+            let is_apart = across <= OVERLAP * (back - front).min(far - near);
+            let needed = "beside or behind all others: elements do not overlap";
+            require("left end of a contact element", other.left, is_apart, needed)?;
         }
     }
     Ok(())

@@ -49,7 +49,7 @@ pub enum HistoryMethod {
     ///    (that of [`HistoryOptions`](super::HistoryOptions)), or if the number of steps is not known, as
     ///    long as they do;
     /// 3. otherwise the exponentials, with their own tolerance; or the transforms all the same,
-    ///    where the exponentials cannot be had.
+    ///    where exponentials are not possible.
     ///
     /// Runs that go on beyond the steps known keep an exact history only up to the memory allowed, and
     /// then the exponentials (3.), which take over all that was before.
@@ -87,8 +87,7 @@ pub enum ChoiceReason {
     Rounding,
     /// An exact history would take more memory than is allowed.
     MemoryLimit,
-    /// An exact history takes more memory than is allowed, but the exponentials cannot be had, or
-    /// would take more still.
+    /// An exact history takes more memory than is allowed, but exponentials are not possible, or would take more still.
     NoExponentials,
 }
 
@@ -266,8 +265,8 @@ impl Estimate {
         }
     }
 
-    /// Bytes of a window of so many lags with the inputs in it, and of the lags themselves while
-    /// the exponentials behind it are made.
+    /// Bytes of a window of this number of lags with the inputs in it, and of the lags themselves while the
+    /// exponentials behind it are made.
     pub(super) fn window(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
         let classes = kernel.classes();
         let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
@@ -319,7 +318,7 @@ impl Estimate {
         Self { memory, cost, making }
     }
 
-    /// Multiply–adds of a run of so many steps.
+    /// Multiply–adds of a run of `steps`.
     pub(super) fn of_run(&self, steps: usize) -> f64 {
         self.making + self.cost * steps as f64
     }

@@ -19,8 +19,8 @@ pub(super) struct LastLag {
 }
 
 impl LastLag {
-    /// The least power of two beyond which all coefficients together are less than `tolerance` of all; `None` if that is
-    /// not seen in the lags up to `most`. It depends on nothing else, so that it is the same however far is looked.
+    /// The least power of two beyond which all coefficients together are less than `tolerance` of all; `None` if that
+    /// is not seen in the lags up to `most`. It depends on nothing else, so that it is the same however far is looked.
     pub(super) fn of(
         kernel: &dyn ConvolutionWeights,
         tolerance: f64,

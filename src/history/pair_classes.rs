@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Mul;
 
-use crate::error::{Error, Result, require};
+use crate::error::{Result, in_bounds, require};
 use crate::geometry::{
     ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
 };
@@ -68,8 +68,8 @@ impl PairClasses {
     /// Classes of the pairs of `elements` (left to right, not overlapping).
     ///
     /// # Errors
-    /// [`Error::Size`] for no elements, [`Error::Input`] for lengths not positive or shorter than
-    /// 1e-8 of the patch, or elements out of order.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for lengths not
+    /// positive or shorter than 1e-8 of the patch, or elements out of order.
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
@@ -150,13 +150,10 @@ impl PairClasses {
     /// right of it.
     ///
     /// # Errors
-    /// [`Error::Index`] for a class that does not exist.
+    /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
     pub fn representative(&self, class: usize) -> Result<[ContactElement; 2]> {
-        self.representatives.get(class).copied().ok_or(Error::Index {
-            quantity: "class of element pairs",
-            index: class,
-            bound: self.representatives.len(),
-        })
+        let all = &self.representatives;
+        Ok(all[in_bounds("class of element pairs", class, all.len())?])
     }
 
     /// Order of the numbers of a contact vector.
@@ -232,8 +229,8 @@ impl PairClasses {
         hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[least, _]| least)
     }
 
-    /// Whether that of a real symbol is above `bound`, by a factorisation that is much quicker; where it is near, it may
-    /// say no.
+    /// Whether that of a real symbol is above `bound`, by a factorisation that is much quicker; where it is near, it
+    /// may say no.
     pub(crate) fn exceeds<const KINDS: usize>(
         &self,
         bound: f64,

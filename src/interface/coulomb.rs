@@ -1,7 +1,7 @@
 //! Hard unilateral contact with Coulomb friction, constant or variable.
 
 use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
-use crate::error::{Error, Result, not_negative};
+use crate::error::{Result, not_negative, require};
 
 /// Quantity on which the contact conditions of a closed element act.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -56,21 +56,20 @@ validated! {
     => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_unilateral_condition(condition)
 }
 
+/// Error unless `friction` is a coefficient.
+pub(super) fn check_friction(friction: f64) -> Result<()> {
+    let needed = "zero or more (infinite: no sliding)";
+    require("friction coefficient", friction, friction >= 0.0, needed).map(drop)
+}
+
 impl Coulomb {
     /// Law with a friction coefficient of zero or more; infinity means that nothing ever slides.
     ///
     /// # Errors
-    /// [`Error::Input`] for NaN or a negative coefficient.
+    /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.
     pub fn new(friction: f64) -> Result<Self> {
-        if friction >= 0.0 {
-            Ok(Self { friction, tensile_strength: 0.0, condition: UnilateralCondition::Position })
-        } else {
-            Err(Error::Input {
-                quantity: "friction coefficient",
-                value: friction,
-                needed: "zero or more (infinite: no sliding)",
-            })
-        }
+        check_friction(friction)?;
+        Ok(Self { friction, tensile_strength: 0.0, condition: UnilateralCondition::Position })
     }
 
     /// Law that opens but never slides (infinite friction).
@@ -96,7 +95,7 @@ impl Coulomb {
     /// · (p + strength).
     ///
     /// # Errors
-    /// [`Error::Input`] unless finite and not below zero.
+    /// [`Error::Input`](crate::Error::Input) unless finite and not below zero.
     pub fn with_tensile_strength(mut self, strength: f64) -> Result<Self> {
         self.tensile_strength = not_negative("tensile strength of the interface", strength)?;
         Ok(self)
@@ -105,7 +104,7 @@ impl Coulomb {
     /// Sets the [`UnilateralCondition`] of the contact conditions.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `closed_below` is finite and not below zero.
+    /// [`Error::Input`](crate::Error::Input) unless `closed_below` is finite and not below zero.
     pub fn with_unilateral_condition(mut self, condition: UnilateralCondition) -> Result<Self> {
         if let UnilateralCondition::Velocity { closed_below } = condition {
             not_negative("gap below which contact is closed", closed_below)?;

@@ -1,6 +1,6 @@
 //! Limits of an element's tractions, for contact in plan.
 
-use crate::error::{Error, Result, finite, not_negative};
+use crate::error::{Result, finite, not_negative, require};
 
 /// Bounds of the tractions of an element in plan during a step: see
 /// [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
@@ -12,9 +12,9 @@ use crate::error::{Error, Result, finite, not_negative};
 /// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
-/// An element that has opened with a tension, an attraction or a shear strength loses them in that step. Layers give way
-/// by [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick beside. The default is smooth and
-/// hard contact.
+/// An element that has opened with a tension, an attraction or a shear strength loses them in that step. Layers give
+/// way by [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick beside. The default is smooth
+/// and hard contact.
 ///
 /// ```
 /// use basemat::interface::{Coulomb, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
@@ -63,9 +63,7 @@ impl Limits {
         for (quantity, value) in
             [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]
         {
-            if value.is_nan() || value < 0.0 {
-                return Err(Error::Input { quantity, value, needed: "zero or more, or infinite" });
-            }
+            require(quantity, value, value >= 0.0, "zero or more, or infinite")?;
         }
         not_negative("attraction of the interface", self.attraction)?;
         not_negative("shear strength of the interface", self.shear_strength)?;

@@ -317,8 +317,8 @@ pub trait InterfaceLaw: Send {
     }
 
     /// The friction coefficient, for the factor of safety against sliding
-    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)): the base resists by this times the pressure.
-    /// Infinite for a law that never slides, `None` (the default) for one without such a number.
+    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)): the base resists by this times the
+    /// pressure. Infinite for a law that never slides, `None` (the default) for one without such a number.
     fn friction_coefficient(&self) -> Option<f64> {
         None
     }
@@ -342,9 +342,9 @@ pub trait InterfaceLaw: Send {
         Ok(())
     }
 
-    /// Limits of the tractions of an element on a ground in plan, in the step after `start`: modes and conditions are for
-    /// the plane. The direction of slip is mechanics there, along the shear traction, and the law says how far tractions
-    /// go. Asked once per attempted step.
+    /// Limits of the tractions of an element on a ground in plan, in the step after `start`: modes and conditions are
+    /// for the plane. The direction of slip is mechanics there, along the shear traction, and the law says how far
+    /// tractions go. Asked once per attempted step.
     ///
     /// The default is an error that names the law: it is one of the plane alone.
     ///

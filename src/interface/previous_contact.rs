@@ -55,6 +55,15 @@ impl PreviousContact<'_> {
         }
     }
 
+    /// State variables with which `law` begins after this contact.
+    pub(crate) fn first_memory(&self, law: &dyn InterfaceLaw) -> Vec<f64> {
+        let mut memory = vec![0.0; law.state_variables()];
+        if !memory.is_empty() {
+            law.initial_state_variables(self, &mut memory);
+        }
+        memory
+    }
+
     /// This contact with other state variables: for a law made of others, each of which owns a part of them.
     #[must_use]
     pub(crate) fn with_memory(self, memory: &[f64]) -> PreviousContact<'_> {
@@ -126,8 +135,7 @@ impl PreviousContacts {
         for (e, start) in elements.iter().enumerate() {
             let range = starts.memory_range(e);
             if start.memory.is_empty() && !range.is_empty() {
-                let mut memory = vec![0.0; range.len()];
-                law_of(laws, e).initial_state_variables(&starts.of(e), &mut memory);
+                let memory = starts.of(e).first_memory(law_of(laws, e));
                 check_memory(e, start.mode, &memory)?;
                 starts.memory[range].copy_from_slice(&memory);
             } else {

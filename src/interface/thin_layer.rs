@@ -11,10 +11,11 @@
 //! beside them). Its nodal forces are those of tractions D₂₂ g/t and μ s/t on L: a law of one
 //! element's means, with no degrees of freedom of its own.
 
+use super::coulomb::check_friction;
 use super::{
     Condition, ContactScene, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Error, Result, not_negative, positive, require, require_part};
 use crate::soil::Soil;
 
 /// Pressure that limits friction.
@@ -163,13 +164,7 @@ impl ThinLayer {
     pub fn from_stiffness(normal: f64, shear: f64, friction: f64) -> Result<Self> {
         positive("normal stiffness of the thin layer", normal)?;
         positive("shear stiffness of the thin layer", shear)?;
-        if friction.is_nan() || friction < 0.0 {
-            return Err(Error::Input {
-                quantity: "friction coefficient",
-                value: friction,
-                needed: "zero or more (infinite: no sliding)",
-            });
-        }
+        check_friction(friction)?;
         Ok(Self {
             reference: [normal, shear],
             ratio: 1.0,
@@ -277,11 +272,7 @@ impl ThinLayer {
 /// `value` if it is from 0 to 1.
 fn share_of_one(quantity: &'static str, value: f64) -> Result<f64> {
     not_negative(quantity, value)?;
-    if value <= 1.0 {
-        Ok(value)
-    } else {
-        Err(Error::Input { quantity, value, needed: "from 0 to 1" })
-    }
+    require(quantity, value, value <= 1.0, "from 0 to 1")
 }
 
 impl InterfaceLaw for ThinLayer {
@@ -384,12 +375,13 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn check(&self, scene: &ContactScene) -> Result<()> {
-        if self.limit == FrictionLimit::Static && scene.gravity == 0.0 {
-            return Err(Error::Scene {
-                quantity: "friction limited by the static pressure",
-                needed: "there is none without gravity",
-            });
-        }
+        let quantity = "friction limited by the static pressure";
+        let needed = "there is none without gravity";
+        require_part(
+            quantity,
+            self.limit != FrictionLimit::Static || scene.gravity != 0.0,
+            needed,
+        )?;
         Ok(())
     }
 }

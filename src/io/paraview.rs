@@ -1,12 +1,11 @@
 //! Files for ParaView: a `.pvd` collection of `.vtu` grids, one pair for every frame.
 //!
-//! The first grid of a frame is the structure, with the vectors `displacement` (m, change against
-//! the static state, relative to the free field) and `velocity` (m/s, total) at its points: apply
-//! *Warp By Vector* to see it move. The
-//! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and
-//! `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for
-//! every element, with `shear_across` and `slip_across` (along y) and mode 7, slip in any direction. Points are (x, y, 0) in
-//! the plane, y up, and (x, y, z) in plan, z up.
+//! The first grid of a frame is the structure, with the vectors `displacement` (m, change against the static state,
+//! relative to the free field) and `velocity` (m/s, total) at its points: apply *Warp By Vector* to see it move. The
+//! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and `slip` (m) and
+//! `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for every element, with
+//! `shear_across` and `slip_across` (along y) and mode 7, slip in any direction. Points are (x, y, 0) in the plane, y
+//! up, and (x, y, z) in plan, z up.
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -25,7 +24,7 @@
 use std::fmt::{Display, Write};
 use std::path::Path;
 
-use crate::error::{Error, Result, write_file};
+use crate::error::{Error, Result, require_part, write_file};
 use crate::geometry::ContactElement;
 use crate::interface::ContactState;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
@@ -44,24 +43,20 @@ pub fn write_series(
     shape: &DeformedShape,
     histories: &TimeSeries,
 ) -> Result<usize> {
-    if histories.motion_frames().next().is_none() {
-        let needed = "tell the recorder to keep the motion";
-        return Err(Error::Scene { quantity: "series of the structure", needed });
-    }
+    let needed = "tell the recorder to keep the motion";
+    require_part("series of the structure", histories.motion_frames().next().is_some(), needed)?;
     write(folder.as_ref(), name, Some(shape), histories)
 }
 
-/// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`, …),
-/// as [`write_series`] does: for structures without a [`DeformedShape`].
+/// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`,
+/// …), as [`write_series`] does: for structures without a [`DeformedShape`].
 ///
 /// # Errors
-/// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if a
-/// file cannot be written.
+/// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if
+/// a file cannot be written.
 pub fn write_base(folder: impl AsRef<Path>, name: &str, histories: &TimeSeries) -> Result<usize> {
-    if histories.contact_frames().next().is_none() {
-        let needed = "tell the recorder to keep the contact";
-        return Err(Error::Scene { quantity: "series of the base", needed });
-    }
+    let needed = "tell the recorder to keep the contact";
+    require_part("series of the base", histories.contact_frames().next().is_some(), needed)?;
     write(folder.as_ref(), name, None, histories)
 }
 
@@ -72,10 +67,8 @@ fn write(
     histories: &TimeSeries,
 ) -> Result<usize> {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-    if name.is_empty() || !name.chars().all(plain) {
-        let needed = "letters, digits, - and _ only, one at least";
-        return Err(Error::Scene { quantity: "name of a series", needed });
-    }
+    let needed = "letters, digits, - and _ only, one at least";
+    require_part("name of a series", !name.is_empty() && name.chars().all(plain), needed)?;
     let made = std::fs::create_dir_all(folder);
     made.map_err(|e| Error::Write { file: folder.display().to_string(), reason: e.kind() })?;
 
@@ -159,7 +152,7 @@ pub(super) struct Grid<'a> {
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// VTK's number for a cell of so many points (vtkCellType.h).
+/// VTK's number for a cell of this number of points (vtkCellType.h).
 fn cell_type(points: usize) -> u8 {
     match points {
         1 => 1,  // vertex

@@ -189,7 +189,7 @@ impl Complex {
         Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - size))
     }
 
-    /// The same number for transforms and matrices.
+    /// This number for transforms and matrices.
     pub(crate) fn inner(self) -> Complex64 {
         Complex64::new(self.re, self.im)
     }

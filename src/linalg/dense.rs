@@ -247,7 +247,7 @@ pub(crate) fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     })
 }
 
-/// The same for a sparse matrix with its factors.
+/// Condition of a sparse matrix with its factors.
 pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &mut SparseFactor) -> f64 {
     let order = matrix.order();
     let scales = scales(matrix.diagonal().into_iter());

@@ -66,7 +66,7 @@ impl Rule {
         self.nodes.iter().copied().zip(self.weights.iter().copied())
     }
 
-    /// The same on [0, 1].
+    /// Points and weights on [0, 1].
     pub(crate) fn points_on_unit_interval(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         self.points().map(|(x, weight)| (0.5 * (1.0 + x), 0.5 * weight))
     }

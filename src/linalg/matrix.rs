@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use crate::error::{Error, MemoryError, Result, finite, memory, same_length};
+use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::linalg::{Triplets, dense_multiply_add, weighted_dot};
 
 /// Bytes of a degree of freedom in the sparse matrices of a structure, their factor and its states.
@@ -54,10 +54,7 @@ impl SparseMatrix {
         check_order("rows of a matrix", order)?;
         let mut row_start = vec![0; order + 1];
         for &(row, column, value) in triplets.entries() {
-            let index = row.max(column);
-            if index >= order {
-                return Err(Error::Index { quantity: name, index, bound: order });
-            }
+            in_bounds(name, row.max(column), order)?;
             finite(name, value)?;
             row_start[row + 1] += 1;
         }
@@ -236,9 +233,9 @@ impl Deref for Thinned {
 /// A matrix of the equations of motion in the coordinates in which they are stepped.
 #[derive(Debug, Clone)]
 pub(crate) enum Matrix {
-    /// In the structure's own degrees of freedom.
+    /// Matrix in the structure's own degrees of freedom.
     Sparse(SparseMatrix),
-    /// In its modes.
+    /// Diagonal of the matrix in modal coordinates.
     Diagonal(Vec<f64>),
 }
 

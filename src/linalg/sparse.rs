@@ -204,7 +204,7 @@ pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64, floor: f64) 
     SparseFactor::cholesky(&by_columns(&scaled)?).err()
 }
 
-/// The same matrix, compressed by columns.
+/// This matrix, compressed by columns.
 fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
     let order = matrix.order();
     let entries: Vec<_> =

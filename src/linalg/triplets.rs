@@ -1,6 +1,6 @@
 //! The sink into which structures and elements write their matrices.
 
-use crate::error::{Error, Result, same_length};
+use crate::error::{Result, in_bounds, same_length};
 
 /// Square sparse matrix under construction: entries at the same place add up.
 ///
@@ -47,7 +47,7 @@ impl Triplets {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] unless there are `order` times `order` values.
+    /// [`Error::Size`](crate::Error::Size) unless there are `order` times `order` values.
     pub fn from_dense(order: usize, values: &[f64]) -> Result<Self> {
         same_length("dense matrix", values.len(), order.saturating_mul(order))?;
         let entries = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
@@ -67,9 +67,9 @@ impl Triplets {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] unless there are `order + 1` row pointers, as many columns as values, and the
-    /// last pointer is their number; [`Error::Index`] for a first pointer that is not zero, one above the
-    /// next, and a column that does not exist.
+    /// [`Error::Size`](crate::Error::Size) unless there are `order + 1` row pointers, as many columns as values, and
+    /// the last pointer is their number; [`Error::Index`](crate::Error::Index) for a first pointer that is not zero,
+    /// one above the next, and a column that does not exist.
     pub fn from_csr(
         order: usize,
         pointers: &[usize],
@@ -79,19 +79,12 @@ impl Triplets {
         same_length("list of row pointers", pointers.len(), order.saturating_add(1))?;
         same_length("list of columns", columns.len(), values.len())?;
         same_length("list of values", values.len(), pointers[order])?;
-        if pointers[0] > 0 {
-            return Err(Error::Index {
-                quantity: "first row pointer",
-                index: pointers[0],
-                bound: 1,
-            });
+        in_bounds("first row pointer", pointers[0], 1)?;
+        for pair in pointers.windows(2) {
+            in_bounds("row pointer", pair[0], pair[1].saturating_add(1))?;
         }
-        if let Some(pair) = pointers.windows(2).find(|pair| pair[0] > pair[1]) {
-            let (index, bound) = (pair[0], pair[1] + 1);
-            return Err(Error::Index { quantity: "row pointer", index, bound });
-        }
-        if let Some(&index) = columns.iter().find(|&&index| index >= order) {
-            return Err(Error::Index { quantity: "column of a matrix", index, bound: order });
+        for column in columns {
+            in_bounds("column of a matrix", *column, order)?;
         }
         let mut entries = Vec::with_capacity(values.len());
         for (row, ends) in pointers.windows(2).enumerate() {
@@ -134,8 +127,8 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`, where the row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list of (degree of freedom,
-    /// weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
+    /// Adds `factor · l lᵀ`, where the row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list
+    /// of (degree of freedom, weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
     pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {
         let terms = row.as_ref();
         for &(i, a) in terms {
@@ -170,7 +163,7 @@ impl Triplets {
     }
 }
 
-/// Of the order that the largest index asks for: rows without entries at the end are not known. With
+/// Triplets of the order that the largest index needs: rows without entries at the end are not known. With
 /// [`Triplets::from_entries`] they are.
 impl FromIterator<(usize, usize, f64)> for Triplets {
     fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {

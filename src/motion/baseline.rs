@@ -1,6 +1,6 @@
 //! Baseline treatments of accelerograms.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require};
 
 /// Baseline correction: a polynomial is subtracted from a record so that it ends at, or near, rest.
 ///
@@ -141,13 +141,9 @@ impl Fit {
     /// Σ c V(T) = v(T), Σ c U(T) = u(T): a symmetric system with Lagrange multipliers. Time runs
     /// from 0 to 1, which changes no coefficient.
     fn subtract(&self, samples: &[f64]) -> Result<Vec<f64>> {
-        if samples.len() <= self.terms + 1 {
-            return Err(Error::Input {
-                quantity: "number of samples under a baseline fit",
-                value: samples.len() as f64,
-                needed: "above the number of coefficients by two at least",
-            });
-        }
+        let quantity = "number of samples under a baseline fit";
+        let needed = "above the number of coefficients by two at least";
+        require(quantity, samples.len() as f64, samples.len() > self.terms + 1, needed)?;
         let scale = samples.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
         if scale == 0.0 {
             return Ok(samples.to_vec());

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Record;
 use super::record::check_samples;
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Error, Result, not_negative, positive, require};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
@@ -40,14 +40,11 @@ impl Record {
     /// samples, and `order` is from 1 to 8; [`Error::Memory`] for more quiet time than would fit.
     pub fn high_pass(&self, corner: f64, order: u32) -> Result<Self> {
         positive("corner frequency", corner)?;
-        if corner >= 0.5 / self.time_step() {
-            let needed = "below half the sampling frequency";
-            return Err(Error::Input { quantity: "corner frequency", value: corner, needed });
-        }
-        if !(1..=HIGHEST_ORDER).contains(&order) {
-            let (quantity, value) = ("order of the filter", f64::from(order));
-            return Err(Error::Input { quantity, value, needed: "from 1 to 8" });
-        }
+        let needed = "below half the sampling frequency";
+        require("corner frequency", corner, corner < 0.5 / self.time_step(), needed)?;
+        let quantity = "order of the filter";
+        let needed = "from 1 to 8";
+        require(quantity, f64::from(order), (1..=HIGHEST_ORDER).contains(&order), needed)?;
         let quiet = PADS * f64::from(order) / corner;
         let padded = self.padded(quiet, quiet)?;
         // The transform is circular: only the quiet pads are carried round.
@@ -79,10 +76,9 @@ impl Record {
         not_negative("taper at the beginning", beginning)?;
         not_negative("taper at the end", end)?;
         let duration = self.duration();
-        if beginning + end > duration * (1.0 + 1e-12) {
-            let (quantity, value) = ("length of both tapers", beginning + end);
-            return Err(Error::Input { quantity, value, needed: "at most the duration" });
-        }
+        let quantity = "length of both tapers";
+        let needed = "at most the duration";
+        require(quantity, beginning + end, beginning + end <= duration * (1.0 + 1e-12), needed)?;
         let rise = |time: f64, length: f64| {
             if time < length {
                 0.5 - 0.5 * (std::f64::consts::PI * time.max(0.0) / length).cos()

@@ -1,7 +1,7 @@
 //! Free fields: the motion of the surface without the structure, and simple kinds of it.
 
 use super::Record;
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Result, finite, positive, require};
 
 /// Motion of the ground surface without the structure.
 #[auto_impl::auto_impl(Box)]
@@ -76,8 +76,8 @@ type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
 /// Free field from a closure for the displacement, and one for the velocity if it is known.
 ///
-/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0: until then the field is zero.
-/// The displacement should start from zero: what it is just after t = 0 comes as a jump.
+/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0: until then the field is
+/// zero. The displacement should start from zero: what it is just after t = 0 comes as a jump.
 ///
 /// A wave that runs to the right at 1000 m/s:
 /// ```
@@ -247,20 +247,15 @@ impl TravellingWave {
     /// the edge of the base that the wave reaches first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a velocity of zero or NaN, or an origin that is not finite.
+    /// [`Error::Input`](crate::Error::Input) for a velocity of zero or NaN, or an origin that is not finite.
     pub fn new(
         field: impl FreeField + 'static,
         apparent_velocity: f64,
         origin: f64,
     ) -> Result<Self> {
         let slowness = 1.0 / apparent_velocity;
-        if !slowness.is_finite() {
-            return Err(Error::Input {
-                quantity: "apparent velocity",
-                value: apparent_velocity,
-                needed: "not zero (infinite: everywhere at once)",
-            });
-        }
+        let needed = "not zero (infinite: everywhere at once)";
+        require("apparent velocity", apparent_velocity, slowness.is_finite(), needed)?;
         let origin = finite("origin of a wave", origin)?;
         Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
     }
@@ -288,7 +283,7 @@ impl TravellingWave {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless `azimuth` is finite.
+    /// [`Error::Input`](crate::Error::Input) unless `azimuth` is finite.
     pub fn with_azimuth(self, azimuth: f64) -> Result<Self> {
         let (sin, cos) = finite("azimuth of a wave", azimuth)?.sin_cos();
         Ok(Self { direction: [cos, sin], ..self })
@@ -331,8 +326,8 @@ impl FreeField for TravellingWave {
 /// Ricker pulse u(t) = A (1 − 2a²) e^(−a²), a = (t − center)/sigma, the same at all points.
 ///
 /// Displacement and velocity are exact. The peak A is at t = `center`; the spectrum peaks at 1/(π sigma) Hz (Ricker,
-/// "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953), 10–40). At and before t = 0 the field is zero, so the pulse
-/// starts with a jump of A (1 − 2a₀²) e^(−a₀²), a₀ = center/sigma: 7e-10 A for a₀ = 5.
+/// "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953), 10–40). At and before t = 0 the field
+/// is zero, so the pulse starts with a jump of A (1 − 2a₀²) e^(−a₀²), a₀ = center/sigma: 7e-10 A for a₀ = 5.
 ///
 /// ```
 /// use basemat::motion::{FreeField, RickerDisplacement};
@@ -359,18 +354,14 @@ impl RickerDisplacement {
     /// (s).
     ///
     /// # Errors
-    /// [`Error::Input`] unless `amplitude` is finite, `sigma` positive and
+    /// [`Error::Input`](crate::Error::Input) unless `amplitude` is finite, `sigma` positive and
     /// `center` at least 4 `sigma`, so that the pulse grows from rest.
     pub fn new(amplitude: f64, sigma: f64, center: f64) -> Result<Self> {
         finite("amplitude of the Ricker pulse", amplitude)?;
         positive("width of the Ricker pulse", sigma)?;
-        if !(center.is_finite() && center >= LEAST_DELAY * sigma) {
-            return Err(Error::Input {
-                quantity: "center of the Ricker pulse",
-                value: center,
-                needed: "finite and at least four times its width",
-            });
-        }
+        let quantity = "center of the Ricker pulse";
+        let needed = "finite and at least four times its width";
+        require(quantity, center, center.is_finite() && center >= LEAST_DELAY * sigma, needed)?;
         Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
     }
 

@@ -1,9 +1,9 @@
 //! Ground motions: records, and the free field that they stand for.
 //!
-//! A [`Record`] is read or built, its [`Baseline`] treated, and integrated exactly; a [`FreeField`]
-//! says how the surface of the ground would move without the structure. [`VerticalIncidence`]
-//! makes one of records, [`Triaxial`] one in three directions, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes
-//! closures, [`AtRest`] never moves.
+//! A [`Record`] is read or built, its [`Baseline`] treated, and integrated exactly; a [`FreeField`] says how the
+//! surface of the ground would move without the structure. [`VerticalIncidence`] makes one of records, [`Triaxial`] one
+//! in three directions, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes closures, [`AtRest`]
+//! never moves.
 
 mod baseline;
 mod cosmos;

@@ -138,12 +138,12 @@ impl PlaneWave {
     /// The free field in which `record` is the horizontal motion at `origin` (m), the edge of the
     /// base that the wave reaches first; the vertical motion follows.
     ///
-    /// Where the components are out of phase, the vertical one contains the Hilbert transform of
-    /// the horizontal one over all time: it begins before the record does and fades after it, as 1/t
-    /// (as ln t if the ground does not come back). It is measured from t = 0, when it moves already;
-    /// its velocity then, which [`FreeField::velocity`](super::FreeField::velocity) tells, is a jolt at the start of a run. Quiet
-    /// time before the record makes the jolt small, and changes nothing else: see
-    /// [`Record::padded`]. The record must end at rest: see [`Baseline`](super::Baseline).
+    /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal one
+    /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not come
+    /// back). It is measured from t = 0, when it moves already; its velocity then, which
+    /// [`FreeField::velocity`](super::FreeField::velocity) tells, is a jolt at the start of a run. Quiet time before
+    /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at rest:
+    /// see [`Baseline`](super::Baseline).
     ///
     /// ```
     /// use basemat::{Soil, motion::{Baseline, FreeField, PlaneWave, el_centro_1940}};

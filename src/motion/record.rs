@@ -2,11 +2,13 @@
 
 use super::Baseline;
 use super::integral::{Motion, integrate};
-use crate::error::{Error, MemoryError, RecordError, Result, all_finite, finite, memory, positive};
+use crate::error::{
+    Error, MemoryError, RecordError, Result, all_finite, finite, memory, positive, require,
+};
 use crate::text::column::{Cell, line};
 use crate::text::csv::Csv;
 
-/// Error for so many samples that they would not fit into memory, with their two integrals.
+/// Error for more samples than fit into memory, with their two integrals.
 pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> {
     memory::check("samples of the record", count, 40.0 * count)
 }
@@ -213,8 +215,8 @@ impl Record {
         Self::new(self.step, baseline.apply(&self.acceleration)?)
     }
 
-    /// Motion at any `time` (s): between samples the acceleration is linear; after the last one it is zero, the velocity
-    /// constant and the displacement linear in time. Before t = 0 all are zero.
+    /// Motion at any `time` (s): between samples the acceleration is linear; after the last one it is zero, the
+    /// velocity constant and the displacement linear in time. Before t = 0 all are zero.
     pub fn at(&self, time: f64) -> Motion {
         let last = self.len() - 1;
         if time.is_nan() || time <= 0.0 {
@@ -272,14 +274,10 @@ impl Record {
     /// [`Error::Input`] unless 0 ≤ `start` < `end` and `end` is not after the last sample.
     pub fn trimmed(&self, start: f64, end: f64) -> Result<Self> {
         let (step, last) = (self.time_step(), self.len() - 1);
-        if !(start >= 0.0 && start < self.duration()) {
-            let needed = "from zero to before the last sample";
-            return Err(Error::Input { quantity: "start of the part", value: start, needed });
-        }
-        if !(end > start && end / step <= last as f64 + SLACK) {
-            let needed = "after its start, not after the last sample";
-            return Err(Error::Input { quantity: "end of the part", value: end, needed });
-        }
+        let needed = "from zero to before the last sample";
+        require("start of the part", start, start >= 0.0 && start < self.duration(), needed)?;
+        let needed = "after its start, not after the last sample";
+        require("end of the part", end, end > start && end / step <= last as f64 + SLACK, needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
         let (first, end) = {
             let first = ((start / step + SLACK).floor() as usize).min(last - 1);

@@ -9,7 +9,7 @@
 
 use super::integral::{Motion, quadratic_roots_within};
 use super::{Record, STANDARD_GRAVITY};
-use crate::error::{Error, Observer, Result, Watch, damping_ratio, positive};
+use crate::error::{Observer, Result, Watch, damping_ratio, positive, require};
 
 /// Fewest substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
@@ -53,7 +53,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 ≤ `damping` < 1 and every period is positive, and long enough for
+    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `damping` < 1 and every period is positive, and long enough for
     /// at most 10⁹ substeps.
     pub fn response_spectrum(
         &self,
@@ -66,7 +66,7 @@ impl Record {
     /// Response spectrum with an observer; parts are samples of the record, counted again for every period.
     ///
     /// # Errors
-    /// [`Error::Stopped`]; as for [`Record::response_spectrum`].
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`Record::response_spectrum`].
     pub fn response_spectrum_observed(
         &self,
         periods: &[f64],
@@ -93,7 +93,7 @@ impl Record {
         Ok(found)
     }
 
-    /// Calls `after` with the number of samples behind it, every so many substeps.
+    /// Calls `after` with the number of samples behind it, after a block of substeps.
     fn ordinate(
         &self,
         period: f64,
@@ -104,14 +104,9 @@ impl Record {
         let substeps = (SUBSTEPS_PER_PERIOD * self.time_step() / period).ceil().max(1.0);
         let frequency = std::f64::consts::TAU / period;
         let known = substeps * (self.len() as f64 + period / self.time_step()) < MOST_SUBSTEPS;
-        if !(known && (frequency * frequency).is_finite()) {
-            let needed = "neither so short nor so long that 1e9 substeps would not do";
-            return Err(Error::Input {
-                quantity: "period of a response spectrum",
-                value: period,
-                needed,
-            });
-        }
+        let quantity = "period of a response spectrum";
+        let needed = "neither so short nor so long that 1e9 substeps would not do";
+        require(quantity, period, known && (frequency * frequency).is_finite(), needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
         let (substeps, free) = (substeps as usize, (period / self.time_step()).ceil() as usize);
         let oscillator = Oscillator::new(frequency, damping, self.time_step() / substeps as f64);
@@ -297,14 +292,12 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 ≤ `from` ≤ `to` ≤ 1 and the record is not zero throughout.
+    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `from` ≤ `to` ≤ 1 and the record is not zero throughout.
     pub fn significant_times(&self, from: f64, to: f64) -> Result<[f64; 2]> {
         for (value, least, most) in [(from, 0.0, 1.0), (to, from, 1.0)] {
-            if !(least..=most).contains(&value) {
-                let quantity = "fraction of the Arias intensity";
-                let needed = "from 0 to 1, the second not below the first";
-                return Err(Error::Input { quantity, value, needed });
-            }
+            let quantity = "fraction of the Arias intensity";
+            let needed = "from 0 to 1, the second not below the first";
+            require(quantity, value, (least..=most).contains(&value), needed)?;
         }
         let peak = positive("peak acceleration of the record", self.peak_acceleration())?;
         // Relative to the peak: squares of tiny numbers vanish.

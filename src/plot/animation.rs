@@ -6,7 +6,7 @@ use super::deformed::{SOIL, SURFACE, View, bounds, check_dimension, places};
 use super::drawing::{fitted, short, width};
 use super::shown::{Shown, shown};
 use super::svg::Svg;
-use crate::error::{Error, Result, positive};
+use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};
 use plotters::style::RGBColor;
@@ -26,16 +26,16 @@ const MOST_TIMES: usize = 150;
 /// the surface of the soil, the contact mode of every element below it, a clock, and a bar for the
 /// scale of lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
-/// In plan it is seen from the front, the right and above, all lengths along the axes at one scale; its elements lie below
-/// it, and once more in a small plan at the side, with x to the right.
+/// In plan it is seen from the front, the right and above, all lengths along the axes at one scale; its elements lie
+/// below it, and once more in a small plan at the side, with x to the right.
 ///
 /// Frames of contact are shown if they were kept as often as those of motion.
 ///
 /// # Errors
-/// [`Error::Scene`] if fewer than two frames of motion were kept
-/// ([`crate::results::Recorder::motion`]); [`Error::Input`] unless magnification and slowness are
-/// positive, or for more than 600 frames; [`Error::Index`] if `shape` belongs to another structure, [`Error::Scene`] if
-/// to one of another dimension.
+/// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of motion were kept
+/// ([`crate::results::Recorder::motion`]); [`Error::Input`](crate::Error::Input) unless magnification and slowness are
+/// positive, or for more than 600 frames; [`Error::Index`](crate::Error::Index) if `shape` belongs to another
+/// structure, [`Error::Scene`](crate::Error::Scene) if to one of another dimension.
 pub fn animation(
     title: &str,
     shape: &DeformedShape,
@@ -46,14 +46,9 @@ pub fn animation(
     positive("magnification", magnification)?;
     positive("slowness", slowness)?;
     let frames: Vec<_> = histories.motion_frames().collect();
-    if frames.len() < 2 {
-        let needed = "tell the recorder to keep the motion, and run";
-        return Err(Error::Scene { quantity: "animation", needed });
-    }
-    if frames.len() > MOST_FRAMES {
-        let (quantity, needed) = ("frames of an animation", "600 or fewer: keep fewer of them");
-        return Err(Error::Input { quantity, value: frames.len() as f64, needed });
-    }
+    require_part("animation", frames.len() > 1, "tell the recorder to keep the motion, and run")?;
+    let needed = "600 or fewer: keep fewer of them";
+    require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
     check_dimension(shape, histories)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
     let in_plan = histories.in_plan();
@@ -100,12 +95,12 @@ impl Screen {
     fn of(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
         let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
         all.extend(others);
-        let [low, high] = bounds(&all);
-        let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6));
+        let bounds = bounds(&all);
+        let sides = bounds.map(|[low, high]| (high - low).max(1e-6));
         let [left, top, right, bottom] = BOX;
-        let scale = ((right - left) / span[0]).min((bottom - top) / span[1]);
-        let left = left + 0.5 * (right - left - scale * span[0]);
-        Self { scale, left, bottom, origin: low }
+        let scale = ((right - left) / sides[0]).min((bottom - top) / sides[1]);
+        let left = left + 0.5 * (right - left - scale * sides[0]);
+        Self { scale, left, bottom, origin: bounds.map(|[low, _]| low) }
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -232,14 +227,12 @@ fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) 
         let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
         let _ = writeln!(
             out,
-            "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">\
-             <animate attributeName=\"fill\" calcMode=\"discrete\" dur=\"{duration}\" \
-             repeatCount=\"indefinite\" values=\"{}\"/></rect>",
+            "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">{}</rect>",
             left + 0.5,
             BOX[3] + 12.0,
             (right - left - 1.0).max(0.5),
             colors[0],
-            colors.join(";")
+            changes("fill", &colors, duration)
         );
     }
     out

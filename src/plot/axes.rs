@@ -104,7 +104,7 @@ impl Axis {
         Self { range, description: description.into(), scale: Scale::Marked(marks) }
     }
 
-    /// Marks on an axis of so many pixels that do not touch each other, and the description.
+    /// Marks that do not touch each other on an axis of this length (pixels), and the description.
     fn layout(&self, pixels: f64, vertical: bool) -> (Vec<(f64, String)>, String) {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some tens")]
         let count = ((pixels / MARK[usize::from(vertical)]) as usize).clamp(2, 14);

@@ -6,7 +6,7 @@ use super::plan::largest_pressures;
 use super::shown::{Shown, shown};
 use super::svg::{Sheet, Svg};
 use crate::bem::ContactElement;
-use crate::error::{Error, Result};
+use crate::error::{Result, require_part};
 use crate::results::{ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -21,19 +21,15 @@ const COLUMNS: usize = 1000;
 /// infinite friction this is what lies between stick and open, and nothing slides.
 ///
 /// # Errors
-/// [`Error::Scene`] if fewer than two frames of contact were kept
+/// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of contact were kept
 /// ([`crate::results::Recorder::contact`]), or on a ground in plan.
 pub fn mode_map(title: &str, histories: &TimeSeries) -> Result<Svg> {
-    if histories.in_plan() {
-        let needed = "a base in the plane: `contact_plan` draws one in plan";
-        return Err(Error::Scene { quantity: "map of contact modes", needed });
-    }
+    let needed = "a base in the plane: `contact_plan` draws one in plan";
+    require_part("map of contact modes", !histories.in_plan(), needed)?;
     let frames: Vec<_> = histories.contact_frames().collect();
     let elements = histories.elements();
-    if elements.is_empty() || frames.len() < 2 {
-        let needed = "tell the recorder to keep the contact";
-        return Err(Error::Scene { quantity: "map of contact modes", needed });
-    }
+    let needed = "tell the recorder to keep the contact";
+    require_part("map of contact modes", !elements.is_empty() && frames.len() > 1, needed)?;
     let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
     let every = (frames.len() - 1).div_ceil(COLUMNS).max(1);
     let (shown, key) = shown(&frames, false);

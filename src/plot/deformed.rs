@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::axes::{Axis, LEFT, RIGHT, chart, draw_curve, drawable};
 use super::drawing::{Area, Drawing, Key, Sample, Stroke, short};
 use super::svg::{Sheet, Svg};
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
+use crate::geometry::{middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
@@ -44,11 +45,8 @@ const SIN: f64 = 0.5;
 
 /// Error for a shape of the plane on a ground in plan, or the other way round.
 pub(super) fn check_dimension(shape: &DeformedShape, histories: &TimeSeries) -> Result<()> {
-    if shape.in_plan() == histories.in_plan() {
-        return Ok(());
-    }
     let needed = "must be one in plan on a ground in plan, and one of the plane else";
-    Err(Error::Scene { quantity: "deformed shape", needed })
+    require_part("deformed shape", shape.in_plan() == histories.in_plan(), needed)
 }
 
 /// Places of the points (x, height, y), m: displacements relative to the free field, magnified.
@@ -63,13 +61,10 @@ pub(super) fn places(
         [0, 1, 2].map(|k| at_rest[k] + magnification * u[k])
     };
     let places: Vec<[f64; 3]> = shape.points().iter().zip(moved).map(place).collect();
-    match places.iter().flatten().find(|value| !drawable(**value)) {
-        None => Ok(places),
-        Some(&value) => {
-            let (quantity, needed) = ("magnified coordinate", "below 1e60 m");
-            Err(Error::Input { quantity, value, needed })
-        }
+    for value in places.iter().flatten() {
+        require("magnified coordinate", *value, drawable(*value), "below 1e60 m")?;
     }
+    Ok(places)
 }
 
 fn at_rest(point: &ShapePoint) -> [f64; 3] {
@@ -81,16 +76,9 @@ fn at_rest(point: &ShapePoint) -> [f64; 3] {
 pub(super) const SOIL: RGBColor = RGBColor(238, 229, 214);
 pub(super) const SURFACE: RGBColor = RGBColor(125, 98, 62);
 
-/// Least and largest coordinates [x, y].
+/// Least and largest coordinate along each axis.
 pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for place in places {
-        for k in 0..2 {
-            bounds[0][k] = bounds[0][k].min(place[k]);
-            bounds[1][k] = bounds[1][k].max(place[k]);
-        }
-    }
-    bounds
+    [0, 1].map(|axis| span(places.iter().map(|place| place[axis])))
 }
 
 /// Outlines of a deformed shape's cells at these places, end to end, broken by NaN.
@@ -123,9 +111,7 @@ pub fn deformed_shapes(
     magnification: f64,
 ) -> Result<Svg> {
     positive("magnification", magnification)?;
-    if times.is_empty() {
-        return Err(Error::Size { quantity: "times of deformed shapes", found: 0, needed: 1 });
-    }
+    at_least("times of deformed shapes", times.len(), 1)?;
     check_dimension(shape, histories)?;
     let rest: Vec<[f64; 3]> = shape.points().iter().map(at_rest).collect();
     let mut drawn = vec![("at rest".to_owned(), rest)];
@@ -171,18 +157,16 @@ pub fn deformed_shapes(
         let one = elevation(View::AlongY, sheet.room());
         return sheet.picture(|area| draw(area, &one));
     }
-    let [width, height] = sheet.room();
-    let axes = f64::from(LEFT + RIGHT);
     // Both at one scale: of the wider of the two.
-    let room = [0.5 * (width - axes), height];
+    let [all, height] = sheet.room();
+    let room = [0.5 * (all - f64::from(LEFT + RIGHT)), height];
     let mut both = [View::AlongY, View::AlongX].map(|view| elevation(view, room));
-    let span = |own: &Elevation| own.1[0].end - own.1[0].start;
-    let widest = span(&both[0]).max(span(&both[1]));
+    let width = |own: &Elevation| own.1[0].end - own.1[0].start;
+    let widest = width(&both[0]).max(width(&both[1]));
     for own in &mut both {
-        let ratio = widest / span(own);
-        own.1 = own.1.clone().map(|range| {
-            let (middle, half) =
-                (0.5 * (range.start + range.end), 0.5 * ratio * (range.end - range.start));
+        let ratio = widest / width(own);
+        own.1 = own.1.clone().map(|Range { start, end }| {
+            let (middle, half) = (middle([start, end]), 0.5 * ratio * (end - start));
             middle - half..middle + half
         });
     }
@@ -197,11 +181,11 @@ pub fn deformed_shapes(
 type Elevation = (View, [Range<f64>; 2], Vec<Vec<[f64; 2]>>);
 
 /// Ranges of both axes at one scale, in a room of [width, height] pixels.
-fn ranges([low, high]: [[f64; 2]; 2], [width, height]: [f64; 2]) -> [std::ops::Range<f64>; 2] {
-    let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6) * 1.1);
-    let scale = (span[0] / width).max(span[1] / height);
-    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-    let half = [0.5 * scale * width, 0.5 * scale * height];
-    let range = |k: usize| middle[k] - half[k]..middle[k] + half[k];
-    [range(0), range(1)]
+fn ranges(bounds: [[f64; 2]; 2], room: [f64; 2]) -> [Range<f64>; 2] {
+    let pixel = |k: usize| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / room[k];
+    let scale = pixel(0).max(pixel(1));
+    [0, 1].map(|k| {
+        let (middle, half) = (middle(bounds[k]), 0.5 * scale * room[k]);
+        middle - half..middle + half
+    })
 }

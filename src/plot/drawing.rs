@@ -88,7 +88,7 @@ fn letter(c: char) -> f64 {
     }
 }
 
-/// Width of a text, pixels, in a font of so many points of plotters.
+/// Width of a text, pixels, in plotters' font of this size in points.
 pub(super) fn width(text: &str, size: u32) -> f64 {
     text.chars().map(letter).sum::<f64>() * f64::from(size) / FONT_SCALE
 }

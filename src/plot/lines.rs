@@ -4,7 +4,7 @@ use super::axes::{Axis, chart, draw_curve, drawable, range_of};
 use super::drawing::{Area, Drawing, Key, Sample, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::coupled::{EnergyBalance, Refinement, Setting};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
 use crate::text::column::{of_body, printed};
@@ -38,9 +38,7 @@ pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
 /// Curves, and a level line at one of that name.
 fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&str>) -> Result<Svg> {
     let all = || curves.iter().flat_map(|curve| &curve.points);
-    if all().next().is_none() {
-        return Err(Error::Size { quantity: "points of a chart", found: 0, needed: 1 });
-    }
+    at_least("points of a chart", all().count(), 1)?;
     let x_range = range_of(all().map(|point| point.0));
     let levels = limit.iter().flat_map(|_| [0.0, 1.0]);
     let y_range = range_of(all().map(|point| point.1).chain(levels));
@@ -76,10 +74,9 @@ pub fn history(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) ->
     let limit = quantity.limit();
     let in_plan = runs.first().is_some_and(|(_, histories)| histories.in_plan());
     let (factor, unit) = quantity.printed(in_plan);
-    if runs.iter().any(|(_, own)| quantity.printed(own.in_plan()).1 != unit) {
-        let needed = "the same in all runs: in the plane it is per metre";
-        return Err(Error::Scene { quantity: "unit of a quantity", needed });
-    }
+    let is_common = runs.iter().all(|(_, own)| quantity.printed(own.in_plan()).1 == unit);
+    let needed = "the same in all runs: in the plane it is per metre";
+    require_part("unit of a quantity", is_common, needed)?;
     let value = |&value: &f64| match limit {
         // Without a value, in flight or without a friction coefficient, nothing is drawn.
         Some(_) if value.is_nan() => f64::NAN,
@@ -116,9 +113,8 @@ pub fn probe_history(title: &str, runs: &[(&str, &TimeSeries)], probe: &str) -> 
     for (_, histories) in runs {
         units.push(&histories.probes()[histories.probe_index(probe)?].unit[..]);
     }
-    if units.windows(2).any(|pair| pair[0] != pair[1]) {
-        return Err(Error::Scene { quantity: "unit of a probe", needed: "the same in all runs" });
-    }
+    let needed = "the same in all runs";
+    require_part("unit of a probe", units.windows(2).all(|pair| pair[0] == pair[1]), needed)?;
     let (factor, unit) = printed(units.first().copied().unwrap_or_default());
     let curve = |&(name, histories): &(&str, &TimeSeries)| {
         let values = histories.probe(probe)?.iter().map(|value| factor * value);
@@ -196,19 +192,15 @@ pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result
     let all = || spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
     let (mut first, mut last, mut top) = (f64::INFINITY, 0.0_f64, 0.0_f64);
     for ordinate in all() {
-        if !PERIODS.contains(&ordinate.period) {
-            let (quantity, needed) = ("period of a spectrum", "from 1e-6 to 1e6 s");
-            return Err(Error::Input { quantity, value: ordinate.period, needed });
-        }
+        let period = ordinate.period;
+        require("period of a spectrum", period, PERIODS.contains(&period), "from 1e-6 to 1e6 s")?;
         first = first.min(ordinate.period);
         last = last.max(ordinate.period);
         if drawable(ordinate.pseudo_acceleration) {
             top = top.max(ordinate.pseudo_acceleration);
         }
     }
-    if all().next().is_none() {
-        return Err(Error::Size { quantity: "ordinates of a spectrum", found: 0, needed: 1 });
-    }
+    at_least("ordinates of a spectrum", all().count(), 1)?;
     // A single period has no width, and nothing at all no height.
     let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
     let top = if top > 1e-60 { 1.08 * top } else { 1.0 };

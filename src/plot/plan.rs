@@ -6,8 +6,8 @@ use super::axes::{Axis, chart, drawable, nice};
 use super::drawing::{Key, Sample, Stroke, short};
 use super::shown::Shown;
 use super::svg::{Sheet, Svg};
-use crate::error::{Error, Result, finite};
-use crate::geometry::far_ends;
+use crate::error::{Error, Result, finite, require_part};
+use crate::geometry::{far_ends, middle};
 use crate::interface::ContactState;
 use crate::results::{Run, TimeSeries};
 use plotters::prelude::*;
@@ -33,8 +33,8 @@ struct Cell {
 /// in which sliding ones move over the soil.
 ///
 /// # Errors
-/// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground is not one in
-/// plan; [`Error::Input`] for a time that is not finite.
+/// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground is not one
+/// in plan; [`Error::Input`] for a time that is not finite.
 pub fn contact_plan(title: &str, histories: &TimeSeries, time: f64) -> Result<Svg> {
     finite("time of a picture", time)?;
     let apart = |frame: &crate::results::ContactFrame<'_>| (frame.time - time).abs();
@@ -91,7 +91,7 @@ pub(super) fn largest_pressures(title: &str, run: &Run) -> Result<Svg> {
 /// Error for a base of the plane.
 fn check(in_plan: bool) -> Result<()> {
     let needed = "a ground of three directions: `mode_map` draws the base in the plane";
-    if in_plan { Ok(()) } else { Err(Error::Scene { quantity: "contact in plan", needed }) }
+    require_part("contact in plan", in_plan, needed)
 }
 
 /// Classes of pressure from zero on, Pa.
@@ -140,8 +140,7 @@ fn draw(title: &str, cells: &[Cell], key: &[(String, Sample)]) -> Result<Svg> {
     let room = sheet.room();
     let pixel = (0..2).map(|k| (spans[k] + 2.0 * margin) / room[k]).fold(0.0, f64::max);
     let range = |axis: usize| -> Range<f64> {
-        let ([low, high], half) = (ends[axis], 0.5 * pixel * room[axis]);
-        let middle = 0.5 * (low + high);
+        let (middle, half) = (middle(ends[axis]), 0.5 * pixel * room[axis]);
         middle - half..middle + half
     };
     sheet.picture(|area| {
@@ -157,7 +156,7 @@ fn draw(title: &str, cells: &[Cell], key: &[(String, Sample)]) -> Result<Svg> {
         chart.draw_series(cells.iter().map(|cell| Rectangle::new(corners(cell), edge)))?;
         let arrows = cells.iter().filter_map(|cell| Some((cell, cell.slides?)));
         chart.draw_series(arrows.map(|(cell, [dx, dy])| {
-            let [x, y] = cell.sides.map(|[low, high]| 0.5 * (low + high));
+            let [x, y] = cell.sides.map(middle);
             let side = cell.sides.iter().fold(f64::INFINITY, |side, [a, b]| side.min(b - a));
             let [length, head] = ARROW.map(|ratio| ratio * side);
             let tip = (x + length * dx, y + length * dy);

@@ -7,7 +7,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
 use super::Svg;
-use crate::error::{Error, Result, write_file};
+use crate::error::{Error, Result, require, write_file};
 
 /// Largest bitmap, pixels: 100 million, 400 MB.
 const MOST_PIXELS: f64 = 1e8;
@@ -40,10 +40,9 @@ impl Svg {
         let size = tree.size();
         let [width, height] = [size.width(), size.height()].map(|side| f64::from(side) * scale);
         // A NaN is refused as well.
-        if !(width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS) {
-            let needed = "above zero, and a bitmap of 100 million pixels at most";
-            return Err(Error::Input { quantity: "scale of a bitmap", value: scale, needed });
-        }
+        let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS;
+        let needed = "above zero, and a bitmap of 100 million pixels at most";
+        require("scale of a bitmap", scale, fits, needed)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let mut bitmap = Pixmap::new(width.ceil() as u32, height.ceil() as u32).ok_or(NOT_DRAWN)?;
         #[allow(clippy::cast_possible_truncation)]

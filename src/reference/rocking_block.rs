@@ -5,9 +5,9 @@ use crate::error::{Error, Result, positive};
 
 /// Rigid rectangular block that rocks about its corners on a rigid base, without sliding.
 ///
-/// Housner, "The behavior of inverted pendulum structures during earthquakes", Bull. Seism. Soc.
-/// Am. 53 (1963), 403–417 (free rocking: pp. 404–406). Amplitudes θ are between 0 and the angle α of the diagonal, at which
-/// the block overturns; their sign does not matter.
+/// Housner, "The behavior of inverted pendulum structures during earthquakes", Bull. Seism. Soc. Am. 53 (1963), 403–417
+/// (free rocking: pp. 404–406). Amplitudes θ are between 0 and the angle α of the diagonal, at which the block
+/// overturns; their sign does not matter.
 ///
 /// ```
 /// use basemat::reference::RockingBlock;

@@ -30,8 +30,8 @@ pub struct Comparison {
 /// Value of a run; none where a run does not have it.
 type Value = dyn Fn(&Run) -> Option<f64>;
 
-/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run. What is per metre in the
-/// plane has a row for each dimension that occurs.
+/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run. Results per metre in the
+/// plane have a row for each dimension that occurs.
 struct Line {
     name: String,
     unit: &'static str,

@@ -1,6 +1,6 @@
 //! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
 use crate::fem::Direction;
 use crate::structure::{
     DofCombination, FaceNode, FemModel, ShearBuilding, StoreyBuilding, Structure,
@@ -50,13 +50,7 @@ impl DeformedShape {
     /// [`Error::Size`] without points or for an empty cell, [`Error::Index`] for a cell with a point
     /// that does not exist, [`Error::Input`] for a number that is not finite.
     pub fn new(points: Vec<ShapePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
-        if points.is_empty() {
-            return Err(Error::Size {
-                quantity: "points of a deformed shape",
-                found: 0,
-                needed: 1,
-            });
-        }
+        at_least("points of a deformed shape", points.len(), 1)?;
         for point in &points {
             for value in point.position.into_iter().chain([point.away]) {
                 finite("coordinate of a deformed shape", value)?;
@@ -67,16 +61,9 @@ impl DeformedShape {
             }
         }
         for cell in &cells {
-            if cell.is_empty() {
-                return Err(Error::Size {
-                    quantity: "cell of a deformed shape",
-                    found: 0,
-                    needed: 1,
-                });
-            }
-            if let Some(&index) = cell.iter().find(|&&index| index >= points.len()) {
-                let quantity = "point of a deformed shape's cell";
-                return Err(Error::Index { quantity, index, bound: points.len() });
+            at_least("cell of a deformed shape", cell.len(), 1)?;
+            for index in cell {
+                in_bounds("point of a deformed shape's cell", *index, points.len())?;
             }
         }
         Ok(Self { points, cells })
@@ -100,7 +87,7 @@ impl DeformedShape {
     }
 
     /// A rigid block of the plane as a rectangle of this height (m), or rigid bodies in plan as prisms on the faces of
-    /// their bases. Of other structures it is what the base carries with it.
+    /// their bases. Other structures are drawn as if their base carried such a body.
     ///
     /// ```
     /// use basemat::results::DeformedShape;
@@ -222,20 +209,16 @@ impl DeformedShape {
         self.points.iter().any(|point| !point.across.is_empty())
     }
 
-    /// [horizontal, up, along y] of every point (m, or m/s) for these degrees of freedom (or their rates); nothing moves
-    /// along y in the plane.
+    /// [horizontal, up, along y] of every point (m, or m/s) for these degrees of freedom (or their rates); nothing
+    /// moves along y in the plane.
     ///
     /// # Errors
     /// [`Error::Index`] if a point is moved by a degree of freedom that is not there.
     pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 3]>> {
         let sum = |row: &DofCombination| {
             row.iter().try_fold(0.0, |sum, &(index, weight)| {
-                let value = dofs.get(index).ok_or(Error::Index {
-                    quantity: "degree of freedom of a deformed shape",
-                    index,
-                    bound: dofs.len(),
-                })?;
-                Ok::<f64, Error>(sum + weight * value)
+                in_bounds("degree of freedom of a deformed shape", index, dofs.len())?;
+                Ok::<f64, Error>(sum + weight * dofs[index])
             })
         };
         self.points

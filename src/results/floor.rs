@@ -2,7 +2,7 @@
 
 use super::TimeSeries;
 use crate::coupled::Probe;
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Error, Result, not_negative, positive, require};
 use crate::motion::{Record, SpectralOrdinate};
 
 impl TimeSeries {
@@ -60,10 +60,8 @@ impl TimeSeries {
 pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
     positive("first of the numbers", first)?;
     positive("last of the numbers", last)?;
-    if !(2..=1_000_000).contains(&count) {
-        let (quantity, needed) = ("count of numbers", "from two to a million");
-        return Err(Error::Input { quantity, value: count as f64, needed });
-    }
+    let needed = "from two to a million";
+    require("count of numbers", count as f64, (2..=1_000_000).contains(&count), needed)?;
     let share = |k: usize| k as f64 / (count - 1) as f64;
     let mut numbers: Vec<f64> =
         (0..count).map(|k| first.powf(1.0 - share(k)) * last.powf(share(k))).collect();
@@ -84,10 +82,7 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
 /// [`Error::Input`] unless 0 ≤ `share` < 1 and the periods increase.
 pub fn broadened(spectrum: &[SpectralOrdinate], share: f64) -> Result<Vec<SpectralOrdinate>> {
     not_negative("share of broadening", share)?;
-    if share >= 1.0 {
-        let (quantity, needed) = ("share of broadening", "below one");
-        return Err(Error::Input { quantity, value: share, needed });
-    }
+    require("share of broadening", share, share < 1.0, "below one")?;
     let mut last = 0.0;
     for ordinate in spectrum {
         positive("step to the next period of a spectrum", ordinate.period - last)?;

@@ -1,6 +1,7 @@
 //! Selection of results to keep of a run.
 
-/// Selection of results to keep of a run beyond its [`Run`](super::Run): the scalar histories and the probes at every step, unless told otherwise.
+/// Selection of results of a run to keep beyond its [`Run`](super::Run): time series of scalars and probes at every
+/// step, unless set otherwise.
 ///
 /// See the [module](super) for an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

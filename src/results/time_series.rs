@@ -5,7 +5,7 @@ use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::run::base::Sequence;
 use crate::coupled::{EnergyBalance, Probe, State, probe_index};
-use crate::error::{Error, Result};
+use crate::error::{Result, require};
 use crate::interface::{ContactState, Mode};
 
 /// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
@@ -85,46 +85,37 @@ impl Recorder {
     /// Starts with the simulation as it stands.
     ///
     /// # Errors
-    /// [`Error::Input`] for an interval of zero steps.
+    /// [`Error::Input`](crate::Error::Input) for an interval of zero steps.
     pub fn start(self, simulation: &Simulation) -> Result<TimeSeries> {
         let intervals = [Some(self.every), self.contact, self.motion];
-        if intervals.contains(&Some(0)) {
-            let (quantity, needed) = ("steps between what is kept", "one or more");
-            return Err(Error::Input { quantity, value: 0.0, needed });
-        }
-        Ok(TimeSeries::new(self, simulation))
-    }
-}
-
-impl TimeSeries {
-    fn new(recorder: Recorder, simulation: &Simulation) -> Self {
+        require("steps between what is kept", 0.0, !intervals.contains(&Some(0)), "one or more")?;
         let state = simulation.state();
         let elements = simulation.elements();
         let in_plan = elements.is_plan();
-        let mut histories = Self {
+        let mut series = TimeSeries {
             elements: elements.to_vec(),
             depths: if in_plan { elements.depths().to_vec() } else { Vec::new() },
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
             sequence: Sequence::new(state),
             steps: 0,
-            dofs: recorder.motion.map_or(0, |_| state.displacement().len()),
+            dofs: self.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
             scalars: vec![Vec::new(); Quantity::of(in_plan).count()],
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
-            contact: recorder.contact.map(ContactFrames::new),
-            motion: recorder.motion.map(MotionFrames::new),
-            recorder,
+            contact: self.contact.map(ContactFrames::new),
+            motion: self.motion.map(MotionFrames::new),
+            recorder: self,
         };
-        let values = state.values();
-        histories.keep(state, &values);
-        histories
+        series.keep(state);
+        Ok(series)
     }
+}
 
-    /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then
-    /// (but for frames of motion of a structure that is stepped in its modes, whose degrees of freedom the
-    /// state then makes).
+impl TimeSeries {
+    /// Reserves memory for `steps` more steps, at most a million: recording them then allocates nothing (but for frames
+    /// of motion of a structure that is stepped in its modes, whose degrees of freedom the state then makes).
     pub fn reserve(&mut self, steps: usize) {
         let steps = steps.min(MOST_RESERVED);
         let count = steps / self.recorder.every + 1;
@@ -146,16 +137,15 @@ impl TimeSeries {
             return;
         }
         self.steps += 1;
-        let values = state.values();
-        self.keep(state, &values);
+        self.keep(state);
     }
 
-    fn keep(&mut self, state: &State, values: &[f64]) {
+    fn keep(&mut self, state: &State) {
         let due = |every: usize| self.steps.is_multiple_of(every);
         if due(self.recorder.every) {
             self.times.push(state.time);
             self.energy_balances.push(state.energy_balance);
-            self.scalars.iter_mut().zip(values).for_each(|(list, &value)| list.push(value));
+            self.scalars.iter_mut().zip(state.values()).for_each(|(list, value)| list.push(value));
             let probes = self.probe_values.iter_mut().zip(&state.probes);
             probes.for_each(|(list, &value)| list.push(value));
         }
@@ -289,7 +279,7 @@ impl ContactFrames {
         self.modes.extend_from_slice(&state.modes);
     }
 
-    /// For so many more steps of `count` elements each.
+    /// Reserves memory for `steps` more steps of `count` elements each.
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);
@@ -345,7 +335,7 @@ impl MotionFrames {
         self.free_field_across.push(state.free_field_across);
     }
 
-    /// For so many more steps of `count` degrees of freedom each.
+    /// Reserves memory for `steps` more steps of `count` degrees of freedom each.
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);

@@ -27,7 +27,8 @@ pub struct EquivalentLinearOptions {
     pub control: ControlPoint,
     /// Effective strain over the largest, at most 1.
     pub strain_ratio: f64,
-    /// Largest relative change of a modulus or damping ratio by all further iterations, as estimated, that passes for none.
+    /// Largest relative change of a modulus or damping ratio by all further iterations, as estimated, that passes for
+    /// none.
     pub tolerance: f64,
     /// Most iterations, at least 1.
     pub most_iterations: usize,
@@ -105,12 +106,12 @@ impl SoilColumn {
     /// Strain-compatible properties under `motion`, by as many linear calculations as it takes, and the response with
     /// them. `curves` has one entry for each layer; the damping laws of layers are not used, that of the base is.
     ///
-    /// Each layer has one strain, that of its middle, where waves A up and B down at the layer's top have
-    /// du/dz = κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c: divide layers in which it varies. Curves are read at a share of its
-    /// largest value. This is in the frequency domain, s = iω, with the modulus G(1 + 2iξ), as in SHAKE. The resulting
-    /// profile has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, under
-    /// the layers too if the base's law cannot march in time. That disperses: what [`SoilColumn::to_surface`] makes with
-    /// it is some per cent off `surface`. Poisson's ratio stays, so pressure waves slow down with shear waves (below the
+    /// Each layer has one strain, that of its middle, where waves A up and B down at the layer's top have du/dz = κ(A
+    /// e^(κh/2) − B e^(−κh/2)), κ = s/c: divide layers in which it varies. Curves are read at a share of its largest
+    /// value. This is in the frequency domain, s = iω, with the modulus G(1 + 2iξ), as in SHAKE. The resulting profile
+    /// has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, under the
+    /// layers too if the base's law cannot march in time. That disperses: what [`SoilColumn::to_surface`] makes with it
+    /// is some per cent off `surface`. Poisson's ratio stays, so pressure waves slow down with shear waves (below the
     /// water table they would not).
     ///
     /// ```

@@ -85,8 +85,8 @@ impl InclinedWave {
         Self::new(profile, angle, Kind::Sv)
     }
 
-    /// SH wave, as for [`InclinedWave::sv`], for a ground in plan: what is called horizontal moves the surface across its
-    /// direction, away from the reader where it runs to the right, and nothing moves up. A mat under it twists.
+    /// SH wave, as for [`InclinedWave::sv`], for a ground in plan: what is called horizontal moves the surface across
+    /// its direction, away from the reader where it runs to the right, and nothing moves up. A mat under it twists.
     ///
     /// ```
     /// use basemat::Soil;
@@ -141,9 +141,9 @@ impl InclinedWave {
     /// Angles beyond the critical one and any damping are allowed.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite, for a component of the outcrop
-    /// that is less than a tenth of the other, and for a motion that is not finite (a free
-    /// surface wave of an undamped layer); as for damping laws that are not passive.
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite, for a component of the
+    /// outcrop that is less than a tenth of the other, and for a motion that is not finite (a free surface wave of an
+    /// undamped layer); as for damping laws that are not passive.
     pub fn transfer(&self, control: InclinedControl, frequency: f64) -> Result<[Complex; 2]> {
         not_negative("frequency of a transfer function", frequency)?;
         self.check(control)?;

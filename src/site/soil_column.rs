@@ -95,8 +95,8 @@ impl SoilColumn {
     /// Motion of the surface by that of `control` for e^(iωt) at `frequency` (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws that are not
-    /// passive; infinite at a resonance without damping.
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws that
+    /// are not passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
         let s = Complex::new(0.0, std::f64::consts::TAU * frequency);
@@ -112,8 +112,9 @@ impl SoilColumn {
     /// end of `motion`: give that quiet time if the rest matters, as it does on the way back.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite, [`Error::Size`](crate::Error::Size) for none,
-    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for hysteretic damping.
+    /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite,
+    /// [`Error::Size`](crate::Error::Size) for none, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for
+    /// hysteretic damping.
     pub fn to_surface(
         &self,
         control: ControlPoint,

@@ -11,7 +11,7 @@ use std::fmt;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
-use crate::error::{Error, Result, finite, memory, positive, require};
+use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::Complex;
 
 /// ηT: what wraps around is e^(−24).
@@ -62,13 +62,7 @@ impl Contour {
     /// For `samples`, `time_step` seconds apart, and waves that take `travel` seconds.
     pub(super) fn new(time_step: f64, samples: usize, travel: f64) -> Result<Self> {
         positive("time step of a motion", time_step)?;
-        if samples == 0 || samples > MOST_SAMPLES {
-            return Err(Error::Size {
-                quantity: "motion through a site",
-                found: samples,
-                needed: samples.clamp(1, MOST_SAMPLES),
-            });
-        }
+        same_length("motion through a site", samples, samples.clamp(1, MOST_SAMPLES))?;
         let steps = travel / time_step;
         let quantity = "time that waves take through a site, in time steps of the motion";
         require(quantity, steps, (0.0..=MOST_SAMPLES as f64).contains(&steps), "at most 2^24")?;
@@ -230,7 +224,7 @@ pub struct SiteMotion {
 }
 
 impl SiteMotion {
-    /// Share of the peak that passes for nothing.
+    /// Fraction of the peak below which motion counts as rest.
     pub const LIMIT: f64 = 1e-9;
 
     /// Largest sample.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{Error, LayeredError, Result, SiteError, positive, require};
+use crate::error::{LayeredError, Result, SiteError, at_least, positive, require};
 use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
@@ -24,9 +24,9 @@ pub struct SoilLayer {
 pub enum Base {
     /// A half-plane that waves leave through.
     HalfPlane {
-        /// Its elastic constants.
+        /// Elastic constants of the layer.
         soil: Soil,
-        /// Its damping law.
+        /// Damping law of the layer.
         damping: Arc<dyn Relaxation>,
     },
     /// A base that does not move and reflects everything.
@@ -76,8 +76,8 @@ impl SoilProfile {
     /// Profile from its layers, from the surface down, and its base.
     ///
     /// # Errors
-    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`] for more than 1000 layers,
-    /// [`Error::Size`] for a rigid base without layers.
+    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
+    /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for a rigid base without layers.
     pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self> {
         let profile = Self { layers, base };
         profile.check_depth()?;
@@ -85,18 +85,18 @@ impl SoilProfile {
         Ok(profile)
     }
 
-    /// With one more layer, below those that are there; elastic until
-    /// [`with_damping`](SoilProfile::with_damping) is called.
+    /// Adds a layer below all others; elastic until [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
-    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`] for more than 1000 layers.
+    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
+    /// more than 1000 layers.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
         self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
         self.check_depth()?;
         Ok(self)
     }
 
-    /// With damping of the layer that was put on last; of the base if there is none.
+    /// Sets the damping of the layer added last; of the base if there is none.
     #[must_use]
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
@@ -106,7 +106,7 @@ impl SoilProfile {
         self
     }
 
-    /// With damping of the half-plane below; a rigid base has none.
+    /// Sets the damping of the half-plane below; a rigid base has none.
     #[must_use]
     pub fn with_base_damping(mut self, law: impl Relaxation + 'static) -> Self {
         if let Base::HalfPlane { damping, .. } = &mut self.base {
@@ -120,7 +120,7 @@ impl SoilProfile {
         &self.layers
     }
 
-    /// What is under them.
+    /// Base under the layers.
     pub fn base(&self) -> &Base {
         &self.base
     }
@@ -146,7 +146,7 @@ impl SoilProfile {
         self.layers.iter().map(|layer| layer.thickness / layer.soil.shear_wave_speed()).sum()
     }
 
-    /// Whether it is a half-plane without layers or damping, which has a closed form.
+    /// Whether the profile is a half-plane without layers or damping, which has a closed form.
     pub(crate) fn is_elastic_half_plane(&self) -> bool {
         let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Elastic.identity();
         self.layers.is_empty()
@@ -179,10 +179,7 @@ impl SoilProfile {
 
     /// Error for a rigid base without layers.
     pub(crate) fn check(&self) -> Result<()> {
-        if self.soils().next().is_none() {
-            return Err(Error::Size { quantity: "list of soil layers", found: 0, needed: 1 });
-        }
-        Ok(())
+        at_least("list of soil layers", self.soils().count(), 1)
     }
 
     fn check_depth(&self) -> Result<()> {

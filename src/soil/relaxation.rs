@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use crate::error::{Result, damping_ratio, not_negative, positive};
 use crate::linalg::Complex;
 
-/// How the shear modulus of a soil depends on frequency, as a function of the Laplace variable s.
+/// Shear modulus of a soil as a function of frequency, or of the Laplace variable s.
 ///
 /// `modulus` is μ(s)/μ₀ with μ₀ the modulus of the [`Soil`](crate::Soil); Poisson's ratio is real
 /// and constant, so that λ and K go with μ. The law is passive, and with it the ground for every

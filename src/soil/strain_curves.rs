@@ -85,7 +85,7 @@ impl StrainCurves {
         Ok(self.resolved()?.at(strain))
     }
 
-    /// The same with parameters checked and put in.
+    /// These curves with their parameters checked and put in.
     pub(crate) fn resolved(&self) -> Result<Resolved> {
         let rows = match self {
             Self::Linear { damping } => {

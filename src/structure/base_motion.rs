@@ -1,7 +1,7 @@
 //! Motions of a structure's base, and displacements relative to them.
 
 use super::{DofCombination, FaceNode, Structure, check_base_nodes};
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, finite, positive, require};
 use crate::geometry::{middle, span};
 
 impl DofCombination {
@@ -72,8 +72,8 @@ impl DofCombination {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`] for a
-    /// place that is not finite, or contact nodes at one place or in plan on one line.
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`]
+    /// for a place that is not finite, or contact nodes at one place or in plan on one line.
     pub fn of_base(structure: &dyn Structure, place: [f64; 3]) -> Result<[Self; 3]> {
         let [x, y, height] = place;
         finite("height above the base", height)?;
@@ -88,15 +88,11 @@ impl DofCombination {
         check_base_nodes(&nodes, structure.dofs())?;
         let center = [0, 1].map(|axis| middle(span(nodes.iter().map(|node| node.place()[axis]))));
         let carried = FaceNode::carried(&nodes, [center[0] + x, center[1] + y], height);
-        let weights = carried.iter().flatten().map(|(_, weight)| *weight);
-        match weights.into_iter().find(|weight| !weight.is_finite()) {
-            None => Ok(carried),
-            Some(value) => {
-                let (quantity, needed) =
-                    ("rotation of the base", "corners that are not on one line");
-                Err(Error::Input { quantity, value, needed })
-            }
+        for &(_, weight) in carried.iter().flatten() {
+            let needed = "corners that are not on one line";
+            require("rotation of the base", weight, weight.is_finite(), needed)?;
         }
+        Ok(carried)
     }
 }
 

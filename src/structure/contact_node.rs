@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{DofCombination, Structure};
-use crate::error::{Error, Result, finite};
+use crate::error::{Error, Result, at_least, finite, in_bounds};
 use crate::geometry::{PLANE, SPACE};
 
 /// A point of the base: where it is, and how the degrees of freedom move it.
@@ -86,8 +86,8 @@ impl FaceNode {
         corners.iter().map(corner).collect()
     }
 
-    /// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and turn
-    /// about the vertical.
+    /// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and
+    /// turn about the vertical.
     pub(crate) fn mean_rotations(nodes: &[Self]) -> [DofCombination; 3] {
         let count = nodes.len() as f64;
         let mean = |of: &dyn Fn(&Self) -> f64| nodes.iter().map(of).sum::<f64>() / count;
@@ -157,10 +157,7 @@ impl FaceNode {
         finite("coordinate of a contact node", self.y)?;
         for &(index, weight) in self.rows().into_iter().flatten() {
             finite("weight of a contact node", weight)?;
-            if index >= bound {
-                let quantity = "degree of freedom of a contact node";
-                return Err(Error::Index { quantity, index, bound });
-            }
+            in_bounds("degree of freedom of a contact node", index, bound)?;
         }
         Ok(())
     }
@@ -187,10 +184,7 @@ pub(crate) fn on_line(nodes: Vec<ContactNode>) -> Vec<FaceNode> {
 
 /// Refuses too few nodes, places and weights that are not finite, and degrees of freedom that there are not.
 pub(crate) fn check_base_nodes(nodes: &[FaceNode], dofs: usize) -> Result<()> {
-    if nodes.len() < 2 {
-        let quantity = "list of contact nodes";
-        return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
-    }
+    at_least("list of contact nodes", nodes.len(), 2)?;
     nodes.iter().try_for_each(|node| node.check(dofs))
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::error::{Error, Result, damping_ratio, not_negative, positive};
+use crate::error::{Error, Result, at_least, damping_ratio, not_negative, positive, require};
 use crate::linalg::{Partition, SparseMatrix, dot, generalised_modes};
 use crate::structure::detached::SYMMETRIC;
 use crate::structure::{
@@ -55,13 +55,8 @@ impl RayleighDamping {
         }
         let [low, high] = frequencies.map(|frequency| TAU * frequency);
         let spread = (high - low) * (high + low);
-        if spread == 0.0 {
-            return Err(Error::Input {
-                quantity: "second frequency of Rayleigh damping",
-                value: frequencies[1],
-                needed: "different from the first",
-            });
-        }
+        let needed = "different from the first";
+        require("second frequency of Rayleigh damping", frequencies[1], spread != 0.0, needed)?;
         // Solves ζ = α/(2ω) + βω/2 at both.
         let mass = 2.0 * low * high * (ratios[0] * high - ratios[1] * low) / spread;
         let stiffness = 2.0 * (ratios[1] * high - ratios[0] * low) / spread;
@@ -93,8 +88,8 @@ impl RayleighDamping {
 ///   first mode has the given ratio less the part of it that the ground's compliance takes.
 /// * [`on`](ModalDamping::on): modes of the structure by itself, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They stay
 ///   the modes of the damped structure, so that it can be stepped in them
-///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base, where
-///   the first mode gets much less than its ratio: five storeys 0.9 % of 5 %.
+///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base,
+///   where the first mode gets much less than its ratio: five storeys 0.9 % of 5 %.
 ///
 /// ```
 /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
@@ -158,9 +153,7 @@ impl ModalDamping {
     /// # Errors
     /// [`Error::Size`] without ratios, [`Error::Input`] unless all are from 0 to below 1.
     pub fn new(ratios: &[f64]) -> Result<Self> {
-        if ratios.is_empty() {
-            return Err(Error::Size { quantity: "list of damping ratios", found: 0, needed: 1 });
-        }
+        at_least("list of damping ratios", ratios.len(), 1)?;
         for ratio in ratios {
             damping_ratio("damping ratio", *ratio)?;
         }
@@ -251,10 +244,8 @@ impl ModalDamping {
 /// Mass and stiffness of a structure, the latter with its first tangent.
 fn matrices(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
     let n = structure.dofs();
-    if n > MOST {
-        let (quantity, value) = ("number of degrees of freedom with modal damping", n as f64);
-        return Err(Error::Input { quantity, value, needed: "3000 or fewer: reduce it first" });
-    }
+    let needed = "3000 or fewer: reduce it first";
+    require("number of degrees of freedom with modal damping", n as f64, n <= MOST, needed)?;
     let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
     let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|matrix| {
         structure.stiffness(matrix)?;

@@ -1,7 +1,7 @@
 //! A structure on its fixed base: the springs that hold it, and parts that nothing holds.
 
 use super::{DofCombination, FaceNode, Structure, Triplets};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require_part};
 use crate::geometry::{PLANE, SPACE};
 use crate::linalg::{
     Partition, SparseFactor, SparseMatrix, indefinite_row, largest, sparse_condition,
@@ -208,9 +208,7 @@ pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
 }
 
 fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
-    if matrix.asymmetry() > SYMMETRIC {
-        return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
-    }
+    require_part(name, matrix.asymmetry() <= SYMMETRIC, "must be symmetric")?;
     let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
     match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
         Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),

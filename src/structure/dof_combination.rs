@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Deref, Mul, Neg, Sub, SubAssign};
 
-use crate::error::{Error, Result, finite};
+use crate::error::{Result, finite, in_bounds};
 
 /// A weighted sum of a structure's degrees of freedom: a displacement of a point, a drift, a rotation.
 ///
@@ -44,9 +44,7 @@ impl DofCombination {
     pub(crate) fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
         for &(index, weight) in &self.0 {
             finite("weight of a degree of freedom", weight)?;
-            if index >= bound {
-                return Err(Error::Index { quantity, index, bound });
-            }
+            in_bounds(quantity, index, bound)?;
         }
         Ok(())
     }

@@ -6,10 +6,9 @@ use crate::text::column::column;
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
 ///
-/// Displacements are changes against the static state, relative to the translation of the free
-/// field (under the connected part they belong to); [`Probe::absolute_displacement`] includes it,
-/// [`DofCombination::relative_to_base`] and [`DofCombination::total_drift`] take the motion of the base out as well. Velocities
-/// and accelerations are total.
+/// Displacements are changes against the static state, relative to the translation of the free field (under the
+/// connected part they belong to); [`Probe::absolute_displacement`] includes it, [`DofCombination::relative_to_base`]
+/// and [`DofCombination::total_drift`] take the motion of the base out as well. Velocities and accelerations are total.
 ///
 /// ```
 /// use basemat::coupled::Probe;

@@ -134,8 +134,8 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
 
 /// A parameter of a [`Sweep`]: its name and the values that it takes, numbers or texts.
 ///
-/// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its column
-/// then tells the tables of different studies apart.
+/// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its
+/// column then tells the tables of different studies apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,
@@ -181,7 +181,7 @@ impl Parameter {
         self.len() == 0
     }
 
-    /// The number at `place`, if it takes numbers and so many of them.
+    /// Number at `place` of a parameter that takes numbers, if it has one there.
     pub(super) fn number(&self, place: usize) -> Option<f64> {
         match &self.values {
             Values::Numbers(numbers) => numbers.get(place).copied(),
@@ -189,7 +189,7 @@ impl Parameter {
         }
     }
 
-    /// The text at `place`, if it takes texts and so many of them.
+    /// Text at `place` of a parameter that takes texts, if it has one there.
     pub(super) fn text(&self, place: usize) -> Option<&str> {
         match &self.values {
             Values::Numbers(_) => None,

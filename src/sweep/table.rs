@@ -11,9 +11,9 @@ use crate::text::column::{Cell, number};
 use crate::text::csv::{Csv, csv_line};
 use crate::text::table::{LONGEST_LINE, Table, in_columns};
 
-/// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
-/// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide
-/// one breaks into blocks.
+/// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has
+/// none if it failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide one
+/// breaks into blocks.
 ///
 /// Tables are equal if all their bits are; every NaN is the same.
 #[derive(Debug, Clone)]
@@ -176,10 +176,10 @@ impl CaseTable {
         &self.columns
     }
 
-    /// As CSV (RFC 4180), a heading and a line for every case: `case`, the parameters, the results,
-    /// `error` and `check`, a check sum of the row without which it is not read again. Numbers have as many digits as read back to the last bit, in the caller's units; NaN
-    /// is an empty cell, infinities are `inf` and `-inf`. Of a case that failed the results are empty
-    /// and `error` is not.
+    /// As CSV (RFC 4180), a heading and a line for every case: `case`, the parameters, the results, `error` and
+    /// `check`, a check sum of the row without which it is not read again. Numbers have as many digits as read back to
+    /// the last bit, in the caller's units; NaN is an empty cell, infinities are `inf` and `-inf`. Of a case that
+    /// failed the results are empty and `error` is not.
     pub fn csv(&self) -> Csv {
         let mut text = csv_line(&heading(&self.grid, &self.columns));
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));

@@ -16,7 +16,7 @@ const MARK: &[u8] = b"\xef\xbb\xbf";
 pub(crate) enum Unread {
     /// The source failed.
     Failed(ErrorKind),
-    /// There was no line end in so many bytes.
+    /// This number of bytes had no line end.
     TooLong(usize),
 }
 
@@ -76,31 +76,21 @@ impl<R: Read> Lines<R> {
     }
 }
 
-impl From<Unread> for RecordError {
-    fn from(unread: Unread) -> Self {
-        match unread {
-            Unread::Failed(kind) => Self::Unreadable(kind),
-            Unread::TooLong(bytes) => Self::LineTooLong { bytes },
+macro_rules! from_unread {
+    ($error:ty) => {
+        impl From<Unread> for $error {
+            fn from(unread: Unread) -> Self {
+                match unread {
+                    Unread::Failed(kind) => Self::Unreadable(kind),
+                    Unread::TooLong(bytes) => Self::LineTooLong { bytes },
+                }
+            }
         }
-    }
+    };
 }
 
+from_unread!(RecordError);
 #[cfg(feature = "io")]
-impl From<Unread> for MeshFileError {
-    fn from(unread: Unread) -> Self {
-        match unread {
-            Unread::Failed(kind) => Self::Unreadable(kind),
-            Unread::TooLong(bytes) => Self::LineTooLong { bytes },
-        }
-    }
-}
-
+from_unread!(MeshFileError);
 #[cfg(feature = "io")]
-impl From<Unread> for MatrixFileError {
-    fn from(unread: Unread) -> Self {
-        match unread {
-            Unread::Failed(kind) => Self::Unreadable(kind),
-            Unread::TooLong(bytes) => Self::LineTooLong { bytes },
-        }
-    }
-}
+from_unread!(MatrixFileError);

@@ -12,7 +12,7 @@ use basemat::structure::{
 };
 
 use basemat_problems::needed_from;
-use basemat_problems::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
+use basemat_problems::scenes::{Rider, SI, apart, block, friction, scene, shake, states, tower};
 use basemat_problems::wrapped::Pulled;
 
 /// Makes a scene, as often as it is called.
@@ -26,18 +26,6 @@ fn march(builder: SimulationBuilder, coordinates: Coordinates) -> Vec<State> {
         .probe(Probe::velocity("v", vec![(2, 1.0)]))
         .probe(Probe::acceleration("a", vec![(1, 2.0)]));
     states(&mut builder.coordinates(coordinates).build().unwrap(), STEPS)
-}
-
-/// Largest difference of a quantity over a run, relative to its largest value.
-fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) -> Vec<f64>) -> f64 {
-    let (mut scale, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
-    for (a, b) in one.iter().zip(two) {
-        for (a, b) in quantity(a).into_iter().zip(quantity(b)) {
-            scale = scale.max(a.abs());
-            apart = apart.max((a - b).abs());
-        }
-    }
-    apart / scale
 }
 
 /// Somebody pulls it at the top.

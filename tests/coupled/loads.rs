@@ -8,10 +8,12 @@ use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
 use basemat::interface::{Bonded, Cohesive, Coulomb, FrictionLimit, ThinLayer, Yielding};
 use basemat::reference::RockingBlock;
 use basemat::structure::{
-    Bilinear, ContactNode, DofCombination, FemModel, RigidBlock, ShearBuilding, Storey, Structure,
-    StructureGroup, Triplets,
+    Bilinear, DofCombination, FemModel, RigidBlock, ShearBuilding, Storey, Structure,
+    StructureGroup,
 };
-use basemat::{Error, Result, Simulation, Soil, StabilityError};
+use basemat::{Error, Simulation, Soil, StabilityError};
+
+use basemat_problems::wrapped::Pulled;
 
 const GRAVITY: f64 = 9.80665;
 
@@ -38,30 +40,6 @@ fn refused(builder: SimulationBuilder) -> StabilityError {
     }
 }
 
-/// A structure with a load of its own.
-struct Loaded<S>(S, DofCombination, fn(f64) -> f64);
-
-impl<S: Structure> Structure for Loaded<S> {
-    fn dofs(&self) -> usize {
-        self.0.dofs()
-    }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.0.contact_nodes()
-    }
-    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.mass(matrix)
-    }
-    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.stiffness(matrix)
-    }
-    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        for &(i, weight) in &self.1 {
-            load[i] += weight * (self.2)(time);
-        }
-        Ok(())
-    }
-}
-
 #[test]
 fn a_load_of_the_builder_is_one_of_the_structure() {
     let push = |t: f64| 150.0e3 * (1.0 + (8.0 * t).sin());
@@ -69,8 +47,8 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
         || ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6); 5]).unwrap();
     let roof = DofCombination::from(building().roof());
     let law = || Coulomb::new(0.6).unwrap();
-    let mut inside =
-        on_half_plane(Loaded(building(), roof.clone(), push)).interface(law()).build().unwrap();
+    let pulled = Pulled { structure: building(), along: roof.clone(), force: push };
+    let mut inside = on_half_plane(pulled).interface(law()).build().unwrap();
     // In two loads, of which one is rounded otherwise.
     let mut outside = on_half_plane(building())
         .interface(law())

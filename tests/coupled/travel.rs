@@ -17,6 +17,7 @@ use basemat::structure::{
     Storey, Structure, StructureGroup, Triplets, WithSprings,
 };
 
+use basemat_problems::own_force;
 use basemat_problems::scenes::{GRAVITY, SI, friction, shake, soil};
 
 fn schemes() -> Vec<(&'static str, Box<dyn TimeScheme>)> {
@@ -207,13 +208,7 @@ impl Structure for Pounding {
         self.blocks.stiffness(matrix)
     }
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Pounding {

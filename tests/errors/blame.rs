@@ -14,6 +14,7 @@ use basemat::{Error, Result, Simulation};
 
 use super::{NOT_FINITE, error_with, soil};
 use basemat_problems::block_on_springs::bed;
+use basemat_problems::own_force;
 use basemat_problems::random::Random;
 use basemat_problems::wrapped::Wayward;
 
@@ -296,12 +297,7 @@ impl Structure for Told {
         matrix.add_outer([(0, -1.0), (3, 1.0)], 1e6);
         Ok(())
     }
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Told {

@@ -241,7 +241,7 @@ fn what_is_announced_must_be_there() {
     assert!(line == 22 && reason.to_string().contains("SecondOrderIncomplete"), "{reason}");
 }
 
-/// Gmsh leaves some 10⁻¹⁷ of z when a plane mesh was turned or extruded; that is of no account.
+/// Gmsh leaves some 10⁻¹⁷ of z when a plane mesh was turned or extruded; this is ignored.
 #[test]
 fn the_plane_is_as_flat_as_rounding_leaves_it() {
     let with = |z: &str| read(&MANUAL.replacen("0. 1. 0.", &format!("0. 1. {z}"), 1));

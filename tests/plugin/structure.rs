@@ -11,6 +11,7 @@ use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
 use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
+use basemat_problems::own_force;
 use basemat_problems::wrapped::Bare;
 
 /// A mass on a hardening spring on a rigid base: force k d + 4 d³ · k per m².
@@ -51,13 +52,7 @@ impl Structure for Hardening {
         Ok(())
     }
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Hardening {

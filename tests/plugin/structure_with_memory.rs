@@ -11,6 +11,8 @@ use basemat::motion::{Record, el_centro_1940};
 use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 use basemat::{CheckpointError, Error, Result, Simulation, StepError};
 
+use basemat_problems::own_force;
+
 const MASS: f64 = 2.0e4;
 /// First stiffness (N/m), yield force (N), and the share of the stiffness that stays.
 const STIFFNESS: f64 = 1.2e6;
@@ -71,13 +73,7 @@ impl Structure for Isolator {
         Ok(())
     }
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Isolator {

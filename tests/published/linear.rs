@@ -10,7 +10,7 @@ use basemat::structure::{RigidBlock, Structure};
 
 use basemat_problems::impedance::{impedance_errors, ricker};
 use basemat_problems::rigid_strip::{Contact, RigidStrip};
-use basemat_problems::sampled_block::under_pulse;
+use basemat_problems::sampled_block::{base_motion, moment, rotation, shear, under_pulse};
 use basemat_problems::series::{Error, Series, whole, within};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
@@ -94,23 +94,6 @@ fn half_plane(poisson: f64, (grading, elements, _): (Grading, usize, f64)) -> El
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
     ElasticGround::new(soil, strip).unwrap()
-}
-
-fn base_motion(state: &State) -> f64 {
-    state.absolute_displacement()[0]
-}
-
-/// The tables count rotations and moments clockwise.
-fn rotation(state: &State) -> f64 {
-    -state.absolute_displacement()[2]
-}
-
-fn shear(state: &State) -> f64 {
-    state.base_shear
-}
-
-fn moment(state: &State) -> f64 {
-    -state.base_moment
 }
 
 pub(super) fn block_errors(

@@ -319,7 +319,7 @@ fn pictures_show_open_and_sliding_cells() {
     let mixed = [("body", &histories), ("strip", &strip)];
     assert!(matches!(plot::history("T", &mixed, Quantity::BaseShear), Err(Error::Scene { .. })));
     assert!(plot::history("T", &mixed, Quantity::MeanSlip).is_ok());
-    // What there is in three directions only is empty in the plane.
+    // Series of three directions alone are empty in the plane.
     assert!(strip.series(Quantity::Torque).is_empty() && strip.depths().is_empty());
 }
 

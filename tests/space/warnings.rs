@@ -218,4 +218,5 @@ fn motion_along_y_has_no_place_in_the_plane() {
     assert!(!warns(Box::new(Triaxial { x: Some(record.clone()), ..Triaxial::default() })));
     assert!(warns(Box::new(motion(record.clone(), true))));
     assert!(warns(Box::new(wave().with_azimuth(0.3).unwrap())));
+    assert!(!warns(Box::new(wave().with_azimuth(std::f64::consts::PI).unwrap())));
 }

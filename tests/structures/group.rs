@@ -13,7 +13,7 @@ use basemat::structure::{
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
 
-use basemat_problems::needed_from;
+use basemat_problems::{needed_from, own_force};
 
 const STEP: f64 = 0.002;
 
@@ -230,13 +230,7 @@ struct Softening {
 impl Structure for Softening {
     needed_from!(block);
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Softening {

@@ -13,7 +13,7 @@ use crate::coupled::diagnosis::mechanism::AtRest;
 use crate::coupled::diagnosis::{mechanism, supports};
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, at_least};
 use crate::geometry::Patch;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
@@ -37,18 +37,12 @@ pub(crate) struct Assembled {
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong signs, parts that nothing holds, supports
-    /// beside the ground, and mechanisms that cannot be factored.
+    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong
+    /// signs, parts that nothing holds, supports beside the ground, and mechanisms that cannot be factored.
     pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
         let base = Base::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
-        if dofs == 0 {
-            return Err(Error::Size {
-                quantity: "list of degrees of freedom",
-                found: 0,
-                needed: 1,
-            });
-        }
+        at_least("list of degrees of freedom", dofs, 1)?;
         let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
             SparseMatrix::assembled(name, dofs, fill)
         };

@@ -17,15 +17,15 @@ use super::step_response::{Rows, StepResponses};
 use super::subspace::Subspace;
 use crate::coupled::scene::transformation::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::error::{Error, ReducedError, Result, finite};
+use crate::error::{ReducedError, Result, finite, require};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::structure::{FaceNode, HeldBase, stiffest};
 
 /// From one shift to the next.
 const RATIO: f64 = 4.0;
-/// Directions are left out of which less than this fraction is new, and less than so many times the root
-/// of the tolerance: their part of the responses is its square.
+/// Directions are left out if the fraction of them that is new is below this, and below this multiple of the root of
+/// the tolerance: their part of the responses is its square.
 const NEW: f64 = 1e-2;
 const NEW_BY_ROOT: f64 = 10.0;
 /// Least fraction of a direction that must be new, in the end.
@@ -125,10 +125,8 @@ impl<'a> Reduction<'a> {
     /// The Ritz modes with which the responses to suddenly applied forces err by less than `tolerance`.
     pub(super) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
         const NAME: &str = "tolerance of reduced coordinates";
-        if finite(NAME, tolerance)? <= 0.0 || tolerance >= 1.0 {
-            let needed = "above 0 and below 1";
-            return Err(Error::Input { quantity: NAME, value: tolerance, needed });
-        }
+        finite(NAME, tolerance)?;
+        require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
         let matrices = self.matrices()?;
         let translations = self.assembled.influence.translations(self.assembled.dofs());
         let (rotations, lowest) = self.held(&translations, matrices);

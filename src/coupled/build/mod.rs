@@ -170,8 +170,8 @@ impl SimulationBuilder {
         self
     }
 
-    /// Point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base unless given,
-    /// and along y always.
+    /// Point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base unless
+    /// given, and along y always.
     #[must_use]
     pub fn moment_center(mut self, x: f64) -> Self {
         self.given.moment_center = Some(x);

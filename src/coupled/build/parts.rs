@@ -8,7 +8,8 @@ use crate::coupled::motion::Load;
 use crate::coupled::run::Serviceability;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{
-    Error, Observer, Result, all_finite, finite, memory, not_negative, positive, same_length,
+    Error, Observer, Result, all_finite, finite, memory, not_negative, positive, require,
+    require_part, same_length,
 };
 use crate::geometry::Patch;
 use crate::interface::{ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact};
@@ -272,9 +273,8 @@ fn check_laws(
     if laws.is_empty() {
         return refuse("interface law", "give one to the builder with `interface`");
     }
-    if laws.len() != 1 && laws.len() != count {
-        let quantity = "list of interface laws";
-        return Err(Error::Size { quantity, found: laws.len(), needed: count });
+    if laws.len() != 1 {
+        same_length("list of interface laws", laws.len(), count)?;
     }
     if laws.iter().any(|law| law.modes().is_empty()) {
         return refuse("interface law", "`modes` must name at least one mode");
@@ -287,18 +287,13 @@ fn check_laws(
 
 /// Refuses laws without limits on a ground in plan, and the search of the plane.
 fn check_limits(given: &Given) -> Result<()> {
-    if given.search != ContactSearch::Robust {
-        let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
-        return Err(Error::Scene { quantity: "contact search", needed });
-    }
+    let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
+    require_part("contact search", given.search == ContactSearch::Robust, needed)?;
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, given.time_step);
-    given.laws.iter().try_for_each(|law| {
-        let mut memory = vec![0.0; law.state_variables()];
-        if !memory.is_empty() {
-            law.initial_state_variables(&start, &mut memory);
-        }
-        law.limits(&start.with_memory(&memory)).map(|_| ())
-    })
+    given
+        .laws
+        .iter()
+        .try_for_each(|law| law.limits(&start.with_memory(&start.first_memory(law))).map(|_| ()))
 }
 
 /// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one
@@ -314,18 +309,14 @@ fn safety_friction(
     } else {
         given
     };
-    if coefficients.len() > 1 && coefficients.len() != count {
-        let quantity = "list of friction coefficients";
-        return Err(Error::Size { quantity, found: coefficients.len(), needed: count });
+    if coefficients.len() > 1 {
+        same_length("list of friction coefficients", coefficients.len(), count)?;
     }
-    // Infinity is a coefficient.
-    match coefficients.iter().find(|value| value.is_nan() || **value < 0.0) {
-        Some(&value) => {
-            let (quantity, needed) = ("friction coefficient", "zero or more");
-            Err(Error::Input { quantity, value, needed })
-        }
-        None => Ok(coefficients),
+    for &value in &coefficients {
+        // Infinity is a coefficient.
+        require("friction coefficient", value, value >= 0.0, "zero or more")?;
     }
+    Ok(coefficients)
 }
 
 // In which coordinates a linear structure is stepped.
@@ -337,9 +328,9 @@ fn safety_friction(
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Coordinates {
-    /// Whichever is expected to take less time, with the modes' own computation counted against
-    /// them; see [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures, and those that
-    /// modes do not decouple, keep their degrees of freedom.
+    /// Whichever is expected to take less time, with the modes' own computation counted against them; see
+    /// [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures,
+    /// and those that modes do not decouple, keep their degrees of freedom.
     #[default]
     Auto,
     /// The structure's degrees of freedom: sparse matrices, one back-substitution per step.
@@ -360,17 +351,17 @@ pub enum Coordinates {
     /// they are looked at only where a probe reads them. What no probe reads is as good as the base's motion
     /// makes it; it is not checked.
     ///
-    /// A bonded run is a sum of such responses. Contact amplifies their errors, which nothing
-    /// bounds; on towers of 1 092 to 13 122 degrees of freedom with 2 and 5 % of damping that slide and uplift, errors of
-    /// base, roof and base shear stayed thirty times below the tolerance, and those of the roof's
-    /// acceleration below it. Undamped structures are an error: no few vectors have what rings on above
-    /// the frequency 2/Δt, and their accelerations would be lost first.
+    /// A bonded run is a sum of such responses. Contact amplifies their errors, which nothing bounds; on towers of 1
+    /// 092 to 13 122 degrees of freedom with 2 and 5 % of damping that slide and uplift, errors of base, roof and base
+    /// shear stayed thirty times below the tolerance, and those of the roof's acceleration below it. Undamped
+    /// structures are an error: no few vectors have what rings on above the frequency 2/Δt, and their accelerations
+    /// would be lost first.
     ///
-    /// Needs a linear structure with symmetric matrices, a positive definite mass and proportional
-    /// damping; [`ReducedError`](crate::ReducedError) names what is wrong. A load of the structure's own
-    /// is looked at 17 times over the expected steps: what acts only in between is projected. Loads of
-    /// the builder have no such gap. Building takes three to six times that of other coordinates: orthogonalizing 100 to
-    /// 250 vectors is 70 % of it, factors at other shifts are a tenth.
+    /// Needs a linear structure with symmetric matrices, a positive definite mass and proportional damping;
+    /// [`ReducedError`](crate::ReducedError) names what is wrong. A load of the structure's own is looked at 17 times
+    /// over the expected steps: what acts only in between is projected. Loads of the builder have no such gap. Building
+    /// takes three to six times that of other coordinates: orthogonalizing 100 to 250 vectors is 70 % of it, factors at
+    /// other shifts are a tenth.
     Reduced {
         /// Relative error of responses to sudden tractions, above 0 and below 1; below about 1e-9
         /// rounding may get in the way.

@@ -7,7 +7,7 @@ use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
-use crate::error::{Error, Result, all_finite, finite};
+use crate::error::{Result, all_finite, finite, require, require_part};
 use crate::geometry::PLANE;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
@@ -200,13 +200,10 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
     scene.base.means(&state.motion.velocity, &mut rate);
     let closed = CLOSED * largest(&given.displacement);
     if given.is_static() {
-        if let Some(&value) = moved.iter().find(|means| means.abs() > closed) {
-            return Err(Error::Input {
-                quantity: "initial displacement of the base, m",
-                value,
-                needed: "zero where weight holds it on the ground (begin with \
-                         `GravityStage::Unloaded`, or with a load that is released)",
-            });
+        let needed = "zero where weight holds it on the ground (begin with \
+                      `GravityStage::Unloaded`, or with a load that is released)";
+        for value in moved {
+            require("initial displacement of the base, m", value, value.abs() <= closed, needed)?;
         }
     } else {
         let mut starts = Vec::with_capacity(scene.count());
@@ -217,21 +214,13 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             if layout.is_plan() {
                 contact.slip_across = moved[layout.place(PLANE, e)];
             }
-            if contact.gap < -closed {
-                return Err(Error::Input {
-                    quantity: "gap of an element under the initial displacement, m",
-                    value: contact.gap,
-                    needed: "zero or more",
-                });
-            }
+            let quantity = "gap of an element under the initial displacement, m";
+            require(quantity, contact.gap, contact.gap >= -closed, "zero or more")?;
             if contact.gap > closed {
-                if !scene.law(e).modes().contains(&Mode::Open) {
-                    return Err(Error::Scene {
-                        quantity: "initial displacement",
-                        needed: "must leave the base on the ground where the interface law does \
-                                 not open",
-                    });
-                }
+                let opens = scene.law(e).modes().contains(&Mode::Open);
+                let needed =
+                    "must leave the base on the ground where the interface law does not open";
+                require_part("initial displacement", opens, needed)?;
                 *mode = Mode::Open;
             }
             starts.push(PreviousContact::new(*contact, *mode, scene.time_step));

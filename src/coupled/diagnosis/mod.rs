@@ -175,8 +175,8 @@ fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (
     parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
 }
 
-/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more than
-/// the slack.
+/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more
+/// than the slack.
 fn beyond(
     middles: impl Iterator<Item = [f64; 2]>,
     axis: usize,
@@ -215,12 +215,9 @@ fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
 /// Whether a law holds an element that nobody has moved so far at these tractions, without sliding
 /// or opening.
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
-    let mut memory = vec![0.0; law.state_variables()];
     let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
-    if !memory.is_empty() {
-        law.initial_state_variables(&start, &mut memory);
-    }
+    let memory = start.first_memory(law);
     let start = start.with_memory(&memory);
     let tolerance = Tolerance::new(0.0, 0.0);
     // A bonded base has no other mode.

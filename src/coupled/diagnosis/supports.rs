@@ -25,14 +25,14 @@
 
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{Structure, Tangent};
 
 /// Largest lag: far above rounding, and what a weight may be off.
 const LAG: f64 = 1e-6;
-/// Force r·K r of no account, relative to the largest stiffness.
+/// Largest work r·K r, relative to the largest stiffness, that is ignored.
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
 const ROW: f64 = 3e-10;
@@ -42,7 +42,7 @@ const DIAGONAL: f64 = 1e-13;
 const WORK: f64 = 1e-15;
 /// Largest |r − s| that bends nothing.
 const BENT: f64 = 1e-9;
-/// Largest |r − s| with which s is what r is meant to be.
+/// Largest |r − s| with which r is taken to be s.
 const WHOLE: f64 = 0.25;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
@@ -74,21 +74,13 @@ pub(crate) fn check(
             }
         }
     }
-    if lag > LAG {
-        let needed = "its contact nodes must be able to translate together";
-        return Err(Error::Scene { quantity: "structure", needed });
-    }
+    require_part("structure", lag <= LAG, "its contact nodes must be able to translate together")?;
     for (direction, translation) in translations.iter_mut().enumerate() {
         base.translate_nodes(direction, translation);
     }
     let error = base.translation_error(translations);
-    if error > EXACT {
-        return Err(Error::Input {
-            quantity: "error of the base under a rigid translation of 1 m",
-            value: error,
-            needed: "1e-14 or less: contact nodes must be able to translate together",
-        });
-    }
+    let needed = "1e-14 or less: contact nodes must be able to translate together";
+    require("error of the base under a rigid translation of 1 m", error, error <= EXACT, needed)?;
     Ok(())
 }
 
@@ -176,7 +168,7 @@ struct Resistance {
     bent: f64,
     /// Whether every row of K s is free of force.
     is_free: bool,
-    /// Where the force is largest beside the stiffness around: the force, its row and its share.
+    /// Largest force relative to the stiffness around it, its row, and that ratio.
     force: f64,
     dof: usize,
     share: f64,

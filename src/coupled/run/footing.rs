@@ -1,5 +1,5 @@
-//! The base as a whole or one foundation after a step: sums and means over it, and its factors of safety against sliding
-//! and overturning.
+//! The base as a whole or one foundation after a step: sums and means over it, and its factors of safety against
+//! sliding and overturning.
 //!
 //! Factors of safety are made of the contact tractions that did act. Tractions of a base that may open and slide
 //! cannot go beyond its strength: such a factor stays at or above one, and reaches it when the base
@@ -220,8 +220,8 @@ mod tests {
         assert_eq!(against_overturning(&pressed, 1), f64::INFINITY);
     }
 
-    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5) along x
-    /// 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
+    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5)
+    /// along x 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
     #[test]
     fn by_hand_in_plan() {
         let mut state = contact([30.0, 10.0], [-10.0, 6.0]);

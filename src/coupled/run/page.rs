@@ -141,8 +141,8 @@ impl Run {
         Ok(())
     }
 
-    /// Distance from the middle of a foundation in plan to the middles of its outermost elements along an axis, over half
-    /// its width; the least of all foundations and both sides.
+    /// Distance from the middle of a foundation in plan to the middles of its outermost elements along an axis, over
+    /// half its width; the least of all foundations and both sides.
     fn lever(&self, axis: usize) -> f64 {
         let of = |own: &Summary| {
             let ends = [own.ends, own.depth][axis];

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::peak::resultant;
 use crate::coupled::{Peak, State};
-use crate::error::{Error, Result, positive};
+use crate::error::{Result, positive, require};
 use crate::text::column::{number, printed};
 
 /// Response of a base that a service requirement limits.
@@ -133,7 +133,8 @@ impl Serviceability {
     /// The limits, if all are such.
     ///
     /// # Errors
-    /// [`Error::Input`] unless slip, gap and rotation are finite and above zero, and the fraction is at most one.
+    /// [`Error::Input`](crate::Error::Input) unless slip, gap and rotation are finite and above zero, and the fraction
+    /// is at most one.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, limit) in [
             ("allowable slip", self.slip),
@@ -142,13 +143,11 @@ impl Serviceability {
         ] {
             limit.map_or(Ok(0.0), |limit| positive(quantity, limit))?;
         }
-        match self.uplifted_fraction {
-            Some(value) if !(value > 0.0 && value <= 1.0) => {
-                let quantity = "allowable uplifted fraction";
-                Err(Error::Input { quantity, value, needed: "above zero, at most one" })
-            }
-            _ => Ok(self),
+        if let Some(value) = self.uplifted_fraction {
+            let (is_fraction, needed) = (value > 0.0 && value <= 1.0, "above zero, at most one");
+            require("allowable uplifted fraction", value, is_fraction, needed)?;
         }
+        Ok(self)
     }
 
     /// One check per limit, at the state from which a run starts.

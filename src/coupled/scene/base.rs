@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::faces::{Faces, hull, mats};
 use super::line::{check_order, check_overlap, chord_rotation, mean_weights};
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require};
 use crate::geometry::{ContactLayout, Patch, axis_name, far_ends};
 use crate::linalg::dot;
 use crate::structure::{
@@ -240,8 +240,8 @@ impl Base {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan then those about x and the
-    /// vertical, by the right-hand rule.
+    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan then those about x and
+    /// the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }
@@ -292,10 +292,8 @@ const UNDER: &str = "list of contact elements under a foundation";
 /// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
 fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
     let value = e as f64;
-    if !one {
-        let quantity = "number of a contact element under two mats";
-        return Err(Error::Input { quantity, value, needed: "elements under one mat each" });
-    }
+    let needed = "elements under one mat each";
+    require("number of a contact element under two mats", value, one, needed)?;
     if elements.start == elements.end {
         elements.start = e;
     } else if elements.end != e {

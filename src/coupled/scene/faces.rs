@@ -23,7 +23,7 @@ pub(super) struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// Faces with so many corners each, whose `nodes` follow one another.
+    /// Faces with these numbers of corners, whose `nodes` follow one another.
     pub(super) fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
         let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
         for (number, &count) in faces.iter().enumerate() {

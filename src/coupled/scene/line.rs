@@ -2,19 +2,16 @@
 
 use super::transformation::{Terms, accumulate};
 use crate::bem::ContactElement;
-use crate::error::{Error, Result};
+use crate::error::{Result, require};
 use crate::structure::FaceNode;
 
 /// Refuses nodes out of order.
 pub(super) fn check_order(nodes: &[FaceNode]) -> Result<()> {
-    match nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
-        None => Ok(()),
-        Some(pair) => Err(Error::Input {
-            quantity: "coordinate of a contact node",
-            value: pair[1].x,
-            needed: "to the right of the node before it",
-        }),
-    }
+    nodes.windows(2).try_for_each(|pair| {
+        let (before, x) = (pair[0].x, pair[1].x);
+        let needed = "to the right of the node before it";
+        require("coordinate of a contact node", x, x > before, needed).map(drop)
+    })
 }
 
 /// Refuses an element that is not wholly under the foundation with these nodes.
@@ -22,13 +19,10 @@ pub(super) fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Res
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
     for value in [first - element.left, element.right - last] {
-        if value > slack {
-            return Err(Error::Input {
-                quantity: "overhang of a contact element beyond the structure's base, m",
-                value,
-                needed: "zero: all elements of the ground lie between the structure's outermost contact nodes",
-            });
-        }
+        let quantity = "overhang of a contact element beyond the structure's base, m";
+        let needed =
+            "zero: all elements of the ground lie between the structure's outermost contact nodes";
+        require(quantity, value, value <= slack, needed)?;
     }
     Ok(())
 }

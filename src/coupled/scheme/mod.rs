@@ -4,7 +4,7 @@ mod newmark;
 
 pub use newmark::{DissipativeMidpoint, HhtAlpha, Newmark};
 
-use crate::error::{Error, Result, finite};
+use crate::error::{Result, finite, require};
 
 /// Coefficients of a time scheme: the place in the step where the equation of motion is written, and the motion at its
 /// end.
@@ -80,13 +80,10 @@ impl Theta {
     /// Method with ½ ≤ θ ≤ 1.
     ///
     /// # Errors
-    /// [`Error::Input`] outside this range.
+    /// [`Error::Input`](crate::Error::Input) outside this range.
     pub fn new(theta: f64) -> Result<Self> {
-        if (0.5..=1.0).contains(&theta) {
-            Ok(Self { theta })
-        } else {
-            Err(Error::Input { quantity: "theta", value: theta, needed: "from 0.5 to 1" })
-        }
+        require("theta", theta, (0.5..=1.0).contains(&theta), "from 0.5 to 1")?;
+        Ok(Self { theta })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Schemes of Newmark's family: his own, HHT-α, and one that dissipates at high frequencies.
 
 use super::{Midpoint, SchemeCoefficients, TimeScheme};
-use crate::error::{Error, Result};
+use crate::error::{Result, require};
 
 /// Newmark's method (1959), equation of motion at the end of the step: **for comparison with papers**.
 /// For use take [`Midpoint`](super::Midpoint), which is average acceleration with the step's own
@@ -44,15 +44,11 @@ impl Newmark {
     /// Method with γ ≥ ½ and β ≥ γ/2, for which it is stable with steps of any length.
     ///
     /// # Errors
-    /// [`Error::Input`] outside this range, and for γ > 2 or β > 10.
+    /// [`Error::Input`](crate::Error::Input) outside this range, and for γ > 2 or β > 10.
     pub fn new(gamma: f64, beta: f64) -> Result<Self> {
-        if !(0.5..=2.0).contains(&gamma) {
-            return Err(Error::Input { quantity: "gamma", value: gamma, needed: "from 0.5 to 2" });
-        }
-        if !(0.5 * gamma..=10.0).contains(&beta) {
-            let needed = "from gamma/2 (stable for any step) to 10";
-            return Err(Error::Input { quantity: "beta", value: beta, needed });
-        }
+        require("gamma", gamma, (0.5..=2.0).contains(&gamma), "from 0.5 to 2")?;
+        let needed = "from gamma/2 (stable for any step) to 10";
+        require("beta", beta, (0.5 * gamma..=10.0).contains(&beta), needed)?;
         Ok(Self { gamma, beta })
     }
 }
@@ -118,13 +114,10 @@ impl HhtAlpha {
     /// Method with −⅓ ≤ α ≤ 0.
     ///
     /// # Errors
-    /// [`Error::Input`] outside this range.
+    /// [`Error::Input`](crate::Error::Input) outside this range.
     pub fn new(alpha: f64) -> Result<Self> {
-        if (-1.0 / 3.0..=0.0).contains(&alpha) {
-            Ok(Self { alpha })
-        } else {
-            Err(Error::Input { quantity: "alpha", value: alpha, needed: "from -1/3 to 0" })
-        }
+        require("alpha", alpha, (-1.0 / 3.0..=0.0).contains(&alpha), "from -1/3 to 0")?;
+        Ok(Self { alpha })
     }
 }
 
@@ -199,13 +192,10 @@ impl DissipativeMidpoint {
     /// Method with ½ ≤ γ ≤ 1, from no damping to the most.
     ///
     /// # Errors
-    /// [`Error::Input`] outside this range.
+    /// [`Error::Input`](crate::Error::Input) outside this range.
     pub fn new(gamma: f64) -> Result<Self> {
-        if (0.5..=1.0).contains(&gamma) {
-            Ok(Self { gamma })
-        } else {
-            Err(Error::Input { quantity: "gamma", value: gamma, needed: "from 0.5 to 1" })
-        }
+        require("gamma", gamma, (0.5..=1.0).contains(&gamma), "from 0.5 to 1")?;
+        Ok(Self { gamma })
     }
 }
 

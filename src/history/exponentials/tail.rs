@@ -3,7 +3,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::error::{Error, Result, finite, not_negative, same_length};
+use crate::error::{Error, Result, finite, in_bounds, not_negative, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
@@ -60,9 +60,8 @@ impl ExponentialSum {
             }
         }
         for TailProduct { functions: pair, normal, tangential } in &products {
-            if let Some(&index) = pair.iter().find(|&&index| index >= functions.len()) {
-                let (quantity, bound) = ("function of a product", functions.len());
-                return Err(Error::Index { quantity, index, bound });
+            for index in pair {
+                in_bounds("function of a product", *index, functions.len())?;
             }
             same_length("tangential weights", tangential.len(), normal.len())?;
             if normal.len() > rates.len() {
@@ -172,14 +171,14 @@ impl Tail {
         self.states.iter().flatten().flatten().copied()
     }
 
-    /// Takes the state back, of which there must be as much as [`Tail::state_length`].
+    /// Restores the state, of length [`Tail::state_length`].
     pub(super) fn set_state(&mut self, state: &[f64]) {
         for (own, saved) in self.states.iter_mut().flatten().flatten().zip(state) {
             *own = *saved;
         }
     }
 
-    /// One step on: all that is held decays, `leaving` (2Q) leaves the window and comes in.
+    /// Advances by a step: the state decays, and `leaving` (2Q), which leaves the window, is added.
     pub(super) fn advance(&mut self, leaving: Option<&[f64]>) {
         let layout = ContactLayout::new(PLANE, self.lengths.len());
         for (part, states) in self.states.iter_mut().enumerate() {

@@ -139,9 +139,9 @@ pub(crate) trait Blocks: Send {
         watch: &mut Watch,
     ) -> Result<()>;
 
-    /// Makes ready for any number of steps, in memory that does not grow: no coefficient is other
-    /// than zero beyond d = `reach`, a leaf times a power of two; of a lattice none counts from there on. To be called before
-    /// the first step, in the place of [`Blocks::grow`], or where capacity is at most 2 `reach`.
+    /// Makes ready for any number of steps, in memory that does not grow: no coefficient is other than zero beyond d =
+    /// `reach`, a leaf times a power of two; of a lattice none counts from there on. To be called before the first
+    /// step, in the place of [`Blocks::grow`], or where capacity is at most 2 `reach`.
     fn bound(
         &mut self,
         kernel: &dyn ConvolutionWeights,

@@ -7,7 +7,8 @@
 //! | k | wavenumbers: 0 … S/2 along x; all along y |
 //! | ĝ | 𝓕 of the coefficients over the offset: i times a real number for what is odd in one axis, real otherwise |
 //!
-//! In plan the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx, ky).
+//! In plan the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx,
+//! ky).
 
 use std::sync::Arc;
 

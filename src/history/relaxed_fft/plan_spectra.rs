@@ -14,7 +14,8 @@ pub(crate) fn waves_in_plan(lattice: &Lattice) -> [usize; 2] {
     [across, across / 2 + 1].map(|rows| (along / 2 + 1) * rows)
 }
 
-/// Hands out what [`Lattice::coefficients`](super::lattice::Lattice::coefficients) does, as products with cosines and sines along x and along y.
+/// Hands out what [`Lattice::coefficients`](super::lattice::Lattice::coefficients) does, as products with cosines and
+/// sines along x and along y.
 pub(super) fn coefficients_in_plan(
     lattice: &Lattice,
     lengths: [usize; 2],

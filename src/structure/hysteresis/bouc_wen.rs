@@ -3,7 +3,7 @@
 use super::{
     Hysteresis, InternalEnergy, Slider, SpringResponse, corrupt, elastic_share, slider_law,
 };
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Result, finite, positive, require};
 use crate::linalg::gauss;
 
 /// Bouc–Wen hysteresis (Bouc 1967, Wen 1976) with a smooth transition to yield.
@@ -40,7 +40,7 @@ impl BoucWen {
     /// otherwise.
     ///
     /// # Errors
-    /// [`Error::Input`] unless k and F_y are positive and 0 ≤ α < 1.
+    /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
     pub fn new(stiffness: f64, yield_force: f64, hardening: f64) -> Result<Self> {
         positive("stiffness of the Bouc–Wen spring", stiffness)?;
         positive("yield force of the Bouc–Wen spring", yield_force)?;
@@ -55,15 +55,13 @@ impl BoucWen {
     /// a curve that bulges.
     ///
     /// # Errors
-    /// [`Error::Input`] unless 1 ≤ n ≤ 10 and ½ ≤ β ≤ 1.
+    /// [`Error::Input`](crate::Error::Input) unless 1 ≤ n ≤ 10 and ½ ≤ β ≤ 1.
     pub fn with_shape(mut self, exponent: f64, beta: f64) -> Result<Self> {
         for (quantity, value, range, needed) in [
             ("exponent of the Bouc–Wen spring", exponent, 1.0..=10.0, "from 1 to 10"),
             ("beta of the Bouc–Wen spring", beta, 0.5..=1.0, "from 0.5 to 1"),
         ] {
-            if !range.contains(&value) {
-                return Err(Error::Input { quantity, value, needed });
-            }
+            require(quantity, value, range.contains(&value), needed)?;
         }
         self.curve = Curve::new(exponent, beta);
         Ok(self)
@@ -303,7 +301,7 @@ impl LeadRubber {
     /// `rubber_thickness` t (m), and cores of `lead_area` (m²); areas per metre of thickness.
     ///
     /// # Errors
-    /// [`Error::Input`] unless all are positive.
+    /// [`Error::Input`](crate::Error::Input) unless all are positive.
     pub fn new(
         shear_modulus: f64,
         rubber_area: f64,
@@ -322,7 +320,7 @@ impl LeadRubber {
     /// of thickness.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are positive.
+    /// [`Error::Input`](crate::Error::Input) unless both are positive.
     pub fn from_strength(stiffness: f64, strength: f64) -> Result<Self> {
         positive("stiffness of the rubber", stiffness)?;
         positive("strength of the lead cores", strength)?;
@@ -334,12 +332,10 @@ impl LeadRubber {
     /// Sets the ratio of the initial stiffness to that after yield.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is finite and above 1.
+    /// [`Error::Input`](crate::Error::Input) unless it is finite and above 1.
     pub fn with_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
-        if !(ratio.is_finite() && ratio > 1.0) {
-            let needed = "finite and above 1";
-            return Err(Error::Input { quantity: "ratio of stiffnesses", value: ratio, needed });
-        }
+        let needed = "finite and above 1";
+        require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, needed)?;
         let series = (ratio - 1.0) * self.slider.parallel;
         self.slider.series = positive("first stiffness of the bearing", series)?;
         Ok(self)

@@ -7,7 +7,7 @@ pub use bouc_wen::{BoucWen, LeadRubber};
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 
-use crate::error::{CheckpointError, Error, Result, finite, not_negative, positive};
+use crate::error::{CheckpointError, Result, not_negative, positive, require};
 
 /// Force of a spring and its slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -206,7 +206,7 @@ impl Bilinear {
     /// slope after yield to k; all per metre of thickness.
     ///
     /// # Errors
-    /// [`Error::Input`] unless k and F_y are positive and 0 ≤ α < 1.
+    /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
     pub fn new(stiffness: f64, yield_force: f64, hardening: f64) -> Result<Self> {
         positive("stiffness of the bilinear spring", stiffness)?;
         positive("yield force of the bilinear spring", yield_force)?;
@@ -222,11 +222,8 @@ impl Bilinear {
 
 /// 1 − α for a hardening ratio 0 ≤ α < 1.
 pub(super) fn elastic_share(hardening: f64) -> Result<f64> {
-    if (0.0..1.0).contains(&hardening) {
-        return finite("hardening ratio", 1.0 - hardening);
-    }
-    let needed = "from 0 to below 1";
-    Err(Error::Input { quantity: "hardening ratio", value: hardening, needed })
+    let is_ratio = (0.0..1.0).contains(&hardening);
+    Ok(1.0 - require("hardening ratio", hardening, is_ratio, "from 0 to below 1")?)
 }
 
 slider_law!(Bilinear);

@@ -25,7 +25,7 @@ impl Spring {
 pub(crate) struct Springs(Vec<Spring>);
 
 impl Springs {
-    /// Adds a spring to a structure of so many degrees of freedom.
+    /// Adds a spring to a structure with this number of degrees of freedom.
     pub(crate) fn add(
         &mut self,
         row: DofCombination,
@@ -168,8 +168,8 @@ impl WithSprings {
     /// Adds a spring, whose deformation is `row`.
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have, [`Error::Input`](crate::Error::Input) for a
-    /// weight that is not finite.
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have,
+    /// [`Error::Input`](crate::Error::Input) for a weight that is not finite.
     pub fn spring(
         mut self,
         row: impl Into<DofCombination>,

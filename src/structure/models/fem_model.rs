@@ -1,7 +1,7 @@
 //! Structure made of finite elements.
 
 use super::rigid_links::{RigidLinks, describe};
-use crate::error::{Error, Result, positive};
+use crate::error::{Error, Result, at_least, in_bounds, positive, require};
 use crate::fem::{
     Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
     assemble_mass, assemble_stiffness,
@@ -58,24 +58,15 @@ impl FemModel {
     /// exist, [`Error::Input`] when they do not run to the right at one height, [`Error::Scene`]
     /// when one belongs to no element that displaces it.
     pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
-        if contact.len() < 2 {
-            let (found, needed) = (contact.len(), 2);
-            return Err(Error::Size { quantity: "contact nodes", found, needed });
-        }
+        at_least("contact nodes", contact.len(), 2)?;
         let numbering = Numbering::new(&mesh);
         let mut nodes: Vec<ContactNode> = Vec::with_capacity(contact.len());
         let mut height = None;
         for &index in contact {
-            let bound = mesh.nodes().len();
-            let &[x, y] = mesh.nodes().get(index).ok_or(Error::Index {
-                quantity: "contact node",
-                index,
-                bound,
-            })?;
-            if (y - *height.get_or_insert(y)).abs() > mesh.tolerance() {
-                let needed = "the height of the others";
-                return Err(Error::Input { quantity: "y of a contact node", value: y, needed });
-            }
+            let [x, y] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
+            let quantity = "y of a contact node";
+            let needed = "the height of the others";
+            require(quantity, y, (y - *height.get_or_insert(y)).abs() <= mesh.tolerance(), needed)?;
             if let Some(left) = nodes.last() {
                 positive("distance between contact nodes", x - left.x)?;
             }
@@ -244,10 +235,7 @@ impl FemModel {
     /// [`Error::Index`] for a node that does not exist, [`Error::NoDof`] for one that no element
     /// moves in this direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
-        let bound = self.mesh.nodes().len();
-        if node >= bound {
-            return Err(Error::Index { quantity: "node", index: node, bound });
-        }
+        in_bounds("node", node, self.mesh.nodes().len())?;
         let dof = self.numbering.dof(node, direction);
         let dof = dof.ok_or(Error::NoDof { node, direction: direction.word() })?;
         let own = [(dof, 1.0)];

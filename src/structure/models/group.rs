@@ -1,6 +1,6 @@
 //! Several structures on one ground.
 
-use crate::error::{CheckpointError, Error, Result, finite};
+use crate::error::{CheckpointError, Error, Result, finite, in_bounds, require};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
@@ -83,9 +83,9 @@ impl StructureGroup {
     /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at)).
     ///
     /// # Errors
-    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the
-    /// one before ends; [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a structure
-    /// in plan among those of the plane, or one among those in plan, and for a base that touches another in plan.
+    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the one before ends;
+    /// [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a structure in plan among
+    /// those of the plane, or one among those in plan, and for a base that touches another in plan.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
         let (nodes, faces) = (structure.contact_nodes(), structure.contact_faces());
@@ -122,14 +122,8 @@ impl StructureGroup {
         };
         let value = left.x + shift;
         let end = self.contact_nodes().last().map_or(f64::NEG_INFINITY, |last| last.x);
-        if value.partial_cmp(&end) == Some(std::cmp::Ordering::Greater) {
-            return Ok(());
-        }
-        Err(Error::Input {
-            quantity: "left end of the base of a structure",
-            value,
-            needed: "to the right of the structure before it",
-        })
+        let needed = "to the right of the structure before it";
+        require("left end of the base of a structure", value, value > end, needed).map(drop)
     }
 
     /// Number of structures.
@@ -143,10 +137,8 @@ impl StructureGroup {
     /// [`Error::Index`] for a structure that is not there, or a degree of freedom that it does not have;
     /// [`Error::Input`] for a weight that is not finite.
     pub fn row(&self, member: usize, row: impl Into<DofCombination>) -> Result<DofCombination> {
-        let (bound, row) = (self.members.len(), row.into());
-        let quantity = "structure of the group";
-        let own = self.members.get(member);
-        let own = own.ok_or(Error::Index { quantity, index: member, bound })?;
+        let row = row.into();
+        let own = &self.members[in_bounds("structure of the group", member, self.len())?];
         row.check("degree of freedom of a structure of the group", own.dofs)?;
         Ok(row.map_dofs(|index| own.first_dof.saturating_add(index)))
     }

@@ -1,6 +1,6 @@
 //! Structures without a mesh: the rigid block on its flat base, and given matrices.
 
-use crate::error::{Error, Result, finite, not_negative, positive, same_length};
+use crate::error::{Result, at_least, finite, not_negative, positive, same_length};
 use crate::linalg::SparseMatrix;
 use crate::structure::detached::{check_damping, check_mass};
 use crate::structure::{
@@ -149,13 +149,13 @@ const DAMPING: &str = "damping matrix";
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
-/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure
-/// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
-/// force beyond rounding (entries of ten digits may leave too much, those of twelve do not).
-/// Matrices are per metre of thickness, but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
-/// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed
-/// rows ([`Triplets::from_csr`]); large models march faster after a
-/// [`CraigBampton`](crate::structure::CraigBampton) reduction.
+/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure is
+/// **free**, without supports: the ground holds it up, so a rigid translation must give no elastic force beyond
+/// rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness,
+/// but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
+/// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
+/// ([`Triplets::from_csr`]); large models march faster after a [`CraigBampton`](crate::structure::CraigBampton)
+/// reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
 /// checked here; a symmetric stiffness matrix must be so where the base is held, Lagrange
@@ -190,10 +190,11 @@ impl MatrixModel {
     /// nodes `contact`, from left to right. No damping.
     ///
     /// # Errors
-    /// [`Error::Size`] for matrices without rows or of different order and for fewer than two
-    /// contact nodes, [`Error::Index`] and [`Error::Input`] for entries, coordinates or weights out
-    /// of range or not finite, [`Error::Scene`] for a mass matrix that is not symmetric,
-    /// [`Error::Indefinite`] for one with a negative mass, more than rounding.
+    /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for fewer than two
+    /// contact nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
+    /// coordinates or weights out of range or not finite, [`Error::Scene`](crate::Error::Scene) for a mass matrix that
+    /// is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for one with a negative mass, more than
+    /// rounding.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
         check_base_nodes(&on_line(contact.clone()), Self::check(&mass, &stiffness)?)?;
         let damping = Triplets::new(mass.order());
@@ -230,9 +231,7 @@ impl MatrixModel {
     /// Number of degrees of freedom of matrices that are those of a structure.
     fn check(mass: &Triplets, stiffness: &Triplets) -> Result<usize> {
         let order = mass.order();
-        if order == 0 {
-            return Err(Error::Size { quantity: "mass matrix", found: 0, needed: 1 });
-        }
+        at_least("mass matrix", order, 1)?;
         check_mass(&SparseMatrix::new("mass matrix", mass)?)?;
         check("stiffness matrix", stiffness, order)?;
         Ok(order)
@@ -241,9 +240,10 @@ impl MatrixModel {
     /// The same structure with a damping matrix (N s/m per metre), in place of what it had.
     ///
     /// # Errors
-    /// [`Error::Size`] for another order, [`Error::Index`] and [`Error::Input`] for entries out of
-    /// range or not finite, [`Error::Scene`] for a matrix that is not symmetric,
-    /// [`Error::Indefinite`] for one with negative damping, more than rounding.
+    /// [`Error::Size`](crate::Error::Size) for another order, [`Error::Index`](crate::Error::Index) and
+    /// [`Error::Input`](crate::Error::Input) for entries out of range or not finite,
+    /// [`Error::Scene`](crate::Error::Scene) for a matrix that is not symmetric,
+    /// [`Error::Indefinite`](crate::Error::Indefinite) for one with negative damping, more than rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
         check_damping(&check(DAMPING, &damping, self.mass.order())?)?;
         Ok(Self { damping, active: false, ..self })
@@ -254,8 +254,8 @@ impl MatrixModel {
     /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
     ///
     /// # Errors
-    /// [`Error::Size`], [`Error::Index`] and [`Error::Input`] as for
-    /// [`with_damping`](MatrixModel::with_damping).
+    /// [`Error::Size`](crate::Error::Size), [`Error::Index`](crate::Error::Index) and
+    /// [`Error::Input`](crate::Error::Input) as for [`with_damping`](MatrixModel::with_damping).
     pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
         check(DAMPING, &damping, self.mass.order())?;
         Ok(Self { damping, active: true, ..self })

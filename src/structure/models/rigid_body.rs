@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{Result, at_least, finite, not_negative, positive, require};
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets};
 
 /// Corners of the polygon that stands for a circular base, of the same area.
@@ -45,7 +45,7 @@ impl RigidBody {
     /// Homogeneous cuboid: sides along x, y and z (m) and density (kg/m³).
     ///
     /// # Errors
-    /// [`Error::Input`] unless all are positive.
+    /// [`Error::Input`](crate::Error::Input) unless all are positive.
     pub fn cuboid([length, width, height]: [f64; 3], density: f64) -> Result<Self> {
         positive("length of the cuboid", length)?;
         positive("width of the cuboid", width)?;
@@ -63,7 +63,7 @@ impl RigidBody {
     /// of the same area.
     ///
     /// # Errors
-    /// [`Error::Input`] unless all are positive.
+    /// [`Error::Input`](crate::Error::Input) unless all are positive.
     pub fn cylinder(radius: f64, height: f64, density: f64) -> Result<Self> {
         positive("radius of the cylinder", radius)?;
         positive("height of the cylinder", height)?;
@@ -87,19 +87,17 @@ impl RigidBody {
     /// beside it), and the centre of gravity (m) from the same point.
     ///
     /// # Errors
-    /// [`Error::Input`] for numbers that are not finite, a mass that is not positive, a tensor that is not symmetric
-    /// and positive definite, and a centre of gravity below the base; [`Error::Size`] for less than three corners.
-    /// Whether they are those of a convex face is checked when a simulation is built.
+    /// [`Error::Input`](crate::Error::Input) for numbers that are not finite, a mass that is not positive, a tensor
+    /// that is not symmetric and positive definite, and a centre of gravity below the base;
+    /// [`Error::Size`](crate::Error::Size) for less than three corners. Whether they are those of a convex face is
+    /// checked when a simulation is built.
     pub fn from_mass(
         outline: Vec<[f64; 2]>,
         mass: f64,
         inertia: [[f64; 3]; 3],
         gravity_center: [f64; 3],
     ) -> Result<Self> {
-        if outline.len() < 3 {
-            let quantity = "list of corners of a rigid body's base";
-            return Err(Error::Size { quantity, found: outline.len(), needed: 3 });
-        }
+        at_least("list of corners of a rigid body's base", outline.len(), 3)?;
         let mut corners = outline.iter().flatten();
         corners.try_for_each(|x| finite("corner of the base", *x).map(drop))?;
         positive("mass of the body", mass)?;
@@ -116,7 +114,7 @@ impl RigidBody {
     /// The same body with the middle of its base at `center` (m) on the surface, instead of the origin.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is finite.
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
     pub fn centered_at(self, center: [f64; 2]) -> Result<Self> {
         center.iter().try_for_each(|x| finite("middle of the base", *x).map(drop))?;
         Ok(Self { center, ..self })
@@ -126,7 +124,7 @@ impl RigidBody {
     /// the centre of gravity.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.
+    /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
     }
@@ -176,18 +174,14 @@ fn check_tensor(t: &[[f64; 3]; 3]) -> Result<()> {
     }
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
         let value = t[i][j] - t[j][i];
-        if value.abs() > SYMMETRIC * largest {
-            return Err(Error::Input { quantity: NAME, value, needed: "symmetric" });
-        }
+        require(NAME, value, value.abs() <= SYMMETRIC * largest, "symmetric")?;
     }
     let two = t[0][0] * t[1][1] - t[0][1] * t[1][0];
     let all = t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0])
         - t[1][2] * (t[0][0] * t[2][1] - t[0][1] * t[2][0])
         + t[2][2] * two;
     for value in [t[0][0], two, all] {
-        if value.is_nan() || value <= 0.0 {
-            return Err(Error::Input { quantity: NAME, value, needed: "positive definite" });
-        }
+        require(NAME, value, value > 0.0, "positive definite")?;
     }
     Ok(())
 }

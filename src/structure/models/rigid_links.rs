@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, in_bounds};
 use crate::fem::{Direction, Mesh, Numbering};
 use crate::structure::Triplets;
 use crate::structure::detached::{NAMED, listed};
@@ -39,9 +39,7 @@ impl RigidLinks {
         let fault = |needed| Error::Scene { quantity: "rigid link", needed };
         let bound = mesh.nodes().len();
         for &index in std::iter::once(&leader).chain(followers) {
-            if index >= bound {
-                return Err(Error::Index { quantity: "node of a rigid link", index, bound });
-            }
+            in_bounds("node of a rigid link", index, bound)?;
         }
         if DIRECTIONS.iter().any(|&direction| numbering.dof(leader, direction).is_none()) {
             return Err(fault(

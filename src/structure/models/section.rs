@@ -1,6 +1,6 @@
 //! Forces that pass through a horizontal cut, and those of a finite-element model.
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, at_least, finite, in_bounds, positive, require_part};
 use crate::fem::{Direction, Quantity, assemble};
 use crate::structure::{DofCombination, FemModel, Triplets};
 
@@ -189,10 +189,8 @@ impl FemModel {
     /// # Errors
     /// As for [`FemModel::pressure_row`]; [`Error::Scene`] for [`Direction::Rotation`].
     pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<DofCombination> {
-        if direction == Direction::Rotation {
-            let needed = "a direction along x or y";
-            return Err(Error::Scene { quantity: "resultant along a line", needed });
-        }
+        let needed = "a direction along x or y";
+        require_part("resultant along a line", direction != Direction::Rotation, needed)?;
         let weights = self.line_weights(nodes)?;
         let lengths = || weights.iter().map(|(_, [x, y])| x.hypot(*y));
         let whole: f64 = lengths().sum();
@@ -205,15 +203,9 @@ impl FemModel {
 
     /// The nodes of a line with their fractions of its way, `[x, y]` in m; one may come more than once.
     fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 2])>> {
-        if nodes.len() < 2 {
-            let quantity = "nodes of a loaded line";
-            return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
-        }
+        at_least("nodes of a loaded line", nodes.len(), 2)?;
         let all = self.mesh().nodes();
-        let at = |index: usize| {
-            let bound = all.len();
-            all.get(index).copied().ok_or(Error::Index { quantity: "node", index, bound })
-        };
+        let at = |index: usize| in_bounds("node", index, all.len()).map(|index| all[index]);
         let mut weights = Vec::with_capacity(2 * nodes.len());
         let mut k = 0;
         while k + 1 < nodes.len() {

@@ -1,7 +1,9 @@
 //! Shear building on a rigid base.
 
 use super::section::SectionRows;
-use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
+use crate::error::{
+    Result, at_least, damping_ratio, finite, in_bounds, not_negative, positive, require,
+};
 use crate::structure::hysteresis::Springs;
 use crate::structure::{ContactNode, DofCombination, NonlinearForce, Structure, Triplets};
 use std::f64::consts::{PI, TAU};
@@ -82,16 +84,14 @@ impl ShearBuilding {
     /// its underside (kg m²/m); storeys from below, the first one's columns stand at height 0.
     ///
     /// # Errors
-    /// [`Error::Size`] without storeys; [`Error::Input`] unless width, base mass and each storey's
-    /// height, mass and stiffness are positive and inertias and dashpots not negative, or when
+    /// [`Error::Size`](crate::Error::Size) without storeys; [`Error::Input`](crate::Error::Input) unless width, base
+    /// mass and each storey's height, mass and stiffness are positive and inertias and dashpots not negative, or when
     /// nothing resists rotation.
     pub fn new(width: f64, base_mass: f64, base_inertia: f64, storeys: &[Storey]) -> Result<Self> {
         positive("width of the base", width)?;
         positive("mass of the base", base_mass)?;
         not_negative("rotary inertia of the base", base_inertia)?;
-        if storeys.is_empty() {
-            return Err(Error::Size { quantity: "storeys", found: 0, needed: 1 });
-        }
+        at_least("storeys", storeys.len(), 1)?;
         for storey in storeys {
             positive("height of a storey", storey.height)?;
             positive("mass of a floor", storey.mass)?;
@@ -124,7 +124,7 @@ impl ShearBuilding {
     /// The same building with the middle of its base at `center` (m) on the surface.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is finite.
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
     pub fn centered_at(self, center: f64) -> Result<Self> {
         Ok(Self { center: finite("middle of the base", center)?, ..self })
     }
@@ -137,7 +137,7 @@ impl ShearBuilding {
     /// floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) gives every mode its own.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `ratio` is from 0 to below 1.
+    /// [`Error::Input`](crate::Error::Input) unless `ratio` is from 0 to below 1.
     pub fn with_stiffness_damping(self, ratio: f64) -> Result<Self> {
         damping_ratio("damping ratio", ratio)?;
         let frequency = self.fixed_base_frequency();
@@ -152,9 +152,9 @@ impl ShearBuilding {
     /// that carries the weight W.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative and every storey stands:
-    /// its columns' height is above W/k, at which they would buckle, with the first tangent k of the
-    /// law that it may follow.
+    /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative and every storey
+    /// stands: its columns' height is above W/k, at which they would buckle, with the first tangent k of the law that
+    /// it may follow.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
         (0..building.storeys.len()).try_for_each(|storey| building.carries_its_weight(storey))?;
@@ -175,14 +175,9 @@ impl ShearBuilding {
     /// Index of the horizontal displacement on top of `storey` (0: the first floor).
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey.
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn floor(&self, storey: usize) -> Result<usize> {
-        let bound = self.storeys.len();
-        if storey < bound {
-            Ok(storey + 3)
-        } else {
-            Err(Error::Index { quantity: "storey", index: storey, bound })
-        }
+        Ok(in_bounds("storey", storey, self.storeys.len())? + 3)
     }
 
     /// Index of the horizontal displacement of the highest floor.
@@ -193,7 +188,7 @@ impl ShearBuilding {
     /// Drift of `storey` (0: the lowest), `u_j − u_(j−1) + h_j θ`, as a weighted sum of degrees of freedom.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey.
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn drift(&self, storey: usize) -> Result<DofCombination> {
         self.floor(storey)?;
         Ok(self.drift_terms(storey).into())
@@ -203,7 +198,7 @@ impl ShearBuilding {
     /// base there, `u_j − u_x + H_j θ` with the height `H_j` of that floor: the sum of the drifts below.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey.
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn total_drift(&self, storey: usize) -> Result<DofCombination> {
         let floor = self.floor(storey)?;
         let height = self.storeys[..=storey].iter().map(|storey| storey.height).sum();
@@ -219,7 +214,7 @@ impl ShearBuilding {
     /// then the mean over the step.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey.
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn shear(&self, storey: usize) -> Result<SectionRows> {
         self.floor(storey)?;
         if self.tangents[storey].is_some() {
@@ -295,17 +290,11 @@ impl ShearBuilding {
     pub(super) fn carries_its_weight(&self, storey: usize) -> Result<()> {
         let Storey { height, stiffness, .. } = self.storeys[storey];
         let stiffness = self.tangents[storey].unwrap_or(stiffness);
-        if self.gravity == 0.0
+        let carries = self.gravity == 0.0
             || self.isolated && storey == 0
-            || stiffness * height > self.weight_on(storey)
-        {
-            return Ok(());
-        }
-        Err(Error::Input {
-            quantity: "height of a storey with P–Δ",
-            value: height,
-            needed: "above W/k, the weight it carries over its stiffness: its columns buckle",
-        })
+            || stiffness * height > self.weight_on(storey);
+        let needed = "above W/k, the weight it carries over its stiffness: its columns buckle";
+        require("height of a storey with P–Δ", height, carries, needed).map(drop)
     }
 
     /// Adds the curvature of the weight's potential.

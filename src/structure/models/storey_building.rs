@@ -2,7 +2,9 @@
 
 use super::rigid_body::RigidBody;
 use super::section::SectionRows;
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{
+    Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
+};
 use crate::structure::hysteresis::{Hysteresis, Springs};
 use crate::structure::{
     ContactNode, DofCombination, FaceNode, NonlinearForce, Structure, Triplets,
@@ -101,9 +103,7 @@ impl StoreyBuilding {
     /// [`Error::Size`] without storeys; [`Error::Input`] unless each storey's height, mass, inertia about the vertical
     /// and stiffnesses are positive, other inertias and dashpots not negative, and all numbers finite.
     pub fn new(mat: RigidBody, storeys: &[PlanStorey]) -> Result<Self> {
-        if storeys.is_empty() {
-            return Err(Error::Size { quantity: "storeys", found: 0, needed: 1 });
-        }
+        at_least("storeys", storeys.len(), 1)?;
         for storey in storeys {
             positive("height of a storey", storey.height)?;
             positive("mass of a floor", storey.mass)?;
@@ -126,8 +126,8 @@ impl StoreyBuilding {
     }
 
     /// The same building with `storey` (0: the lowest) following `law` in one `direction`:
-    /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The law
-    /// sees the storey's [`drift`](StoreyBuilding::drift) and takes the place of its stiffness there.
+    /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The
+    /// law sees the storey's [`drift`](StoreyBuilding::drift) and takes the place of its stiffness there.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
@@ -139,9 +139,8 @@ impl StoreyBuilding {
     ) -> Result<Self> {
         let fault = Error::Index { quantity: "direction of a storey", index: direction, bound: 3 };
         let row = self.drift(storey)?.into_iter().nth(direction).ok_or(fault)?;
-        if std::mem::replace(&mut self.has_law[storey][direction], true) {
-            return Err(Error::Scene { quantity: "law of a storey", needed: "one law at most" });
-        }
+        let is_first = !std::mem::replace(&mut self.has_law[storey][direction], true);
+        require_part("law of a storey", is_first, "one law at most")?;
         let dofs = self.dofs();
         self.springs.add(row, Box::new(law), dofs)?;
         Ok(self)
@@ -179,11 +178,7 @@ impl StoreyBuilding {
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
     pub fn floor(&self, storey: usize, place: [f64; 2]) -> Result<[DofCombination; 3]> {
-        let bound = self.storeys.len();
-        if storey < bound {
-            return Ok(level(storey + 1, place));
-        }
-        Err(Error::Index { quantity: "storey", index: storey, bound })
+        Ok(level(in_bounds("storey", storey, self.storeys.len())? + 1, place))
     }
 
     /// Deformation of `storey` (0: the lowest) at its centre of stiffness: drifts along x and y, and twist.
@@ -204,8 +199,8 @@ impl StoreyBuilding {
         Ok(self.deformation([storey, storey + 1], place))
     }
 
-    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the mat's
-    /// base) less the rigid motion of the mat there: the sum of the drifts below.
+    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the
+    /// mat's base) less the rigid motion of the mat there: the sum of the drifts below.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.

@@ -1,7 +1,7 @@
 //! Shear buildings whose storeys yield, or that stand on isolators.
 
 use super::shear_building::{ShearBuilding, Storey};
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{Result, finite, not_negative, positive, require_part};
 use crate::structure::Structure;
 use crate::structure::hysteresis::Hysteresis;
 
@@ -44,13 +44,13 @@ impl ShearBuilding {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it has a law already,
-    /// [`Error::Input`] when the law's first stiffness does not hold the storey up against its P–Δ.
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey, [`Error::Scene`](crate::Error::Scene) when
+    /// it has a law already, [`Error::Input`](crate::Error::Input) when the law's first stiffness does not hold the
+    /// storey up against its P–Δ.
     pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
         let drift = self.drift(storey)?;
-        if self.tangents[storey].replace(law.response(0.0).tangent).is_some() {
-            return Err(Error::Scene { quantity: "law of a storey", needed: "one law at most" });
-        }
+        let is_first = self.tangents[storey].replace(law.response(0.0).tangent).is_none();
+        require_part("law of a storey", is_first, "one law at most")?;
         self.carries_its_weight(storey)?;
         let dofs = self.dofs();
         self.springs.add(drift, Box::new(law), dofs)?;
@@ -71,8 +71,9 @@ impl ShearBuilding {
     /// to be given as it is under their load.
     ///
     /// # Errors
-    /// [`Error::Input`] unless the level's height and slab mass and the law's first stiffness are
-    /// positive, its inertia and damping not negative; [`Error::Scene`] when a storey has a law already.
+    /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's first stiffness are
+    /// positive, its inertia and damping not negative; [`Error::Scene`](crate::Error::Scene) when a storey has a law
+    /// already.
     pub fn isolated(
         mut self,
         level: IsolationLevel,
@@ -85,10 +86,8 @@ impl ShearBuilding {
             stiffness: positive("first stiffness of the isolators", law.response(0.0).tangent)?,
             damping: not_negative("damping of the isolators", level.damping)?,
         };
-        if !self.springs.is_empty() {
-            let needed = "must be there before the laws of storeys";
-            return Err(Error::Scene { quantity: "level of isolators", needed });
-        }
+        let needed = "must be there before the laws of storeys";
+        require_part("level of isolators", self.springs.is_empty(), needed)?;
         self.storeys.insert(0, storey);
         self.tangents.insert(0, None);
         self.isolated = true;

@@ -10,7 +10,9 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{Basis, Recovery};
-use crate::error::{Error, Result, damping_ratio, memory};
+use crate::error::{
+    Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
+};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{MASSLESS, SYMMETRIC, check_attached, numbers};
 use crate::structure::nonlinear::is_nonlinear;
@@ -104,15 +106,11 @@ impl CraigBampton {
     /// stiffness is not positive.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.dofs();
-        if is_nonlinear(&mut structure)? {
-            let needed = "must be linear: put springs on the reduced model";
-            return Err(Error::Scene { quantity: "structure to be reduced", needed });
-        }
-        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+        let needed = "must be linear: put springs on the reduced model";
+        require_part("structure to be reduced", !is_nonlinear(&mut structure)?, needed)?;
+        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| -> Result<SparseMatrix> {
             let matrix = SparseMatrix::assembled(name, n, fill)?;
-            if matrix.asymmetry() > SYMMETRIC {
-                return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
-            }
+            require_part(name, matrix.asymmetry() <= SYMMETRIC, "must be symmetric")?;
             Ok(matrix)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
@@ -122,10 +120,7 @@ impl CraigBampton {
         let parts = Parts::new(n, &base_nodes(&structure), &self.kept)?;
         check_attached(&structure, &stiffness, &mass, &parts.kept)?;
         let interior = parts.interior.len();
-        if self.modes > interior {
-            let quantity = "list of fixed-interface modes";
-            return Err(Error::Size { quantity, found: self.modes, needed: interior });
-        }
+        same_length("list of fixed-interface modes", self.modes, self.modes.min(interior))?;
         let (rows, squares) = parts.basis(&stiffness, &mass, self.modes)?;
         let basis = Basis::new(parts.kept.clone(), rows, n);
         let order = basis.order();
@@ -179,12 +174,7 @@ impl Parts {
         let of_contact = contact.iter().flat_map(FaceNode::rows).flatten();
         let mut is_kept = vec![false; n];
         for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
-            let bound = n;
-            *is_kept.get_mut(index).ok_or(Error::Index {
-                quantity: "degree of freedom to be kept",
-                index,
-                bound,
-            })? = true;
+            is_kept[in_bounds("degree of freedom to be kept", index, n)?] = true;
         }
         let (mut kept, mut interior) = (Vec::new(), Vec::new());
         let place = (0..n)
@@ -194,13 +184,7 @@ impl Parts {
                 list.len() - 1
             })
             .collect();
-        if kept.is_empty() {
-            return Err(Error::Size {
-                quantity: "list of kept degrees of freedom",
-                found: 0,
-                needed: 1,
-            });
-        }
+        at_least("list of kept degrees of freedom", kept.len(), 1)?;
         Ok(Self { kept, interior, place, is_kept })
     }
 

@@ -98,8 +98,8 @@ impl Recovery {
     /// deformed shape.
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have, [`Error::Input`](crate::Error::Input) for a
-    /// weight that is not finite.
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have,
+    /// [`Error::Input`](crate::Error::Input) for a weight that is not finite.
     pub fn row(&self, row: impl Into<DofCombination>) -> Result<DofCombination> {
         let full = row.into();
         full.check("degree of freedom of the full model", self.basis.full)?;

@@ -10,8 +10,8 @@ use basemat::structure::{
 use basemat::{CheckpointError, Error, Result};
 
 use super::{half_plane, refusal, spring_bed};
-use basemat_problems::needed_from;
 use basemat_problems::scenes::{Rider, SI, block, friction, scene};
+use basemat_problems::{needed_from, own_force};
 
 #[test]
 fn other_scenes_are_refused() {
@@ -92,13 +92,7 @@ struct Unsaved(Rider);
 impl Structure for Unsaved {
     needed_from!(0);
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Unsaved {

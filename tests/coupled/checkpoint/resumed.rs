@@ -13,8 +13,8 @@ use basemat::structure::{NonlinearForce, RigidBlock, Structure, Triplets};
 use basemat::{CheckpointError, Result, Simulation};
 
 use super::{STEPS, carried, half_plane, spring_bed};
-use basemat_problems::needed_from;
 use basemat_problems::scenes::{Rider, SI, block, friction, scene, soil, states, tower};
+use basemat_problems::{needed_from, own_force};
 
 /// Rigid block whose weak spring against rotation slips: it has a memory of its own.
 struct Sticky {
@@ -25,13 +25,7 @@ struct Sticky {
 impl Structure for Sticky {
     needed_from!(block);
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    own_force!();
 }
 
 impl NonlinearForce for Sticky {

@@ -1,13 +1,15 @@
 //! Runs under a Ricker pulse, and their sampled histories.
 
-use basemat::bem::Ground;
-use basemat::interface::Bonded;
+use basemat::bem::{ElasticGround, Grading, Ground, Strip};
+use basemat::coupled::State;
+use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::results::Run;
-use basemat::structure::Structure;
-use basemat::{Result, Simulation};
+use basemat::structure::{RigidBlock, Structure};
+use basemat::{Result, Simulation, Soil};
 
-use super::series::Error;
+use super::series::{Error, Series, whole};
+use super::table;
 
 /// The scene of the tables `td_*`: bonded and weightless under a Ricker pulse.
 pub fn under_pulse(
@@ -51,4 +53,88 @@ pub fn distance(found: &History, wanted: &History) -> [f64; 3] {
         found[k].iter().zip(&wanted[k]).for_each(|(a, b)| error.add(*a, *b));
         error.relative()
     })
+}
+
+/// Sampling of the histories of a [`PulsedBlock`]: all time steps are fractions of it.
+pub const SAMPLE: f64 = 0.2;
+
+/// A block of width and mass 2 and 4 under a Ricker pulse of peak 1 that ends before `duration`; bonded without friction.
+#[derive(Debug, Clone, Copy)]
+pub struct PulsedBlock {
+    pub height: f64,
+    pub gravity: f64,
+    pub sigma: f64,
+    pub friction: Option<f64>,
+    pub duration: f64,
+}
+
+impl PulsedBlock {
+    /// The bonded block of the reference table.
+    pub const BONDED: Self =
+        Self { height: 2.0, gravity: 0.0, sigma: 1.0, friction: None, duration: 20.0 };
+    /// A slender block under a slow pulse.
+    pub const SLENDER: Self =
+        Self { height: 6.0, gravity: 0.15, sigma: 2.0, friction: None, duration: 25.0 };
+    /// A block that slides and lifts.
+    pub const SLIDING: Self =
+        Self { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 };
+
+    /// Its history on so many elements.
+    pub fn history(
+        self,
+        (grading, elements): (Grading, usize),
+        time_step: f64,
+    ) -> Result<(History, Run)> {
+        let soil = Soil::new(1.0, 1.0 / 3.0, 1.0)?;
+        let strip = Strip::new(-1.0..1.0, elements, grading)?;
+        let builder = Simulation::builder(time_step)
+            .structure(RigidBlock::new(2.0, self.height, 2.0 / self.height)?)
+            .ground(ElasticGround::new(soil, strip)?)
+            .motion(RickerDisplacement::new(1.0, self.sigma, 5.0 * self.sigma)?)
+            .gravity(self.gravity);
+        let builder = match self.friction {
+            Some(friction) => builder.interface(Coulomb::new(friction)?),
+            None => builder.interface(Bonded),
+        };
+        let every = whole(SAMPLE / time_step);
+        sample(&mut builder.build()?, whole(self.duration / time_step), every)
+    }
+
+    /// The bonded block of the table, sampled.
+    pub fn exact() -> History {
+        let table = table("td_block_SV_nu0333_h2_rho1.csv");
+        let column = |name| Series::new(&table, name);
+        let (base, rotation, shear) = (column("u_base"), column("theta"), column("V"));
+        let times = || (1..=whole(Self::BONDED.duration / SAMPLE)).map(|n| n as f64 * SAMPLE);
+        // Mean of the shear over a sample, from means over its eighths.
+        let part = SAMPLE / 8.0;
+        let mean = |time: f64| -> f64 {
+            (0..8).map(|k| shear.mean(time - f64::from(k) * part, part)).sum::<f64>() / 8.0
+        };
+        [
+            times().map(|time| base.at(time)).collect(),
+            times().map(|time| -rotation.at(time)).collect(),
+            times().map(mean).collect(),
+        ]
+    }
+}
+
+/// Horizontal displacement of a block's base.
+pub fn base_motion(state: &State) -> f64 {
+    state.absolute_displacement()[0]
+}
+
+/// Rotation of a block's base as the tables count it, clockwise.
+pub fn rotation(state: &State) -> f64 {
+    -state.absolute_displacement()[2]
+}
+
+/// Horizontal force on the soil.
+pub fn shear(state: &State) -> f64 {
+    state.base_shear
+}
+
+/// Moment on the soil as the tables count it, clockwise.
+pub fn moment(state: &State) -> f64 {
+    -state.base_moment
 }

@@ -111,6 +111,22 @@ pub fn states(simulation: &mut Simulation, steps: usize) -> Vec<State> {
     states
 }
 
+/// Largest difference of a quantity over a run, relative to its largest value in the first.
+pub fn apart<'a>(
+    one: &'a [State],
+    two: &'a [State],
+    quantity: impl Fn(&'a State) -> Vec<f64>,
+) -> f64 {
+    let (mut scale, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
+    for (a, b) in one.iter().zip(two) {
+        for (a, b) in quantity(a).into_iter().zip(quantity(b)) {
+            scale = scale.max(a.abs());
+            apart = apart.max((a - b).abs());
+        }
+    }
+    apart / scale
+}
+
 /// A run of so many steps: its time series, and its states with the one before.
 pub fn recorded(
     simulation: &mut Simulation,
@@ -158,13 +174,7 @@ impl Structure for Rider {
         Ok(())
     }
 
-    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        Some(self)
-    }
-
-    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        Some(self)
-    }
+    crate::own_force!();
 }
 
 impl NonlinearForce for Rider {

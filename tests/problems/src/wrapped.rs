@@ -27,6 +27,20 @@ macro_rules! needed_from {
     };
 }
 
+/// A structure's own nonlinear force.
+#[macro_export]
+macro_rules! own_force {
+    () => {
+        fn nonlinear(&self) -> Option<&dyn basemat::structure::NonlinearForce> {
+            Some(self)
+        }
+
+        fn nonlinear_mut(&mut self) -> Option<&mut dyn basemat::structure::NonlinearForce> {
+            Some(self)
+        }
+    };
+}
+
 /// A structure of which nothing but what every structure must say is left.
 pub struct Bare<S>(pub S);
 

@@ -11,6 +11,8 @@ use basemat::{Error, Result, Simulation, Soil, interface::Bonded};
 
 use super::model::{on_soil, tower};
 
+use basemat_problems::needed_from;
+
 /// A rigid base with a mass on a spring of 4 MN/m, 5 m up.
 fn floor() -> MatrixModel {
     let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
@@ -37,18 +39,8 @@ fn dashpot(coefficient: f64) -> Triplets {
 struct Damped(MatrixModel, Triplets);
 
 impl Structure for Damped {
-    fn dofs(&self) -> usize {
-        self.0.dofs()
-    }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.0.contact_nodes()
-    }
-    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.mass(matrix)
-    }
-    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.stiffness(matrix)
-    }
+    needed_from!(0);
+
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         for &(i, j, value) in self.1.entries() {
             matrix.add(i, j, value);

@@ -1,18 +1,12 @@
 //! Orders of accuracy in the time step and in the element size.
 
-use basemat::bem::{ElasticGround, Grading, Strip};
-use basemat::interface::{Bonded, Coulomb};
-use basemat::motion::RickerDisplacement;
-use basemat::structure::RigidBlock;
-use basemat::{Simulation, Soil};
+use basemat::bem::Grading;
 use plotters::prelude::SeriesLabelPosition;
 
 use super::outcome::{Case, Check, Outcome};
 use crate::AnyError;
 use crate::figure::{BLUE, Figure, GRAY, GREEN, ORANGE, Panel, RED};
-use basemat_problems::sampled_block::{History, distance, sample};
-use basemat_problems::series::{Series, whole};
-use basemat_problems::table;
+use basemat_problems::sampled_block::{History, PulsedBlock, distance};
 
 pub(crate) const CASE: Case = Case {
     name: "convergence",
@@ -22,66 +16,16 @@ pub(crate) const CASE: Case = Case {
     run,
 };
 
-/// Sampling of the histories: all time steps are fractions of it.
-const SAMPLE: f64 = 0.2;
-
-/// A block of width and mass 2 and 4 under a Ricker pulse of amplitude 1.
-#[derive(Debug, Clone, Copy)]
-struct Scene {
-    height: f64,
-    gravity: f64,
-    sigma: f64,
-    friction: Option<f64>,
-    duration: f64,
-}
-
-const BONDED: Scene =
-    Scene { height: 2.0, gravity: 0.0, sigma: 1.0, friction: None, duration: 20.0 };
-const CONTACT: Scene =
-    Scene { height: 6.0, gravity: 0.15, sigma: 2.0, friction: None, duration: 25.0 };
-
 fn history(
-    scene: Scene,
-    (grading, elements): (Grading, usize),
+    scene: PulsedBlock,
+    mesh: (Grading, usize),
     time_step: f64,
 ) -> Result<History, AnyError> {
-    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0)?;
-    let strip = Strip::new(-1.0..1.0, elements, grading)?;
-    let builder = Simulation::builder(time_step)
-        .structure(RigidBlock::new(2.0, scene.height, 2.0 / scene.height)?)
-        .ground(ElasticGround::new(soil, strip)?)
-        .motion(RickerDisplacement::new(1.0, scene.sigma, 5.0 * scene.sigma)?)
-        .gravity(scene.gravity);
-    let builder = match scene.friction {
-        Some(friction) => builder.interface(Coulomb::new(friction)?),
-        None => builder.interface(Bonded),
-    };
-    let mut simulation = builder.build()?;
-    let every = whole(SAMPLE / time_step);
-    let steps = whole(scene.duration / time_step);
-    let (history, run) = sample(&mut simulation, steps, every)?;
+    let (history, run) = scene.history(mesh, time_step)?;
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
     Ok(history)
-}
-
-/// The bonded block of the table, sampled.
-fn exact() -> History {
-    let table = table("td_block_SV_nu0333_h2_rho1.csv");
-    let column = |name| Series::new(&table, name);
-    let (base, rotation, shear) = (column("u_base"), column("theta"), column("V"));
-    let times = || (1..=whole(BONDED.duration / SAMPLE)).map(|n| n as f64 * SAMPLE);
-    // Mean over a sample, from means over its eighths.
-    let part = SAMPLE / 8.0;
-    let mean = |time: f64| -> f64 {
-        (0..8).map(|k| shear.mean(time - f64::from(k) * part, part)).sum::<f64>() / 8.0
-    };
-    [
-        times().map(|time| base.at(time)).collect(),
-        times().map(|time| -rotation.at(time)).collect(),
-        times().map(mean).collect(),
-    ]
 }
 
 /// Smallest and largest order of the three quantities over the last `halvings`.
@@ -102,7 +46,7 @@ fn add(checks: &mut Vec<Check>, what: &str, [low, high]: [f64; 2], wanted: [f64;
 fn run(short: bool) -> Result<Outcome, AnyError> {
     let mut checks = Vec::new();
     let counts = if short { &[4, 8, 16][..] } else { &[4, 8, 16, 32][..] };
-    let wanted = exact();
+    let wanted = PulsedBlock::exact();
     let mut left = Panel::new("number of elements", "error of the rotation, relative L2")
         .categories(&["4", "8", "16", "32"])
         .logarithmic();
@@ -112,7 +56,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     ] {
         let mut errors = Vec::new();
         for &count in counts {
-            let found = history(BONDED, (grading, count), 0.025)?;
+            let found = history(PulsedBlock::BONDED, (grading, count), 0.025)?;
             errors.push(distance(&found, &wanted));
         }
         add(&mut checks, name, orders(&errors, 1), range);
@@ -130,11 +74,11 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         .categories(&["0.2", "0.1", "0.05", "0.025", "0.0125"])
         .room(0.1, 0.08)
         .logarithmic();
-    let finest = history(BONDED, mesh, 0.003_125)?;
+    let finest = history(PulsedBlock::BONDED, mesh, 0.003_125)?;
     let steps = [0.2, 0.1, 0.05, 0.025];
     let mut errors = Vec::new();
     for step in steps {
-        errors.push(distance(&history(BONDED, mesh, step)?, &finest));
+        errors.push(distance(&history(PulsedBlock::BONDED, mesh, step)?, &finest));
     }
     add(&mut checks, "time step, bonded", orders(&errors, 2), [1.8, 2.2]);
     right = right.circles("bonded", BLUE, points(0, &errors));
@@ -143,13 +87,9 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         right = right.dashed(&format!("order {power}"), color, vec![(0.0, start), (4.0, end)]);
     }
     let list = [
-        ("sliding", ORANGE, Scene { friction: Some(0.5), ..CONTACT }),
-        ("rocking", GREEN, Scene { friction: Some(f64::INFINITY), ..CONTACT }),
-        (
-            "rocking and sliding",
-            RED,
-            Scene { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 },
-        ),
+        ("sliding", ORANGE, PulsedBlock { friction: Some(0.5), ..PulsedBlock::SLENDER }),
+        ("rocking", GREEN, PulsedBlock { friction: Some(f64::INFINITY), ..PulsedBlock::SLENDER }),
+        ("rocking and sliding", RED, PulsedBlock::SLIDING),
     ];
     let list = if short { &list[..1] } else { &list[..] };
     let steps = [0.1, 0.05, 0.025, 0.0125];

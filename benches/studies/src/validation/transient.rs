@@ -10,6 +10,7 @@ use basemat::{Simulation, Soil};
 use super::outcome::{Case, Check, Outcome, worse};
 use crate::AnyError;
 use crate::figure::{BLUE, Figure, Panel, RED};
+use basemat_problems::sampled_block::{base_motion, moment, rotation, shear};
 use basemat_problems::series::{Error, Series, whole};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
@@ -120,26 +121,6 @@ fn panel(history: &History, unit: &str) -> Panel {
     Panel::new("t c_S / b", &format!("{}{unit}", history.name))
         .reference("frequency-domain table", RED, points(&history.wanted))
         .line("basemat", BLUE, points(&history.found))
-}
-
-/// The base's horizontal displacement.
-fn base_motion(state: &State) -> f64 {
-    state.absolute_displacement()[0]
-}
-
-/// The tables count rotations and moments clockwise.
-fn rotation(state: &State) -> f64 {
-    -state.absolute_displacement()[2]
-}
-
-/// Horizontal force on the soil.
-fn shear(state: &State) -> f64 {
-    state.base_shear
-}
-
-/// Moment on the soil.
-fn moment(state: &State) -> f64 {
-    -state.base_moment
 }
 
 pub(crate) const BLOCKS: Case = Case {

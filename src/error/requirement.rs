@@ -1,0 +1,95 @@
+//! Requirements of numbers, lists and parts, and the errors if they are not met.
+
+use super::{Error, Result};
+
+/// `value` if its requirement `holds`.
+pub(crate) fn require(
+    quantity: &'static str,
+    value: f64,
+    holds: bool,
+    needed: &'static str,
+) -> Result<f64> {
+    if holds { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
+}
+
+/// `value` if it is finite and above zero.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64> {
+    require(quantity, value, value.is_finite() && value > 0.0, "finite and above zero")
+}
+
+/// `value` if it is finite and not below zero.
+pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
+    require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
+}
+
+/// `value` if it is a damping ratio: that of critical damping is 1, and 5 % are 0.05.
+pub(crate) fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
+    require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
+}
+
+/// `value` if it is finite.
+pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
+    require(quantity, value, value.is_finite(), "finite")
+}
+
+/// The first of `values` that is not finite, with its place.
+pub(crate) fn not_finite(values: &[f64]) -> Option<(usize, f64)> {
+    values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
+}
+
+/// Error if one of `values` is not finite.
+pub(crate) fn all_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
+    match not_finite(values) {
+        None => Ok(()),
+        Some((index, value)) => Err(Error::NotFinite { quantity, index, value }),
+    }
+}
+
+/// Error unless `found == needed`.
+pub(crate) fn same_length(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
+    if found == needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
+}
+
+/// Error unless `found >= needed`.
+pub(crate) fn at_least(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
+    if found >= needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
+}
+
+/// `index` if it is below `bound`.
+pub(crate) fn in_bounds(quantity: &'static str, index: usize, bound: usize) -> Result<usize> {
+    if index < bound { Ok(index) } else { Err(Error::Index { quantity, index, bound }) }
+}
+
+/// Error unless the requirement of a part of a scene `holds`.
+pub(crate) fn require_part(
+    quantity: &'static str,
+    holds: bool,
+    needed: &'static str,
+) -> Result<()> {
+    if holds { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
+}
+
+impl Error {
+    /// [`Error::Name`] for a name that none of `known` is.
+    pub(crate) fn no_name<T: Into<String>>(
+        quantity: &'static str,
+        name: &str,
+        known: impl Iterator<Item = T>,
+    ) -> Self {
+        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
+    }
+}
+
+/// The first twelve of the names that there are.
+pub(crate) fn names(known: &[String]) -> String {
+    let listed = known[..known.len().min(12)].join(", ");
+    if known.is_empty() { listed } else { format!(", only {listed}") }
+}
+
+/// Writes a file, in a folder that is made if it is not there.
+pub(crate) fn write_file(path: &std::path::Path, content: impl AsRef<[u8]>) -> Result<()> {
+    path.parent()
+        .map_or(Ok(()), std::fs::create_dir_all)
+        .and_then(|()| std::fs::write(path, content))
+        .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
+}
