@@ -330,12 +330,13 @@ impl Summary {
     /// Takes in the state of a step that began at `begin`; `foundation` as at the start.
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
-        let changing = if state.context.elements.is_plan() { TABLE } else { &TABLE[..ACROSS] };
+        let in_plan = state.context.elements.is_plan();
+        let changing = if in_plan { TABLE } else { &TABLE[..ACROSS] };
         for (extremes, row) in self.each().into_iter().zip(changing) {
             extremes.see((row.value)(&base), time);
         }
         let slip = (Quantity::MeanSlip.row().value)(&base);
-        let across = (Quantity::MeanSlipAcross.row().value)(&base);
+        let across = if in_plan { (Quantity::MeanSlipAcross.row().value)(&base) } else { 0.0 };
         let uplifted = (Quantity::UpliftedFraction.row().value)(&base);
         self.uplift.see(uplifted, base.modes(), time - begin);
         let change = [slip - self.residual_slip, across - self.residual_slip_across];
