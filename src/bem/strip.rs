@@ -20,7 +20,7 @@ pub enum Grading {
     Cosine,
 }
 
-words! { Grading, "grading", {
+words! { pub(crate) Grading, "grading", {
     Uniform = "uniform",
     Cosine = "cosine",
 } }

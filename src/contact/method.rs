@@ -38,7 +38,7 @@ pub enum SearchMethod {
     Proximal,
 }
 
-words! { SearchMethod, "search method", {
+words! { pub(crate) SearchMethod, "search method", {
     ActiveSet = "active_set",
     GaussSeidel = "gauss_seidel",
     Path = "path",

@@ -16,7 +16,7 @@ pub enum MassKind {
     Lumped,
 }
 
-words! { MassKind, "kind of mass", {
+words! { pub(crate) MassKind, "kind of mass", {
     Consistent = "consistent",
     Lumped = "lumped",
 } }

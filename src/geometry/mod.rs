@@ -317,7 +317,7 @@ pub enum Direction {
     Rotation,
 }
 
-words! { Direction, "direction", {
+words! { pub(crate) Direction, "direction", {
     X = "x",
     Y = "y",
     Rotation = "rotation",

@@ -62,7 +62,7 @@ pub enum HistoryMethod {
     Auto,
 }
 
-words! { HistoryMethod, "history", {
+words! { pub(crate) HistoryMethod, "history", {
     Direct = "direct",
     RelaxedFft = "relaxed_fft",
     Exponentials = "exponentials",

@@ -26,7 +26,7 @@ pub enum Mode {
     YieldSlip,
 }
 
-words! { Mode, "contact mode", {
+words! { pub Mode, "contact mode", {
     Stick = "stick",
     SlipLeft = "slip_left",
     SlipRight = "slip_right",

@@ -35,7 +35,7 @@ pub enum FrictionLimit {
     Dynamic,
 }
 
-words! { FrictionLimit, "friction limit", {
+words! { pub(crate) FrictionLimit, "friction limit", {
     Total = "total",
     Lagged = "lagged",
     Static = "static",
@@ -58,7 +58,7 @@ pub enum SlipSense {
     LastVelocity,
 }
 
-words! { SlipSense, "sense of slip", {
+words! { pub(crate) SlipSense, "sense of slip", {
     Inelastic = "inelastic",
     Velocity = "velocity",
     LastVelocity = "last_velocity",

@@ -151,6 +151,9 @@ pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
 /// Times, modes and their words of contact frames, beside their numbers.
 pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contact_mode_words"];
 
+/// A number of an element after a step.
+type Number = fn(&ContactState) -> f64;
+
 /// Motion frames.
 pub(super) const MOTION: [&str; 5] = [
     "motion_time_s",
@@ -175,7 +178,7 @@ impl TimeSeries {
     }
 
     /// Columns and values of the numbers of each element in frames of contact.
-    pub(super) fn contact_numbers(&self) -> Vec<(String, fn(&ContactState) -> f64)> {
+    pub(super) fn contact_numbers(&self) -> Vec<(String, Number)> {
         let numbers = ContactState::NUMBERS.into_iter().filter(|own| self.in_plan() || !own.2);
         numbers.map(|(word, unit, _, value)| (column(word, unit), value)).collect()
     }

@@ -3,13 +3,13 @@
 use crate::error::Error;
 use crate::text::column::{excerpt, finite};
 
-/// `Display` and `FromStr` of an enum without fields: each variant and its word. Read are upper and
-/// lower case, and spaces or hyphens in place of underscores.
+/// `Display`, `FromStr` and the list `ALL`, as visible as said, of an enum without fields: each variant and its word.
+/// Read are upper and lower case, and spaces or hyphens in place of underscores.
 macro_rules! words {
-    ($type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
+    ($all:vis $type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
         impl $type {
             /// All variants, in the order of their declaration.
-            pub const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
+            $all const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
 
             /// Word of the choice, as `Display` writes and `FromStr` reads it.
             pub(crate) fn word(self) -> &'static str {

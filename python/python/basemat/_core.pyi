@@ -1623,6 +1623,7 @@ class State:
 
     Displacements are changes against the static state, relative to the free field's translation
     unless they say otherwise. Forces are those of the structure on the soil, per metre of thickness.
+    It belongs to its simulation and does not pickle: a :class:`Checkpoint` does.
     """
 
     @property

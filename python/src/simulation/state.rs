@@ -13,6 +13,7 @@ use crate::results::PyEnergyBalance;
 ///
 /// Displacements are changes against the static state, relative to the free field's translation
 /// unless they say otherwise. Forces are those of the structure on the soil, per metre of thickness.
+/// It belongs to its simulation and does not pickle: a :class:`Checkpoint` does.
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 

@@ -65,7 +65,7 @@ pub enum GravityStage {
     Unloaded,
 }
 
-words! { GravityStage, "gravity stage", {
+words! { pub(crate) GravityStage, "gravity stage", {
     Frictionless = "frictionless",
     Frictional = "frictional",
     Unloaded = "unloaded",

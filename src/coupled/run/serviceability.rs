@@ -23,7 +23,7 @@ pub enum Criterion {
     Rotation,
 }
 
-words! { Criterion, "criterion", {
+words! { pub(crate) Criterion, "criterion", {
     Slip = "slip",
     Gap = "gap",
     UpliftedFraction = "uplifted_fraction",
