@@ -38,8 +38,8 @@ const SLOW: f64 = 0.2;
 const STIFFENED: f64 = 1e4;
 /// Pull, relative to the load, that may not fall for rounding alone.
 const ROUNDING: f64 = 1e-6;
-/// After so many iterations that is asked of the condition: a pull of the springs turns what hardly presses from one
-/// contact mode to another and back, if that changes a large shear.
+/// Iterations after which the pull may be slow for rounding only as far as the condition explains: even a pull below
+/// [`ROUNDING`] can make an element that hardly presses switch its mode back and forth, and with it a large shear.
 const LONG: usize = 20;
 
 /// A static state: what weight and loads at t = 0 leave, contact conditions included.
