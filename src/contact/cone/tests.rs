@@ -71,7 +71,7 @@ fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     Some(rows.iter().map(|row| row[n]).collect())
 }
 
-fn row(problem: &Problem, i: usize) -> &[f64] {
+fn row_of(problem: &Problem, i: usize) -> &[f64] {
     &problem.w[i * problem.size()..][..problem.size()]
 }
 
@@ -84,7 +84,7 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
         let bounds = &problem.bounds[e];
         let mut row = vec![0.0; size + 1];
         let mut moves = |target: f64| {
-            row[..size].copy_from_slice(row(problem, i));
+            row[..size].copy_from_slice(row_of(problem, i));
             row[size] = target - problem.q[i];
         };
         match (component, kinds[e]) {
@@ -119,7 +119,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
         [Kind::Open, Kind::Closed, Kind::Capped].map(|kind| [(kind, false), (kind, true)]);
     let choices = choices.concat();
     let respond = |r: &[f64]| -> Vec<f64> {
-        let dot = |i: usize| row(problem, i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
+        let dot = |i: usize| row_of(problem, i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
         (0..r.len()).map(|i| problem.q[i] + dot(i)).collect()
     };
     for set in 0..(0..count).fold(1, |all, _| all * choices.len()) {
