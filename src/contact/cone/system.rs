@@ -325,7 +325,9 @@ impl System {
             if self.by_motions { (inverse, y, change) } else { (w, change, y) };
         own.iter_mut().zip(given.iter()).for_each(|(own, given)| *own += given);
         answer.copy_from_slice(other);
-        dense_multiply_add(matrix, 1.0, given, answer);
+        if given.iter().any(|given| *given != 0.0) {
+            dense_multiply_add(matrix, 1.0, given, answer);
+        }
         rhs.clear();
         rhs.extend(unknowns.iter().map(|unknown| {
             let Unknown { row, column, own: weight, goal } = unknown;
