@@ -53,11 +53,21 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
 
     /// Factors the row-major `matrix` of `order`; false if it is singular or not finite.
     pub(crate) fn factor(&mut self, matrix: &[T], order: usize) -> bool {
+        self.factor_columns(order, |column, values| {
+            values.extend((0..order).map(|row| matrix[row * order + column]));
+        })
+    }
+
+    /// Factors the matrix of `order` whose columns `extend` appends, one after the other; false if it is singular or not
+    /// finite.
+    pub(crate) fn factor_columns(
+        &mut self,
+        order: usize,
+        mut extend: impl FnMut(usize, &mut Vec<T>),
+    ) -> bool {
         self.order = order;
         self.values.clear();
-        for column in 0..order {
-            self.values.extend((0..order).map(|row| matrix[row * order + column]));
-        }
+        (0..order).for_each(|column| extend(column, &mut self.values));
         self.forward.clear();
         self.forward.resize(order, 0);
         self.inverse.clear();
@@ -81,13 +91,14 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
         (0..self.order).map(|k| self.values[k * (self.order + 1)])
     }
 
-    /// Overwrites `rhs` with A⁻¹ rhs.
+    /// Overwrites `rhs`, one vector or several after each other, with A⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [T]) {
         let order = self.order;
         if order == 0 {
             return;
         }
-        self.solve_in(MatMut::from_column_major_slice_mut(rhs, order, 1));
+        let columns = rhs.len() / order;
+        self.solve_in(MatMut::from_column_major_slice_mut(rhs, order, columns));
     }
 
     /// Overwrites the `columns` columns of the row-major `rhs` with A⁻¹ rhs.

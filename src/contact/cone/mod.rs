@@ -1,13 +1,13 @@
 //! Contact with uplift and friction in plan: Signorini's law and Coulomb's, whose shear is bounded by a disc.
 //!
-//! 1. Where nothing slid in the step before, its statuses are tried, with factors made once while they stay.
+//! 1. If nothing slid in the step before, its statuses are tried; their factors are kept as long as they do not change.
 //! 2. Sweeps over the elements, from the forces of the step before.
-//! 3. Newton's method, and both again from where it has led.
-//! 4. Newton's method from other forces, with parts of its steps.
+//! 3. Newton's method, then sweeps and Newton's method in turn.
+//! 4. Newton's method from other forces, with partial steps.
 //! 5. The proximal point method around all of them.
 //!
-//! Endless friction, and any above 100, is tried by Newton's method alone; then by all of these with less, and let go from
-//! there. A step in which that does not lead to a solution keeps the one with less friction, and a run warns of it.
+//! Friction above 100, or endless, is first tried by Newton's method alone, then by all methods with a lower friction,
+//! which is raised from that solution. Where it cannot be raised, the step keeps the lower one, and the run warns of it.
 //!
 //! W is symmetric and positive definite, so that a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); by small
 //! friction there is one. The shear of a sliding element lies on its disc against the slip of the same solution: its
@@ -21,6 +21,7 @@ mod problem;
 mod proximal;
 mod search;
 mod sweeps;
+mod system;
 #[cfg(test)]
 mod tests;
 
@@ -30,15 +31,16 @@ use crate::error::{LawError, StepError};
 use crate::geometry::{ContactLayout, SPACE};
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
-use newton::{Newton, Normal, Status, Tangential};
+use newton::Newton;
 use problem::{Bounds, Problem};
 use proximal::Proximal;
 use search::search;
+use system::{Normal, Status, Tangential};
 
-/// Gap of a bond that is gone, relative to the largest displacement.
+/// Gap at which a bond is broken, relative to the largest displacement.
 const GONE: f64 = 1e-12;
 
-/// The problem, the methods and what they have found.
+/// A contact problem in plan, and the methods that solve it.
 pub(super) struct Cone {
     problem: Problem,
     newton: Newton,
@@ -106,7 +108,7 @@ impl Cone {
         let layout = ContactLayout::new(SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
             let [_, e] = layout.origin(i);
-            // To the last bit, where nothing is left.
+            // Exactly zero in total where there is no force.
             *traction = match self.problem.force(i) {
                 0.0 => -input.static_traction[i],
                 _ => self.problem.change[i] / self.areas[e],
@@ -135,7 +137,7 @@ impl Cone {
             for (component, i) in problem.places(e).into_iter().enumerate() {
                 problem.anchor[i] = area * input.static_traction[i];
                 problem.q[i] = input.free_jump[i];
-                // A layer begins where it was, and a slip counts from there.
+                // A layer starts from its deformation, and a slip from its last value.
                 let layer = layers[e][component.min(1)];
                 let begin = if component == 0 { 0.0 } else { shear[component] };
                 problem.q[i] += layer * (input.static_traction[i] - begin);
@@ -210,6 +212,7 @@ impl Cone {
                 return false;
             }
         }
+        problem.rest();
         newton.step(problem)
     }
 
@@ -223,7 +226,7 @@ impl Cone {
         }
     }
 
-    /// Takes the bonds of elements that have opened; whether there were any.
+    /// Breaks the bonds of elements that have opened; returns whether there were any.
     fn break_bonds(&mut self, gone: f64) -> bool {
         let mut any = false;
         for (e, status) in self.newton.statuses.iter().enumerate() {
@@ -240,7 +243,7 @@ impl Cone {
     /// Modes of the statuses.
     fn name(&self, modes: &mut [Mode]) {
         for (e, (mode, status)) in modes.iter_mut().zip(&self.newton.statuses).enumerate() {
-            // A bond at its strength holds, and one that is gone is gone for good.
+            // A bond at its strength still holds; a broken one stays broken.
             let held = self.problem.bounds[e].has_bond();
             let slides = status.tangential != Tangential::Stick || self.broken[e];
             let closed = if slides { Mode::Slip } else { Mode::Stick };
@@ -252,7 +255,7 @@ impl Cone {
         }
     }
 
-    /// Least friction that was taken in place of a greater one where it matters.
+    /// Least friction that replaced a greater one on an element that slides.
     fn stand_in(&self) -> Option<f64> {
         let elements = self.newton.statuses.iter().zip(&self.problem.bounds);
         let taken = elements.filter(|(status, bounds)| status.is_held_by(bounds.friction));
@@ -270,7 +273,7 @@ impl Cone {
     }
 }
 
-/// Limits of an element's law, all of them numbers.
+/// Limits of an element's law, checked.
 fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
     let (law, start) = (input.law(element), input.start.of(element));
     let mode = start.mode.word();
@@ -278,7 +281,7 @@ fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> 
     law.limits(&start).and_then(Limits::checked).map_err(refused)
 }
 
-/// The same of an area, m².
+/// Bounds of the forces on an area, m².
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
         friction: limits.friction,

@@ -18,15 +18,15 @@ use crate::linalg::dense_multiply_add;
 
 /// Residual of a solution, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
-/// Friction coefficient that stands for an endless one beside a bond, and in methods that know discs alone.
+/// Friction coefficient that replaces an endless one beside a bond, and in methods that need a disc.
 pub(super) const STAND_IN: f64 = 1e4;
 
-/// What the force of an element is bounded by, in forces and lengths.
+/// Bounds of an element's force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounds {
     /// That of the law.
     pub(super) friction: f64,
-    /// Greatest friction that is taken at present.
+    /// Limit of the friction at present.
     pub(super) grip: f64,
     /// Force that friction acts on beside p, N.
     pub(super) attraction: f64,
@@ -97,7 +97,7 @@ impl Bounds {
     }
 }
 
-/// What an element of endless friction does by its trial.
+/// Status of an element of endless friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Endless {
     Open,
@@ -120,7 +120,7 @@ pub(super) struct Problem {
     pub(super) y: Vec<f64>,
     /// ρ of each element: normal, tangential.
     pub(super) rho: Vec<[f64; 2]>,
-    /// Force to which the residual is relative beside r, N, and the least residual that can be told.
+    /// Force to which residuals are relative if r is smaller, N, and the least residual above rounding, N.
     pub(super) scale: f64,
     pub(super) finest: f64,
 }
@@ -151,11 +151,6 @@ impl Problem {
         3 * self.count
     }
 
-    pub(super) fn row(&self, i: usize) -> &[f64] {
-        let size = self.size();
-        &self.w[i * size..][..size]
-    }
-
     /// Block of W between the components of an element.
     pub(super) fn block(&self, e: usize) -> [[f64; 3]; 3] {
         let places = self.places(e);
@@ -168,6 +163,12 @@ impl Problem {
             let [[n, ..], [_, xx, xy], [_, _, yy]] = self.block(e);
             self.rho[e] = [1.0 / n, 1.0 / (xx.max(yy) + xy.abs())];
         }
+    }
+
+    /// r₀ and its y.
+    pub(super) fn rest(&mut self) {
+        self.change.fill(0.0);
+        self.y.copy_from_slice(&self.q);
     }
 
     /// y of the present r.
@@ -187,8 +188,8 @@ impl Problem {
         ]
     }
 
-    /// Status of an element of endless friction: pressure and slip exclude each other, a gap and a shear against the
-    /// slip do, and the trial says of which more is left.
+    /// Status of an element of endless friction. Pressure excludes slip, and a gap excludes a shear against the slip: of
+    /// each pair, the trial keeps the larger.
     pub(super) fn endless(&self, e: usize) -> Endless {
         let (bounds, [p, tx, ty]) = (&self.bounds[e], self.trial(e));
         let ([_, x, y], [normal, tangential]) = (self.places(e), self.rho[e]);
@@ -242,7 +243,7 @@ impl Problem {
         (0..self.count).map(|e| self.miss(e)).fold(0.0, larger)
     }
 
-    /// Takes no friction above `grip`.
+    /// Limits all friction to `grip`.
     pub(super) fn hold(&mut self, grip: f64) {
         self.bounds.iter_mut().for_each(|bounds| bounds.grip = grip);
     }

@@ -1,6 +1,6 @@
-//! The proximal point method: the same problem with α D added to W and taken from q at the last iterate, again and again.
+//! The proximal point method: a sequence of problems with W + α D and q − α D r, r being the last iterate.
 //!
-//! Each is better conditioned than the problem itself, and what is added vanishes as the iterates stand still.
+//! Each is better conditioned than the problem itself, and what is added vanishes as the iterates converge.
 
 use super::problem::Problem;
 
@@ -9,11 +9,10 @@ const SHARE: f64 = 0.3;
 /// Iterates.
 const ITERATIONS: usize = 60;
 
-/// What is put back in the end.
+/// q and the diagonal of W while they are changed, and the last iterate.
 pub(super) struct Proximal {
     q: Vec<f64>,
     diagonal: Vec<f64>,
-    /// The last iterate.
     center: Vec<f64>,
 }
 
@@ -23,7 +22,7 @@ impl Proximal {
         Self { q: zero(), diagonal: zero(), center: zero() }
     }
 
-    /// Finds the solution of `problem` by `solve`, which solves one that is changed; whether it did.
+    /// Solves `problem` by `solve`, which solves a modified one; returns whether it succeeded.
     pub(super) fn solve(
         &mut self,
         problem: &mut Problem,

@@ -9,17 +9,17 @@ use crate::contact::method::SearchMethod;
 const SWEEPS: usize = 60;
 /// Rounds of sweeps and Newton's method, alone and within the proximal method.
 const ROUNDS: usize = 12;
-/// Greatest friction of a step that is not solved with more, nor with what stands for an endless one.
+/// Greatest friction that is solved by all methods; a higher one is approached from below.
 const GRIP: f64 = 100.0;
-/// Attempts of Newton's method with parts of steps: alone, towards more friction, and within the proximal method.
+/// Attempts of Newton's method with partial steps: alone, while friction is raised, and within the proximal method.
 const ATTEMPTS: u64 = 60;
 const SOME_ATTEMPTS: u64 = 12;
 const FEW_ATTEMPTS: u64 = 4;
-/// Factor by which friction is no longer raised.
+/// Smallest factor by which friction is raised.
 const STRIDE: f64 = 1.2;
 
-/// One method after the other, `start` being scratch: iterations, and the last that was needed. Frictions above [`GRIP`]
-/// are held where they are not found at once, and let go from there.
+/// Tries one method after the other, with `start` as scratch; returns the number of iterations, and the last method that
+/// was needed. A friction above [`GRIP`] that is not solved at once is limited, and raised from that solution.
 pub(super) fn search(
     problem: &mut Problem,
     newton: &mut Newton,
@@ -55,8 +55,8 @@ pub(super) fn search(
     (all, None)
 }
 
-/// Raises the friction that is held, from a solution and as far as others follow, up to the `greatest`: at once, or by
-/// less and less. Iterations made.
+/// Raises the limit of friction from a solution towards the `greatest`, by smaller factors where that fails; returns the
+/// number of iterations.
 fn let_go(problem: &mut Problem, newton: &mut Newton, start: &mut [f64], greatest: f64) -> usize {
     let (mut grip, mut stride) = (problem.bounds[0].grip, f64::INFINITY);
     let mut all = 0;
@@ -82,7 +82,7 @@ fn let_go(problem: &mut Problem, newton: &mut Newton, start: &mut [f64], greates
     all
 }
 
-/// One method after the other, for frictions that are held.
+/// Tries one method after the other, with friction limited.
 fn search_held(
     problem: &mut Problem,
     newton: &mut Newton,
@@ -129,7 +129,7 @@ fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMe
         if found {
             return (all, Some(SearchMethod::Newton));
         }
-        // From forces that are none.
+        // Forces that are not finite are no start.
         if problem.change.iter().any(|change| !change.is_finite()) {
             problem.change.fill(0.0);
         }

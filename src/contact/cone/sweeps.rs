@@ -1,17 +1,17 @@
-//! Sweeps over the elements, each solved with the forces of all others held (Gauss and Seidel).
+//! Sweeps over the elements (Gauss–Seidel), each solved with the forces of all others fixed.
 
 use super::problem::Problem;
 use crate::linalg::transposed_multiply_add;
 
-/// Projections of an element in a sweep.
+/// Most projections of an element in a sweep.
 const LOCAL: usize = 40;
-/// Sweeps from which their rate is known.
+/// Sweeps after which the rate of convergence is known.
 const KNOWN: usize = 4;
-/// Change in a sweep at which they end, as a fraction of the residual of a solution.
+/// Change in a sweep at which sweeps end, as a fraction of the residual of a solution.
 const GOAL: f64 = 1e-2;
 
 impl Problem {
-    /// Makes up to `most` sweeps, or fewer if so many would not do; the number made, and whether they found the solution.
+    /// Makes up to `most` sweeps, fewer if these will not converge; returns their number, and whether they found a solution.
     pub(super) fn sweep(&mut self, most: usize) -> (usize, bool) {
         self.respond();
         let mut before = f64::INFINITY;
@@ -27,7 +27,7 @@ impl Problem {
             if largest <= tolerance && self.is_solved() {
                 return (sweep, true);
             }
-            // What is left falls by this in each.
+            // Factor by which the change falls in a sweep.
             let rate = largest / before;
             let left = (tolerance / largest).ln() / rate.ln();
             if sweep > KNOWN && (rate >= 1.0 || left > 2.0 * (most - sweep) as f64) {
@@ -38,7 +38,7 @@ impl Problem {
         (most, self.is_solved())
     }
 
-    /// Solves an element with the others held, to changes that are the `least` that matter; its change, N.
+    /// Solves an element with the others fixed until its force changes by no more than `least`; returns its change, N.
     fn relax(&mut self, e: usize, least: f64) -> f64 {
         let places = self.places(e);
         let bounds = self.bounds[e];

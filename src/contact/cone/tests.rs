@@ -6,6 +6,7 @@ use super::newton::Newton;
 use super::problem::{Bounds, Problem};
 use super::proximal::Proximal;
 use super::search::search;
+use super::system::{Normal, Status, System, Tangential};
 
 /// A random positive definite W of so many elements, and q.
 fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
@@ -70,6 +71,10 @@ fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     Some(rows.iter().map(|row| row[n]).collect())
 }
 
+fn row_of(problem: &Problem, i: usize) -> &[f64] {
+    &problem.w[i * problem.size()..][..problem.size()]
+}
+
 /// Forces of given kinds, with the shear of a sliding element at an angle and that of others without slip.
 fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<Vec<f64>> {
     let size = problem.size();
@@ -79,7 +84,7 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
         let bounds = &problem.bounds[e];
         let mut row = vec![0.0; size + 1];
         let mut moves = |target: f64| {
-            row[..size].copy_from_slice(problem.row(i));
+            row[..size].copy_from_slice(row_of(problem, i));
             row[size] = target - problem.q[i];
         };
         match (component, kinds[e]) {
@@ -114,7 +119,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
         [Kind::Open, Kind::Closed, Kind::Capped].map(|kind| [(kind, false), (kind, true)]);
     let choices = choices.concat();
     let respond = |r: &[f64]| -> Vec<f64> {
-        let dot = |i: usize| problem.row(i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
+        let dot = |i: usize| row_of(problem, i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
         (0..r.len()).map(|i| problem.q[i] + dot(i)).collect()
     };
     for set in 0..(0..count).fold(1, |all, _| all * choices.len()) {
@@ -293,4 +298,67 @@ fn friction_takes_energy_only() {
     }
     println!("{failed} without a solution found");
     assert!(failed < 12, "{failed}");
+}
+
+/// Statuses that leave fewer motions unknown than forces, until W⁻¹ has paid for itself: conditions are met before and
+/// after.
+#[test]
+fn forces_or_motions_meet_the_conditions_of_statuses() {
+    let (mut random, count, mut turned) = (Random(3), 6, 0);
+    for case in 0..100 {
+        let mut problem = problem(&mut random, count, 0.5);
+        problem.anchor.iter_mut().for_each(|force| *force = random.within(-1.0, 1.0));
+        let mut status = |e: usize| {
+            let normal =
+                if e > 3 { [Normal::Open, Normal::Capped][case % 2] } else { Normal::Closed };
+            let (s, c) = random.within(0.0, 6.0).sin_cos();
+            let (turn, slope) = (random.within(0.0, 1.0), random.pick(&[0.0, 0.4, 3.0, 1e4]));
+            let slip = Tangential::Slip { direction: [c, s], turn, slope };
+            let tangential = match (e, case % 4) {
+                (0, _) | (4, 2 | 3) => slip,
+                (4 | 5, _) => Tangential::Free,
+                _ => Tangential::Stick,
+            };
+            Status { normal, tangential }
+        };
+        let statuses: Vec<Status> = (0..count).map(&mut status).collect();
+        for bounds in &mut problem.bounds {
+            bounds.interval = [-0.2, 0.7];
+            bounds.attraction = 0.3;
+        }
+        let (mut system, mut first) = (System::new(count), Vec::new());
+        for trial in 0..100 {
+            problem.rest();
+            assert!(system.solve(&mut problem, &statuses), "case {case}");
+            problem.respond();
+            if trial == 0 {
+                first.clone_from(&problem.change);
+            }
+            turned += usize::from(trial == 99 && first != problem.change);
+            for (e, status) in statuses.iter().enumerate() {
+                let (bounds, places) = (&problem.bounds[e], problem.places(e));
+                let ([p, tx, ty], [gap, x, y]) =
+                    (places.map(|i| problem.force(i)), places.map(|i| problem.y[i]));
+                let normal = match status.normal {
+                    Normal::Open => p - bounds.interval[0],
+                    Normal::Closed => gap - bounds.offset,
+                    Normal::Capped => p - bounds.interval[1],
+                };
+                let shear = match status.tangential {
+                    Tangential::Free => [tx, ty],
+                    Tangential::Stick => [x, y],
+                    Tangential::Slip { direction: [c, s], turn, slope } => [
+                        c * tx + s * ty - slope * (p + bounds.attraction) - bounds.strength,
+                        (1.0 - turn) * (c * ty - s * tx)
+                            + turn * problem.rho[e][1] * (c * y - s * x),
+                    ],
+                };
+                let largest = problem.largest();
+                for miss in [normal, shear[0], shear[1]] {
+                    assert!(miss.abs() < 1e-9 * largest, "{case}, {trial}, {e}: {miss:e}");
+                }
+            }
+        }
+    }
+    assert!(turned > 90, "{turned}");
 }

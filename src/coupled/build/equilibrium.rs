@@ -38,8 +38,8 @@ const SLOW: f64 = 0.2;
 const STIFFENED: f64 = 1e4;
 /// Pull of the springs, relative to the load, below which rounding may keep it from falling.
 const ROUNDING: f64 = 1e-6;
-/// Iterations after which the condition must explain such a pull: the springs may turn an element that hardly presses
-/// from one contact mode to another and back, if that changes a large shear.
+/// Iterations after which the pull may be slow for rounding only as far as the condition explains: even a pull below
+/// [`ROUNDING`] can make an element that hardly presses switch its mode back and forth, and with it a large shear.
 const LONG: usize = 20;
 
 /// A static state: what weight and loads at t = 0 leave, contact conditions included.

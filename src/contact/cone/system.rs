@@ -1,0 +1,348 @@
+//! The linear system of given statuses, for corrections of forces and motions that satisfy y = q + W (r − r₀).
+//!
+//! Each component of an element has a condition on its force or on its motion, and what the condition leaves open is
+//! unknown. There are two systems with the same solution; the smaller one is solved:
+//!
+//! | | unknown forces, by W | unknown motions, by W⁻¹ |
+//! |---|---|---|
+//! | closed | p, with the shear that it lets slip: y = offset | |
+//! | open or capped | | y: p = its bound |
+//! | sticks | both: y = 0 | |
+//! | free | | both: t = 0 |
+//! | slips along d | | y·d: t·d = friction (p + attraction) + strength |
+//! | across d | t: (1 − κ) t + κ ρ y = 0 | y: the same |
+//!
+//! κ = R/\|t − ρ y\|: the direction turns with the slip (Alart & Curnier 1991).
+
+use std::mem::{Discriminant, discriminant};
+
+use super::problem::Problem;
+use crate::linalg::{DenseFactor, dense_multiply_add};
+
+/// Columns of W⁻¹ that are solved for together.
+const BLOCK: usize = 32;
+/// Cost of W⁻¹, relative to a factorization of the same order.
+const INVERSE: f64 = 4.0;
+
+/// What an element does by its trial.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Status {
+    pub(super) normal: Normal,
+    pub(super) tangential: Tangential,
+}
+
+/// Along the normal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Normal {
+    /// Nothing presses, or the bond is at its strength.
+    Open,
+    Closed,
+    /// The pressure is at its cap.
+    Capped,
+}
+
+/// Along the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Tangential {
+    /// There is no friction.
+    Free,
+    Stick,
+    /// In this direction, with κ and the growth of the radius with p.
+    Slip {
+        direction: [f64; 2],
+        turn: f64,
+        slope: f64,
+    },
+}
+
+impl Status {
+    /// The same without its numbers.
+    pub(super) fn kind(&self) -> (Normal, Discriminant<Tangential>) {
+        (self.normal, discriminant(&self.tangential))
+    }
+
+    /// Whether friction that is less than this lets it slip.
+    pub(super) fn is_held_by(&self, friction: f64) -> bool {
+        matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
+    }
+
+    /// Closed without slip.
+    pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
+    /// Without any force.
+    pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
+
+    /// p, unless closed.
+    fn bound(&self, [least, most]: [f64; 2]) -> Option<f64> {
+        match self.normal {
+            Normal::Open => Some(least),
+            Normal::Closed => None,
+            Normal::Capped => Some(most),
+        }
+    }
+
+    /// Numbers of unknown forces and of unknown motions.
+    fn unknowns(&self) -> [usize; 2] {
+        let [force, motion] = match self.tangential {
+            Tangential::Free => [0, 2],
+            Tangential::Stick => [2, 0],
+            Tangential::Slip { .. } => [1, 2],
+        };
+        let closed = usize::from(self.normal == Normal::Closed);
+        [force + closed, motion + 1 - closed]
+    }
+}
+
+/// A sum of components with weights: one with weight 1, or those of an element.
+#[derive(Clone, Copy)]
+struct Mix {
+    places: [usize; 3],
+    weights: [f64; 3],
+}
+
+impl Mix {
+    fn single(place: usize) -> Self {
+        Self { places: [place; 3], weights: [1.0, 0.0, 0.0] }
+    }
+
+    fn is_single(&self) -> bool {
+        self.places[1] == self.places[0]
+    }
+
+    fn sum(&self, values: &[f64]) -> f64 {
+        let [a, b, c] = self.places.map(|place| values[place]);
+        self.weights[0] * a + self.weights[1] * b + self.weights[2] * c
+    }
+
+    fn add_to(&self, values: &mut [f64], factor: f64) {
+        for (place, weight) in self.places.into_iter().zip(self.weights) {
+            values[place] += factor * weight;
+        }
+    }
+}
+
+/// An unknown and its condition. With x of the kind that is unknown (forces or motions) and A x of the other kind, the
+/// unknown adds multiples of `column` to x, and row · A x + own column · x = goal.
+struct Unknown {
+    row: Mix,
+    column: Mix,
+    own: f64,
+    goal: f64,
+}
+
+/// The system, its factors and W⁻¹.
+pub(super) struct System {
+    unknowns: Vec<Unknown>,
+    rhs: Vec<f64>,
+    factor: DenseFactor,
+    /// W⁻¹, empty until it is made, and the cost so far of factors that it would have spared.
+    inverse: Vec<f64>,
+    spent: f64,
+    /// Statuses whose factors are held, if they are: without slip; and whether they are those of motions.
+    held: Vec<Status>,
+    is_held: bool,
+    by_motions: bool,
+    /// Corrections that the statuses give by themselves; motions or forces that follow from them.
+    given: Vec<f64>,
+    answer: Vec<f64>,
+}
+
+impl System {
+    pub(super) fn new(count: usize) -> Self {
+        let size = 3 * count;
+        Self {
+            unknowns: Vec::with_capacity(size),
+            rhs: Vec::with_capacity(size),
+            factor: DenseFactor::with_columns(size, BLOCK),
+            inverse: Vec::with_capacity(size * size),
+            spent: 0.0,
+            held: vec![Status::STICK; count],
+            is_held: false,
+            by_motions: false,
+            given: vec![0.0; size],
+            answer: vec![0.0; size],
+        }
+    }
+
+    /// Forgets factors and W⁻¹: to be called when W has changed.
+    pub(super) fn forget(&mut self) {
+        self.is_held = false;
+        self.inverse.clear();
+        self.spent = 0.0;
+    }
+
+    /// Corrects r, whose y is the present one, to that of `statuses`; false if the system is singular.
+    pub(super) fn solve(&mut self, problem: &mut Problem, statuses: &[Status]) -> bool {
+        let slips = |status: &Status| matches!(status.tangential, Tangential::Slip { .. });
+        let sticks = !statuses.iter().any(slips);
+        let known = sticks && self.is_held && self.held == statuses;
+        if !known {
+            self.is_held = false;
+            self.by_motions = self.prefers_motions(problem, statuses);
+        }
+        self.gather(problem, statuses);
+        if !known {
+            if !self.assemble(problem) {
+                return false;
+            }
+            self.is_held = sticks;
+            self.held.copy_from_slice(statuses);
+        }
+        self.correct(problem);
+        // Given forces, to the last bit.
+        for (e, status) in statuses.iter().enumerate() {
+            let [n, x, y] = problem.places(e);
+            if let Some(bound) = status.bound(problem.bounds[e].interval) {
+                problem.set(n, bound);
+            }
+            if status.tangential == Tangential::Free {
+                problem.set(x, 0.0);
+                problem.set(y, 0.0);
+            }
+        }
+        problem.change.iter().all(|change| change.is_finite())
+    }
+
+    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. It is made once it would have paid for itself.
+    fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
+        let unknowns = statuses.iter().map(Status::unknowns);
+        let [forces, motions] = unknowns.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        if motions >= forces {
+            return false;
+        }
+        let (size, cube) = (problem.size(), |order: usize| (order as f64).powi(3));
+        self.spent += cube(forces) - cube(motions);
+        if self.inverse.is_empty() && self.spent > INVERSE * cube(size) {
+            if !self.factor.factor(&problem.w, size) {
+                return false;
+            }
+            self.inverse.resize(size * size, 0.0);
+            for i in 0..size {
+                self.inverse[i * (size + 1)] = 1.0;
+            }
+            self.inverse.chunks_mut(BLOCK * size).for_each(|rows| self.factor.solve(rows));
+        }
+        !self.inverse.is_empty()
+    }
+
+    /// Lists the unknowns, and what is known of the corrections.
+    fn gather(&mut self, problem: &Problem, statuses: &[Status]) {
+        self.unknowns.clear();
+        self.given.fill(0.0);
+        let motions = self.by_motions;
+        let (given, unknowns) = (&mut self.given, &mut self.unknowns);
+        let mut add = |row, column, own, goal| unknowns.push(Unknown { row, column, own, goal });
+        for (e, status) in statuses.iter().enumerate() {
+            let places = problem.places(e);
+            let ([n, x, y], bounds) = (places, &problem.bounds[e]);
+            let [p, tx, ty] = places.map(|i| problem.force(i));
+            let [p_0, x_0, y_0] = places.map(|i| problem.anchor[i]);
+            let bound = status.bound(bounds.interval);
+            match bound {
+                Some(bound) if motions => add(Mix::single(n), Mix::single(n), 0.0, bound - p_0),
+                Some(bound) => given[n] = bound - p,
+                None if motions => given[n] = bounds.offset - problem.y[n],
+                None => {}
+            }
+            // A force p, and the shear that it lets slip.
+            let mut pressing = Mix::single(n);
+            match status.tangential {
+                Tangential::Free | Tangential::Stick => {
+                    let sticks = status.tangential == Tangential::Stick;
+                    for i in [x, y] {
+                        let (own, goal) = (Mix::single(i), -problem.anchor[i]);
+                        match (motions, sticks) {
+                            (false, true) => add(own, own, 0.0, 0.0),
+                            (true, false) => add(own, own, 0.0, goal),
+                            (false, false) => given[i] = -problem.force(i),
+                            (true, true) => given[i] = -problem.y[i],
+                        }
+                    }
+                }
+                Tangential::Slip { direction: [c, s], turn, slope } => {
+                    let mix = |weights| Mix { places, weights };
+                    // Along the slip: shear and pressure are divided by a friction above one, so that an endless one has
+                    // its limit.
+                    let [sheared, pressed] =
+                        if slope > 1.0 { [1.0 / slope, 1.0] } else { [1.0, slope] };
+                    let goal = sheared * bounds.strength + pressed * bounds.attraction;
+                    if motions {
+                        let goal = goal + pressed * p_0 - sheared * (c * x_0 + s * y_0);
+                        let row = mix([-pressed, sheared * c, sheared * s]);
+                        add(row, mix([0.0, c, s]), 0.0, goal);
+                    } else {
+                        let left = goal + pressed * (p + given[n]) - sheared * (c * tx + s * ty);
+                        if bound.is_none() && sheared < 1.0 {
+                            given[n] -= left;
+                        } else {
+                            mix([0.0, c, s]).add_to(given, left / sheared);
+                        }
+                        pressing = mix([sheared, pressed * c, pressed * s]);
+                    }
+                    // Across it.
+                    let (factor, own) = if motions {
+                        (1.0 - turn, turn * problem.rho[e][1])
+                    } else {
+                        (turn, (1.0 - turn) / problem.rho[e][1])
+                    };
+                    let goal = -if motions { factor } else { own } * (c * y_0 - s * x_0);
+                    add(mix([0.0, -s * factor, c * factor]), mix([0.0, -s, c]), own, goal);
+                }
+            }
+            if bound.is_none() && !motions {
+                add(Mix::single(n), pressing, 0.0, bounds.offset);
+            }
+        }
+        unknowns.sort_unstable_by_key(|unknown| !unknown.row.is_single());
+    }
+
+    /// Factors the matrix of the unknowns; false if it is singular.
+    fn assemble(&mut self, problem: &Problem) -> bool {
+        let (size, motions) = (problem.size(), self.by_motions);
+        let Self { unknowns, factor, inverse, answer, .. } = self;
+        let matrix = if motions { inverse.as_slice() } else { problem.w.as_slice() };
+        let singles = unknowns.partition_point(|unknown| unknown.row.is_single());
+        let (single, mixed) = unknowns.split_at(singles);
+        factor.factor_columns(unknowns.len(), |j, values| {
+            let Unknown { column: Mix { places, weights }, own, .. } = &unknowns[j];
+            // It is symmetric: its rows are its columns.
+            let rows = places.map(|place| &matrix[place * size..][..size]);
+            let [a, b, c] = *weights;
+            for (i, answer) in answer.iter_mut().enumerate() {
+                *answer = a * rows[0][i] + b * rows[1][i] + c * rows[2][i];
+            }
+            let begin = values.len();
+            values.extend(single.iter().map(|unknown| answer[unknown.row.places[0]]));
+            values.extend(mixed.iter().map(|unknown| unknown.row.sum(answer)));
+            values[begin + j] += own;
+        })
+    }
+
+    /// Solves, and adds the corrections to r.
+    fn correct(&mut self, problem: &mut Problem) {
+        let Self { unknowns, rhs, factor, inverse, given, answer, .. } = self;
+        let Problem { w, change, y, .. } = problem;
+        let (matrix, own, other) =
+            if self.by_motions { (inverse, y, change) } else { (w, change, y) };
+        own.iter_mut().zip(given.iter()).for_each(|(own, given)| *own += given);
+        answer.copy_from_slice(other);
+        if given.iter().any(|given| *given != 0.0) {
+            dense_multiply_add(matrix, 1.0, given, answer);
+        }
+        rhs.clear();
+        rhs.extend(unknowns.iter().map(|unknown| {
+            let Unknown { row, column, own: weight, goal } = unknown;
+            goal - row.sum(answer) - weight * column.sum(own)
+        }));
+        factor.solve(rhs);
+        if !self.by_motions {
+            unknowns.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(own, *x));
+            return;
+        }
+        other.copy_from_slice(answer);
+        if !unknowns.is_empty() {
+            given.fill(0.0);
+            unknowns.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(given, *x));
+            dense_multiply_add(matrix, 1.0, given, other);
+        }
+    }
+}
