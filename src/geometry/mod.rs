@@ -328,19 +328,3 @@ pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 
 /// Directions of beams and of masses with rotary inertia.
 pub(crate) const FRAME: &[Direction] = &Direction::ALL;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A triangle with sides of 3, 4 and 5, whose inscribed circle has the radius 1 about (1, 1).
-    #[test]
-    fn edges_by_hand() {
-        let edges: Vec<Edge> = Edge::all(&[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).collect();
-        let all = |of: &dyn Fn(&Edge) -> f64| edges.iter().map(of).collect::<Vec<_>>();
-        assert_eq!(all(&|edge| edge.normal[0]), [0.0, 3.0, -3.0]);
-        assert_eq!(all(&|edge| edge.normal[1]), [-4.0, 4.0, 0.0]);
-        assert_eq!(all(&|edge| edge.reach([1.0; 2])), [4.0, 5.0, 3.0]);
-        assert_eq!(all(&|edge| edge.outward([2.0, 1.0])), [-4.0, 10.0, -6.0]);
-    }
-}
