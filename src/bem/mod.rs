@@ -91,7 +91,7 @@ pub trait Ground: Any + Send {
     /// are computed first, those of the first step if `steps` is zero. The default does nothing.
     ///
     /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped) by the observer, and the ground is as it was; as for
+    /// [`Error::Stopped`] by the observer, and the ground is as it was; as for
     /// [`Ground::history`].
     fn expect_steps(&mut self, _steps: usize, _observer: Option<&mut Observer<'_>>) -> Result<()> {
         Ok(())
