@@ -81,7 +81,7 @@ impl Status {
     }
 
     /// Numbers of unknown forces and of unknown motions.
-    fn unknowns(&self) -> [usize; 2] {
+    fn dofs(&self) -> [usize; 2] {
         let [force, motion] = match self.tangential {
             Tangential::Free => [0, 2],
             Tangential::Stick => [2, 0],
@@ -131,7 +131,7 @@ struct Unknown {
 
 /// The system, its factors and W⁻¹.
 pub(super) struct System {
-    unknowns: Vec<Unknown>,
+    dofs: Vec<Unknown>,
     rhs: Vec<f64>,
     factor: DenseFactor,
     /// W⁻¹, empty until it is made, and the cost so far of factors that it would have spared.
@@ -150,7 +150,7 @@ impl System {
     pub(super) fn new(count: usize) -> Self {
         let size = 3 * count;
         Self {
-            unknowns: Vec::with_capacity(size),
+            dofs: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
             factor: DenseFactor::with_columns(size, BLOCK),
             inverse: Vec::with_capacity(size * size),
@@ -204,8 +204,8 @@ impl System {
 
     /// Whether fewer motions than forces are unknown, and W⁻¹ is held. It is made once it would have paid for itself.
     fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
-        let unknowns = statuses.iter().map(Status::unknowns);
-        let [forces, motions] = unknowns.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        let dofs = statuses.iter().map(Status::dofs);
+        let [forces, motions] = dofs.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
         if motions >= forces {
             return false;
         }
@@ -224,13 +224,13 @@ impl System {
         !self.inverse.is_empty()
     }
 
-    /// Lists the unknowns, and what is known of the corrections.
+    /// Lists what is unknown, and what is known of the corrections.
     fn gather(&mut self, problem: &Problem, statuses: &[Status]) {
-        self.unknowns.clear();
+        self.dofs.clear();
         self.given.fill(0.0);
         let motions = self.by_motions;
-        let (given, unknowns) = (&mut self.given, &mut self.unknowns);
-        let mut add = |row, column, own, goal| unknowns.push(Unknown { row, column, own, goal });
+        let (given, dofs) = (&mut self.given, &mut self.dofs);
+        let mut add = |row, column, own, goal| dofs.push(Unknown { row, column, own, goal });
         for (e, status) in statuses.iter().enumerate() {
             let places = problem.places(e);
             let ([n, x, y], bounds) = (places, &problem.bounds[e]);
@@ -292,18 +292,18 @@ impl System {
                 add(Mix::single(n), pressing, 0.0, bounds.offset);
             }
         }
-        unknowns.sort_unstable_by_key(|unknown| !unknown.row.is_single());
+        dofs.sort_unstable_by_key(|unknown| !unknown.row.is_single());
     }
 
-    /// Factors the matrix of the unknowns; false if it is singular.
+    /// Factors the matrix of what is unknown; false if it is singular.
     fn assemble(&mut self, problem: &Problem) -> bool {
         let (size, motions) = (problem.size(), self.by_motions);
-        let Self { unknowns, factor, inverse, answer, .. } = self;
+        let Self { dofs, factor, inverse, answer, .. } = self;
         let matrix = if motions { inverse.as_slice() } else { problem.w.as_slice() };
-        let singles = unknowns.partition_point(|unknown| unknown.row.is_single());
-        let (single, mixed) = unknowns.split_at(singles);
-        factor.factor_columns(unknowns.len(), |j, values| {
-            let Unknown { column: Mix { places, weights }, own, .. } = &unknowns[j];
+        let singles = dofs.partition_point(|unknown| unknown.row.is_single());
+        let (single, mixed) = dofs.split_at(singles);
+        factor.factor_columns(dofs.len(), |j, values| {
+            let Unknown { column: Mix { places, weights }, own, .. } = &dofs[j];
             // It is symmetric: its rows are its columns.
             let rows = places.map(|place| &matrix[place * size..][..size]);
             let [a, b, c] = *weights;
@@ -319,7 +319,7 @@ impl System {
 
     /// Solves, and adds the corrections to r.
     fn correct(&mut self, problem: &mut Problem) {
-        let Self { unknowns, rhs, factor, inverse, given, answer, .. } = self;
+        let Self { dofs, rhs, factor, inverse, given, answer, .. } = self;
         let Problem { w, change, y, .. } = problem;
         let (matrix, own, other) =
             if self.by_motions { (inverse, y, change) } else { (w, change, y) };
@@ -329,19 +329,19 @@ impl System {
             dense_multiply_add(matrix, 1.0, given, answer);
         }
         rhs.clear();
-        rhs.extend(unknowns.iter().map(|unknown| {
+        rhs.extend(dofs.iter().map(|unknown| {
             let Unknown { row, column, own: weight, goal } = unknown;
             goal - row.sum(answer) - weight * column.sum(own)
         }));
         factor.solve(rhs);
         if !self.by_motions {
-            unknowns.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(own, *x));
+            dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(own, *x));
             return;
         }
         other.copy_from_slice(answer);
-        if !unknowns.is_empty() {
+        if !dofs.is_empty() {
             given.fill(0.0);
-            unknowns.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(given, *x));
+            dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(given, *x));
             dense_multiply_add(matrix, 1.0, given, other);
         }
     }
