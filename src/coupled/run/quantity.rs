@@ -110,6 +110,17 @@ macro_rules! quantities {
             pub sliding: Sliding,
         }
 
+        impl State {
+            /// Values of all quantities for the whole base.
+            pub(crate) fn values(&self) -> [f64; WORDS.len()] {
+                let base = self.base(None);
+                [$({
+                    const VALUE: fn(&Base) -> f64 = $value;
+                    VALUE(&base)
+                }),+]
+            }
+        }
+
         impl Summary {
             /// At the start of a run, of the whole base or of its foundation number `foundation`.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
@@ -129,8 +140,13 @@ macro_rules! quantities {
                 }
             }
 
-            fn each(&mut self) -> [&mut Extremes; WORDS.len()] {
-                [$(&mut self.$field),+]
+            /// Takes in the first `count` values of a step. Each is called directly: at every step, calls through the
+            /// table cost more than the values.
+            fn see_values(&mut self, base: &Base, count: usize, time: f64) {
+                $(if (Quantity::$variant as usize) < count {
+                    const VALUE: fn(&Base) -> f64 = $value;
+                    self.$field.see(VALUE(base), time);
+                })+
             }
 
             /// Extremes of a quantity.
@@ -315,12 +331,6 @@ impl State {
         (quantity.row().value)(&self.base(None))
     }
 
-    /// Values of all quantities for the whole base.
-    pub(crate) fn values(&self) -> [f64; WORDS.len()] {
-        let base = self.base(None);
-        std::array::from_fn(|k| (TABLE[k].value)(&base))
-    }
-
     fn base(&self, foundation: Option<usize>) -> Base<'_> {
         Base { state: self, foundation: foundation.filter(|k| *k < self.foundations.len()) }
     }
@@ -331,10 +341,7 @@ impl Summary {
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
         let in_plan = state.context.elements.is_plan();
-        let changing = if in_plan { TABLE } else { &TABLE[..ACROSS] };
-        for (extremes, row) in self.each().into_iter().zip(changing) {
-            extremes.see((row.value)(&base), time);
-        }
+        self.see_values(&base, if in_plan { WORDS.len() } else { ACROSS }, time);
         let slip = (Quantity::MeanSlip.row().value)(&base);
         let across = if in_plan { (Quantity::MeanSlipAcross.row().value)(&base) } else { 0.0 };
         let uplifted = (Quantity::UpliftedFraction.row().value)(&base);
