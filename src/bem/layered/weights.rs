@@ -7,7 +7,7 @@ use super::coefficients::{Block, Quadrature, Samples};
 use super::cost::{Cost, Outlook, Priced};
 use super::kept::{KeptBlocks, copy_lags, last_block, threads};
 use super::passivity;
-use crate::error::{Error, Observer, Result, Watch, memory};
+use crate::error::{Observer, Result, Watch, in_bounds, memory};
 use crate::geometry::SERIES;
 use crate::history::{
     ConvolutionWeights, KINDS as STRIP_KINDS, OTHER_KINDS, PairClasses, SharedSpectra,
@@ -135,10 +135,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         if N != KINDS {
             return Err(OTHER_KINDS);
         }
-        let bound = self.classes.count();
-        if class >= bound {
-            return Err(Error::Index { quantity: "class of element pairs", index: class, bound });
-        }
+        in_bounds("class of element pairs", class, self.classes.count())?;
         copy_lags(class, first_lag, values, |number| {
             if !self.kept.has(number) {
                 self.fits(&(number..number + 1))?;

@@ -134,15 +134,18 @@ pub(super) struct System {
     dofs: Vec<Unknown>,
     rhs: Vec<f64>,
     factor: DenseFactor,
-    /// W⁻¹, empty until it is made, and the cost so far of factors that it would have spared.
+    /// W⁻¹; empty until it has been computed.
     inverse: Vec<f64>,
+    /// Cost of the factorizations so far that W⁻¹ would have saved.
     spent: f64,
-    /// Statuses whose factors are held, if they are: without slip; and whether they are those of motions.
+    /// Statuses of the present factors, without slip; valid only if `is_held`.
     held: Vec<Status>,
     is_held: bool,
+    /// Whether the present factors are those of unknown motions.
     by_motions: bool,
-    /// Corrections that the statuses give by themselves; motions or forces that follow from them.
+    /// Corrections that follow from the statuses alone: motions by unknown motions, otherwise forces.
     given: Vec<f64>,
+    /// Response to the given corrections, of the other kind.
     answer: Vec<f64>,
 }
 
