@@ -8,7 +8,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 pub(crate) use pulp::{Simd, WithSimd};
 
 /// Rows that are read together.
-const ROWS: usize = 4;
+pub(super) const ROWS: usize = 4;
 
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
 pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
