@@ -145,7 +145,7 @@ impl TimeSeries {
         if due(self.recorder.every) {
             self.times.push(state.time);
             self.energy_balances.push(state.energy_balance);
-            self.scalars.iter_mut().zip(state.values()).for_each(|(list, value)| list.push(value));
+            state.append_values(&mut self.scalars);
             let probes = self.probe_values.iter_mut().zip(&state.probes);
             probes.for_each(|(list, &value)| list.push(value));
         }

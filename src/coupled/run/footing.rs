@@ -8,6 +8,7 @@
 
 use std::ops::Range;
 
+use super::peak::resultant;
 use crate::coupled::{Foundation, State};
 use crate::geometry::{Edge, Footing, far_ends};
 use crate::interface::{ContactState, Mode};
@@ -144,7 +145,7 @@ pub(super) fn against_sliding(friction: &[f64], pressed: &Pressed<'_>) -> f64 {
         shear += area * state.shear;
         across += area * state.shear_across;
     }
-    ratio(normal, resistance, shear.hypot(across))
+    ratio(normal, resistance, resultant(shear, across).abs())
 }
 
 /// N b over the moment of the pressure about the middle of the base, b the half width. In plan the least of the edges

@@ -111,13 +111,13 @@ macro_rules! quantities {
         }
 
         impl State {
-            /// Values of all quantities for the whole base.
-            pub(crate) fn values(&self) -> [f64; WORDS.len()] {
+            /// Appends the values of the whole base, one to each list: of as many quantities as there are lists.
+            pub(crate) fn append_values(&self, lists: &mut [Vec<f64>]) {
                 let base = self.base(None);
-                [$({
+                $(if let Some(list) = lists.get_mut(Quantity::$variant as usize) {
                     const VALUE: fn(&Base) -> f64 = $value;
-                    VALUE(&base)
-                }),+]
+                    list.push(VALUE(&base));
+                })+
             }
         }
 
