@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::energy_balance::EnergyBalance;
+use super::foundation::{Foundation, Sums};
 use super::motion::Motion;
 use super::scene::Scene;
-use super::state::{Context, Foundation, Origin, State, Transition};
+use super::state::{Context, Origin, State, Transition};
 use super::step::{Forcing, Increment};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
@@ -38,7 +39,9 @@ impl State {
             .foundations()
             .map(|(_, elements)| Foundation { elements, ..Foundation::default() });
         let shapes = base.foundations().zip(base.outlines());
-        let footings = shapes.map(|((_, own), outline)| Footing::new(patch, own, outline));
+        let footings: Vec<_> =
+            shapes.map(|((_, own), outline)| Footing::new(patch, own, outline)).collect();
+        let arm = |own: &Footing| [0, 1].map(|axis| own.center[axis] - scene.moment_center[axis]);
         let mut state = Self {
             step: 0,
             time: 0.0,
@@ -47,8 +50,8 @@ impl State {
                 probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
                 elements: scene.elements.clone(),
                 friction: scene.safety_friction.clone(),
-                footings: footings.collect(),
-                arms: scene.foundation_arms.clone(),
+                arms: footings.iter().map(arm).collect(),
+                footings,
             }),
             motion: Motion::new(model),
             contact,
@@ -104,49 +107,18 @@ impl State {
     pub(super) fn update_resultants(&mut self, scene: &Scene) {
         let state = self;
         let Motion { displacement, velocity, acceleration, .. } = &state.motion;
-        let areas = scene.base.areas();
-        let (mut total, mut open, mut slip, mut width) = ([0.0; 3], 0.0, 0.0, 0.0);
+        let (mut total, mut sums) = ([0.0; 3], Sums::default());
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
-            let [mut shear, mut normal, mut moment] = [0.0; 3];
-            let [mut own_open, mut own_slip, mut own_width] = [0.0; 3];
-            for e in foundation.elements.clone() {
-                let (contact, length) = (&state.contact[e], areas[e]);
-                own_width += length;
-                shear += length * contact.shear;
-                normal += length * contact.pressure;
-                own_slip += length * contact.slip;
-                moment -= length * contact.pressure * scene.arms[e][0];
-                if !state.modes[e].is_closed() {
-                    own_open += length;
-                }
-            }
-            for (sum, own) in total.iter_mut().zip([shear, normal, moment]) {
-                *sum += own;
-            }
-            open += own_open;
-            slip += own_slip;
-            width += own_width;
-            foundation.base_shear = shear;
-            foundation.normal_force = normal;
-            foundation.base_moment = moment + normal * scene.foundation_arms[k][0];
-            if scene.elements.is_plan() {
-                let [x, y] = scene.foundation_arms[k];
-                let [mut across, mut moment, mut torque, mut slip] = [0.0; 4];
-                for e in foundation.elements.clone() {
-                    let (contact, shear) = (&state.contact[e], state.contact[e].shear_across);
-                    let [dx, dy] = [scene.arms[e][0] - x, scene.arms[e][1] - y];
-                    across += areas[e] * shear;
-                    slip += areas[e] * contact.slip_across;
-                    moment -= areas[e] * contact.pressure * dy;
-                    torque += areas[e] * (dx * shear - dy * contact.shear);
-                }
-                foundation.shear_across = across;
-                (foundation.moment_across, foundation.torque) = (moment, torque);
-                foundation.mean_slip_across = slip / own_width;
-            }
-            foundation.uplifted_fraction = own_open / own_width;
-            foundation.mean_slip = own_slip / own_width;
+            let Context { elements, friction, footings, arms, .. } = &*state.context;
+            let footing = &footings[k];
+            let own = foundation.update(footing, elements, friction, &state.contact, &state.modes);
+            sums.area += own.area;
+            sums.open += own.open;
+            sums.slip += own.slip;
+            let moment = foundation.base_moment - foundation.normal_force * arms[k][0];
+            let forces = [foundation.base_shear, foundation.normal_force, moment];
+            total.iter_mut().zip(forces).for_each(|(sum, own)| *sum += own);
             let own = [
                 &mut foundation.base_rotation,
                 &mut foundation.rotation_across,
@@ -159,8 +131,8 @@ impl State {
             }
         }
         [state.base_shear, state.normal_force, state.base_moment] = total;
-        state.uplifted_fraction = open / width;
-        state.mean_slip = slip / width;
+        state.uplifted_fraction = sums.open / sums.area;
+        state.mean_slip = sums.slip / sums.area;
         let translations = &state.motion.translations;
         for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
             let [u, v, a] = &probe.rows;

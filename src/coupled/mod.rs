@@ -79,6 +79,7 @@ mod checkpoint;
 mod diagnosis;
 mod energy_accumulator;
 mod energy_balance;
+pub(crate) mod foundation;
 mod motion;
 
 mod refine;
@@ -103,6 +104,7 @@ pub(crate) use run::Peak;
 pub(crate) use run::peak::probe_index;
 
 pub use crate::structure::probe::Probe;
+pub use foundation::Foundation;
 pub use refine::{Refinement, Setting, refine};
 pub(crate) use resolution::Resolution;
 pub use scheme::{
@@ -110,5 +112,5 @@ pub use scheme::{
 };
 pub use simulation::largest_convergent_step;
 pub(crate) use state::Origin;
-pub use state::{Foundation, State, Transition};
+pub use state::{State, Transition};
 pub use warning::Warning;

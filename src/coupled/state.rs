@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::energy_balance::EnergyBalance;
+use super::foundation::Foundation;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
@@ -38,48 +39,6 @@ impl Transition {
     pub(crate) fn is_rebonding(&self) -> bool {
         !self.from.is_closed() && self.to.is_closed()
     }
-}
-
-/// Forces of one foundation on the soil, and motion of its base.
-///
-/// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
-#[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[non_exhaustive]
-pub struct Foundation {
-    /// Elements of the foundation, as indices of [`State::contact`].
-    pub elements: std::ops::Range<usize>,
-    /// Horizontal force on the soil, positive to the right, N/m.
-    pub base_shear: f64,
-    /// Moment on the soil about the middle of its elements, in plan of its outline, counter-clockwise, N·m/m.
-    pub base_moment: f64,
-    /// Total pressure on the soil, positive in compression, N/m.
-    pub normal_force: f64,
-    /// Length of its open elements over that of all its elements.
-    pub uplifted_fraction: f64,
-    /// Slip averaged over its elements, m.
-    pub mean_slip: f64,
-    /// Rotation of its chord, counter-clockwise, rad; in plan that of the flat that fits its base best.
-    pub base_rotation: f64,
-    /// In plan: force on the soil along y, N; zero in the plane.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub shear_across: f64,
-    /// In plan: moment on the soil about the axis along x through the middle, by the right-hand rule, N·m.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub moment_across: f64,
-    /// In plan: moment on the soil about the vertical axis through the middle, counter-clockwise from above, N·m.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub torque: f64,
-    /// In plan: slip along y averaged over the elements, m.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub mean_slip_across: f64,
-    /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub rotation_across: f64,
-    /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub twist: f64,
 }
 
 /// Data of the simulation that results of a state need; two states are compared without them.

@@ -39,6 +39,8 @@ impl Edge {
 pub(crate) struct Footing {
     /// Left and right end, front and back end, m; no depth in the plane.
     pub(crate) ends: [[f64; 2]; 2],
+    /// The middle, from which lever arms are measured, m.
+    pub(crate) center: [f64; 2],
     /// Middle of each element from that of the foundation, m.
     pub(crate) arms: Vec<[f64; 2]>,
     /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the middle.
@@ -73,7 +75,7 @@ impl Footing {
             let place = patch.middle(e);
             [0, 1].map(|axis| place[axis] - center[axis])
         });
-        Self { ends, arms: arms.collect(), edges }
+        Self { ends, center, arms: arms.collect(), edges }
     }
 }
 

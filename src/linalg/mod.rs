@@ -3,6 +3,7 @@
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
 mod complex;
+mod condition;
 mod dense;
 mod eigen;
 pub(crate) mod gauss;
@@ -13,7 +14,8 @@ mod triplets;
 
 pub use complex::Complex;
 pub(crate) use complex::hermitian_range;
-pub(crate) use dense::{DenseFactor, dense_condition, sparse_condition};
+pub(crate) use condition::{dense_condition, sparse_condition};
+pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, lowest_modes, symmetric_modes};
 pub(crate) use faer::traits::ComplexField;
 pub(crate) use matrix::SparseMatrix;

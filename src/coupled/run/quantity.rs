@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::footing::{Base, against_overturning, against_sliding, open_area};
+use super::footing::{Base, open_area};
 use super::peak::resultant;
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Peak, State};
@@ -195,7 +195,7 @@ quantities! {
     /// and never falls below. On a bonded base it may, and says what the interface would have lacked.
     /// Of several foundations the least.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
-        |base| base.least(against_sliding);
+        |base| base.least(|own| own.sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to: N times the
     /// half width, over the moment about the middle of the base. NaN in flight. On a base that may
     /// open it reaches one when the base stands on its edge, and never falls below. Of several foundations the least.
@@ -205,7 +205,7 @@ quantities! {
     /// most: on n cells along x it stands on them at (n − 0.21)/(n − 1), 1.11 for 8 and 1.05 for 16 cells or graded unions.
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
-        |base| base.least(|_, pressed| against_overturning(pressed, 0));
+        |base| base.least(|own| own.overturning[0]);
     /// In plan: resultant of the horizontal forces on the soil along x and y, N.
     HorizontalForce horizontal_force, "horizontal force", "N/m", Scale::Unit, [Plan, Page, Comparison, ComparisonTime],
         |base| base.sum(|own, _| own.base_shear).hypot(base.sum(|own, _| own.shear_across));
@@ -238,7 +238,7 @@ quantities! {
     /// In plan: safety against overturning over the front or the back edge, as that over the left or the right one.
     OverturningSafetyAcross overturning_safety_across, "factor of safety against overturning across", "",
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
-        |base| base.least(|_, pressed| against_overturning(pressed, 1));
+        |base| base.least(|own| own.overturning[1]);
 }
 
 /// In the plane this quantity and those after it keep their first value.

@@ -7,7 +7,6 @@ mod line;
 pub(crate) mod operators;
 pub(crate) mod transformation;
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::build::equilibrium::StaticState;
@@ -16,7 +15,7 @@ use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
-use crate::geometry::{ContactLayout, Patch, far_ends, middle, span};
+use crate::geometry::{ContactLayout, Patch};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
@@ -55,10 +54,8 @@ pub(crate) struct Scene {
     pub(crate) probes: Vec<Probe>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// Element midpoints `[x, y]` relative to the point of the base moment.
-    pub(crate) arms: Vec<[f64; 2]>,
-    /// The middle of each foundation likewise.
-    pub(crate) foundation_arms: Vec<[f64; 2]>,
+    /// Point `[x, y]` of the base moment.
+    pub(crate) moment_center: [f64; 2],
 }
 
 /// A probe in the coordinates that are stepped.
@@ -76,31 +73,6 @@ impl ProbeRows {
             .map(|part| part.vectors.each_ref().map(|r| rows[0].of(&spread(r, model.coordinates))));
         Self { carried: carried.collect(), rows }
     }
-}
-
-/// The middle of each foundation from the point `[x, y]` of the base moment: between the ends of its first and last
-/// element in the plane, whose midpoints from there are `arms`, and of its outline in plan.
-fn foundation_arms(
-    base: &Base,
-    elements: &Patch,
-    center: [f64; 2],
-    arms: &[[f64; 2]],
-) -> Vec<[f64; 2]> {
-    let of_elements = |own: Range<usize>, axis: usize| {
-        middle(far_ends(own.map(|e| {
-            let half = 0.5 * elements.sides(e)[axis];
-            [arms[e][axis] - half, arms[e][axis] + half]
-        })))
-    };
-    let of_outline = |corners: &[[f64; 2]], axis: usize| {
-        middle(span(corners.iter().map(|corner| corner[axis]))) - center[axis]
-    };
-    let both = base.foundations().zip(base.outlines());
-    both.map(|((_, own), corners)| match corners {
-        [] => [0, 1].map(|axis| of_elements(own.clone(), axis)),
-        _ => [0, 1].map(|axis| of_outline(corners, axis)),
-    })
-    .collect()
 }
 
 impl Scene {
@@ -123,10 +95,6 @@ impl Scene {
             let up = model.influence.of(UP, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
-        let elements = parts.elements.clone();
-        let [x, y] = parts.moment_center;
-        let middles = (0..elements.len()).map(|element| elements.middle(element));
-        let arms: Vec<_> = middles.map(|middle| [middle[0] - x, middle[1] - y]).collect();
         Self {
             time_step,
             coefficients,
@@ -142,9 +110,8 @@ impl Scene {
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows: given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
             probes: std::mem::take(&mut given.probes),
-            foundation_arms: foundation_arms(&base, &elements, [x, y], &arms),
-            arms,
-            elements,
+            moment_center: parts.moment_center,
+            elements: parts.elements.clone(),
             model,
             base,
         }
