@@ -130,19 +130,18 @@ impl Part {
     /// Mean translation `[right, up, away]` of contact displacements (normal components down) over
     /// this part's elements; zero where the part cannot follow. Exact if all are equal.
     pub(crate) fn mean(&self, base: &Base, displacement: &[f64]) -> [f64; 3] {
-        let areas = base.areas();
-        let offset = [1, 0, 2].map(|component| base.layout().place(component, 0));
-        let signs = [1.0, -1.0, 1.0];
         let Some(&first) = self.elements.first() else { return [0.0; 3] };
-        let width: f64 = self.elements.iter().map(|&e| areas[e]).sum();
-        [0, 1, 2].map(|k| {
-            if self.vectors[k].is_empty() {
+        let [down, along, across] = base.layout().split(displacement);
+        let areas = base.areas();
+        let area: f64 = self.elements.iter().map(|&e| areas[e]).sum();
+        let mean = |direction: usize, values: &[f64]| {
+            if self.vectors[direction].is_empty() {
                 return 0.0;
             }
-            let at = |e: usize| displacement[offset[k] + e];
-            let apart: f64 = self.elements.iter().map(|&e| areas[e] * (at(e) - at(first))).sum();
-            signs[k] * (at(first) + apart / width)
-        })
+            let apart = self.elements.iter().map(|&e| areas[e] * (values[e] - values[first]));
+            values[first] + apart.sum::<f64>() / area
+        };
+        [mean(0, along), -mean(UP, down), mean(2, across)]
     }
 
     /// Subtracts a translation `[right, up, away]` from contact displacements.
