@@ -3,9 +3,9 @@
 //! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
 //! on elastic ground: the flat surface of a homogeneous half-plane or of horizontal layers with
 //! damping, a bed of springs, or your own. The ground shakes. Element by element, the base may stick,
-//! open, close again and slide with friction. Wanted are displacements, contact tractions, base shear
-//! and moment, uplift and slip. Everything is two-dimensional, per metre of thickness, for small
-//! displacements.
+//! open, close again and slide with friction. Results are displacements, contact tractions, base shear
+//! and moment, uplift, slip and an energy balance, for small displacements: in the plane, per metre of thickness, or
+//! in three dimensions for bodies on rigid mats, whose plan the ground then has ([`bem::plan`]).
 //!
 //! # One complete example
 //!
@@ -55,7 +55,7 @@
 //!
 //! # Equations
 //!
-//! The soil answers to the tractions of all steps so far; element means of its surface
+//! The soil responds to the tractions of all steps so far; element means of its surface
 //! displacement at the end of step N are
 //!
 //! ```math
@@ -96,13 +96,13 @@
 //!
 //! | what | how |
 //! |---|---|
-//! | units | SI, per metre of thickness: N/m, N·m/m, kg/m; tractions in Pa |
-//! | axes | x to the right, y up, the soil at y ≤ 0; kernels alone use z down |
-//! | rotations, moments | positive counter-clockwise |
+//! | units | SI, per metre of thickness: N/m, N·m/m, kg/m; in plan of the whole body: N, N·m, kg; tractions in Pa |
+//! | axes | x to the right, y up, the soil at y ≤ 0; in plan x to the right, y away, z up; kernels alone use z down |
+//! | rotations, moments | positive counter-clockwise; in plan by the right-hand rule |
 //! | pressure | positive in compression |
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
 //! | gap, slip | positive when open; positive when the structure moved to the right over the soil |
-//! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right) |
+//! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right); in plan Q more (along y) |
 //! | degrees of freedom | matrices are written for absolute displacements; [`coupled::State`] and probes give changes against the static state, relative to the free field's translation unless they say absolute |
 //! | velocities, accelerations | total |
 //! | time | step n ends at t = nΔt; tractions belong to the whole step |
@@ -113,9 +113,9 @@
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
-//! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
+//! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
-//! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
+//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
@@ -137,7 +137,7 @@
 //! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
 //! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape` |
 //! | `reference` | `reference`: closed forms from the literature, to check against |
-//! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::DeformedShape` |
+//! | `plot` | `plot`: pictures of time series, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |
 //! | `rayon` | [`sweep::Sweep`], and coefficients of layered ground, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
@@ -177,11 +177,9 @@
 //!
 //! # Examples
 //!
-//! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`, `portal_frame`,
-//! `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`, `machine_foundation`, `floor_spectra`,
-//! `layered_site`, `impedances`, `mat_in_plan`, `friction_sweep`, `travelling_wave`, `from_matrices`; `containment` is
-//! the problem of Patel & Spyrakos; `pictures` draws everything (feature `png`). What each prints is in [the list of
-//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
+//! `containment` is the problem of Patel & Spyrakos; `shear_building`, `square_block` (in three dimensions) and some
+//! 25 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
+//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) says what each prints.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
