@@ -190,11 +190,11 @@ impl Standing<'_> {
                 length_scale: largest(&free_jump),
                 bonds: &[],
             };
-            let found = search.solve(&mut solver, &input, &mut state.modes);
-            found.map_err(|error| match error {
-                StepError::Law(error) => Error::Law(error),
-                _ => Error::Preload { iterations, residual: change },
-            })?;
+            match search.solve(&mut solver, &input, &mut state.modes) {
+                Ok(_) => {}
+                Err(StepError::Law(error)) => return Err(Error::Law(error)),
+                Err(_) => break,
+            }
             let columns = &current.columns;
             transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
             // What the fictitious springs still pull.
@@ -238,9 +238,9 @@ impl Standing<'_> {
                 solver.invalidate();
             }
         }
-        // Of the structure against springs as stiff as the first ones.
-        let share = epsilon / stiffest;
-        let condition = compliance.map_or(1.0, |mut current| share * current.condition());
+        // Against the first springs: what softened ones leave of a matrix that is all rounding has no condition.
+        let first = Compliance::new(assembled, &tangent.matrix, soil, stiffest);
+        let condition = first.map_or(1.0, |mut first| first.condition());
         Err(failure(condition, iterations, change))
     }
 
