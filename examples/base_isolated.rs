@@ -4,10 +4,10 @@
 //! cargo run --release --example base_isolated
 //! ```
 //!
-//! The same building stands on its basemat directly, elastic and with columns that yield, on friction
-//! pendulums and on lead–rubber bearings. The pendulums' law takes the static weight and one friction
-//! coefficient: no vertical motion, no dependence on speed. Below the basemat, soil and contact are as
-//! ever: the base may uplift and slide. The law of a spring says what force a drift meets; the energy balance says what it took.
+//! The building stands directly on its basemat, elastic or with columns that yield, on friction pendulums, and on
+//! lead–rubber bearings. The pendulums' law has the static weight and one friction coefficient: no vertical motion, no
+//! dependence on speed. In all cases the basemat may uplift and slide on the soil. The hysteretic laws turn a drift
+//! into a force; the energy balance has the heat that they made.
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -17,15 +17,15 @@ const FLOORS: usize = 5;
 const FLOOR_MASS: f64 = 20.0e3;
 const SLAB_MASS: f64 = 30.0e3;
 
-/// Five storeys of 3 m per metre of thickness with 2 % of critical damping at the fixed-base frequency,
-/// which stays where columns yield.
+/// Five storeys of 3 m, per metre of thickness, with 2 % of critical damping at the fixed-base frequency. The damping
+/// does not change where columns yield.
 fn building() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOORS];
     ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.02)
 }
 
-/// 20 s of El Centro. The lowest `levels` of the structure get a probe for their drift each, and the
-/// roof one for its acceleration.
+/// Runs 20 s of El Centro, with a probe for the drift of each of the lowest `levels` and one for the acceleration of
+/// the roof.
 fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let mut probes = vec![Probe::acceleration("roof", structure.roof())];
@@ -44,7 +44,7 @@ fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
 }
 
 fn main() -> Result<()> {
-    // What the bearings carry: the slab and all floors.
+    // Weight on the bearings: the slab and all floors.
     let weight = STANDARD_GRAVITY * (SLAB_MASS + FLOORS as f64 * FLOOR_MASS);
     let level =
         IsolationLevel { height: 0.3, slab_mass: SLAB_MASS, slab_inertia: 2.5e5, damping: 0.0 };

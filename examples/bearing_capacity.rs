@@ -1,11 +1,11 @@
-//! A rocking block on soil that yields: what its bearing pressure leaves of settlement and rounding.
+//! A rocking block on soil that yields: settlement and rounding of the ground for several bearing pressures.
 //!
 //! ```text
 //! cargo run --release --example bearing_capacity
 //! ```
 //!
-//! The soil near the base sinks in for good where the pressure reaches q, the half-plane below stays
-//! elastic. The lower q, the more the edges sink, the less the block is shaken, and the more it leans.
+//! The soil beneath an element sinks permanently where the pressure reaches q, and the half-plane below stays elastic.
+//! The lower q is, the more the edges sink, the less the block is shaken, and the more it leans.
 
 use basemat::Result;
 use basemat::interface::Yielding;

@@ -4,10 +4,11 @@
 //! cargo run --release --example cask
 //! ```
 //!
-//! A cylinder of 3.4 m, 5.6 m high, on a stiff pad over soil of 200 m/s, shaken by three records at once. On friction
-//! 0.3 it slides, on 0.8 it rocks on its rim and walks along it. Newmark's block is rigid on rigid ground and knows one
-//! record; so does the slice, a wall of the same section, which stands on an edge instead of a rim. Sliding is the same
-//! to a few percent with other cells and steps; a walk hangs on every impact, and differs by factors of up to four.
+//! Three records at once shake a cylinder 3.4 m wide and 5.6 m high on a stiff pad over soil of 200 m/s. With friction
+//! 0.3 it slides; with 0.8 it rocks on its rim and walks along it. Newmark's block is rigid on rigid ground, under one
+//! record. The slice, a wall of the same section, also has one record, and stands on an edge instead of a rim. Other
+//! cells and steps change sliding by a few percent; walking depends on every impact, and changes by factors of up to
+//! four.
 
 use basemat::bem::plan::Plan;
 use basemat::motion::Triaxial;
@@ -25,7 +26,7 @@ const DENSITY: f64 = 3200.0;
 const STEP: f64 = 0.00125;
 const STEPS: usize = 4800;
 
-/// A pad of 1.5 m that is endless like the soil of 200 m/s below it; both with 3 % damping.
+/// A pad 1.5 m thick on soil of 200 m/s, both without lateral ends and with 3 % damping.
 fn pad() -> basemat::Result<SoilProfile> {
     let damping = || GeneralizedMaxwell::constant_q(0.03, [0.1, 30.0], 1.0);
     let soil = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
@@ -34,7 +35,7 @@ fn pad() -> basemat::Result<SoilProfile> {
     Ok(base.with_layer(pad, 1.5)?.with_damping(damping()?))
 }
 
-/// The cask under `motion`, and its series.
+/// Runs the cask under `motion`, and returns its time series too.
 fn cask(friction: f64, motion: &Triaxial) -> basemat::Result<(Run, TimeSeries)> {
     let body = RigidBody::cylinder(0.5 * DIAMETER, HEIGHT, DENSITY)?;
     // Cells on a disc, eight to its diameter.
@@ -65,7 +66,7 @@ fn slice(friction: f64, record: &Record) -> basemat::Result<Run> {
 }
 
 fn main() -> basemat::Result<()> {
-    // One record is built in: that along y comes half a second late, the vertical one a second.
+    // Only one record is built in: it arrives along y half a second later, and vertically a second later.
     let record = el_centro_1940().scaled(2.0)?;
     let late = |factor: f64, quiet: f64| record.scaled(factor)?.padded(quiet, 0.0);
     let x = Some(record.clone());

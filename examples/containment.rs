@@ -28,7 +28,7 @@ const HEIGHT: f64 = 80.0;
 const ELEMENTS: usize = 10;
 const LAYERS: usize = 13;
 
-/// Cases, their friction (`None` is bonded), and the peak base shears of Table 1, lb/ft.
+/// Cases, their friction (`None`: bonded), and the peak base shears of Table 1, lb/ft.
 const CASES: [(&str, Option<f64>, f64); 5] = [
     ("bonded", None, 28_970.0),
     ("uplift only", Some(f64::INFINITY), 20_130.0),
@@ -51,11 +51,11 @@ fn structure() -> Result<FemModel> {
     FemModel::on_base(Mesh::layered_block(-half..half, ELEMENTS, &[foundation, superstructure])?)
 }
 
-/// A run of the whole record, and its time series.
+/// Runs the whole record, and returns its time series too.
 fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
     let model = structure()?;
     let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
-    // A corner of the roof; the force of the superstructure on the foundation.
+    // Displacement of a corner of the roof, and force of the superstructure on the foundation.
     let corner = model.mesh().node_at(-half, LAYERS as f64 * layer)?;
     let roof = [("roof x", Direction::X), ("roof y", Direction::Y)].map(|(name, direction)| {
         Ok(Probe::absolute_displacement(name, model.row(corner, direction)?))

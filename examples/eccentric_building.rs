@@ -4,8 +4,8 @@
 //! cargo run --release --example eccentric_building
 //! ```
 //!
-//! Four floors of 20 × 12 m on a mat, shaken across their long side. A stiff staircase draws the centre of stiffness 5 m
-//! to the left, so the right end drifts most. The soil takes part of that: it twists under the mat.
+//! Four floors of 20 × 12 m on a mat are shaken across their long side. A stiff staircase moves the centre of stiffness
+//! 5 m to the left, so the right end drifts most. The mat twists on the soil, which takes part of that drift.
 
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
@@ -14,7 +14,7 @@ use basemat::structure::{ModalDamping, PlanStorey, RigidBody, StoreyBuilding};
 const SIDES: [f64; 2] = [20.0, 12.0];
 const STEP: f64 = 0.005;
 
-/// The building with its walls so far from the middle (m).
+/// The building with its walls at this distance from the middle (m).
 fn building(eccentricity: f64) -> basemat::Result<StoreyBuilding> {
     let mat = RigidBody::cuboid([SIDES[0], SIDES[1], 1.0], 2500.0)?;
     let storey = PlanStorey::new(3.2, 240.0e3, SIDES, [4.0e8, 3.0e8, 1.5e10]);

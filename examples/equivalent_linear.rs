@@ -1,11 +1,11 @@
-//! A building that may uplift on soft clay: the site as it is at small strain, and as strong shaking leaves it.
+//! A building that may uplift on soft clay, with the properties of small strain and with strain-compatible ones.
 //!
 //! ```text
 //! cargo run --release --example equivalent_linear
 //! ```
 //!
 //! The record, El Centro at 0.3 g, is that of the rock's outcrop. Strain-compatible moduli and damping are iterated
-//! from curves of Vucetic & Dobry and of EPRI; ground and surface motion of the building follow from them. Writes
+//! with the curves of Vucetic & Dobry and of EPRI; the building's ground and surface motion follow from them. Writes
 //! wave speeds, strains and spectra to `target/equivalent_linear.svg`.
 
 use basemat::bem::ElasticGround;
@@ -19,7 +19,7 @@ use basemat::{Result, plot};
 
 const STEP: f64 = 0.01;
 
-/// Clay over sand on rock, in layers of two metres, and the curves of each.
+/// Clay over sand on rock, in layers of two metres, and the strain curves of each layer.
 fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
     let rock = Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?;
     let mut profile = SoilProfile::on_half_plane(rock)
@@ -39,7 +39,7 @@ fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
     Ok((profile, curves))
 }
 
-/// Fifteen seconds of a six-storey building, and the spectrum of its roof.
+/// Runs fifteen seconds of a six-storey building, and returns the spectrum of its roof too.
 fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
     let building = ShearBuilding::new(9.0, 60.0e3, 5.0e5, &[Storey::new(3.0, 25.0e3, 70.0e6); 6])?;
     let roof = building.roof();
@@ -66,7 +66,7 @@ fn main() -> Result<()> {
     let compatible = column.equivalent_linear(&rock, &curves, &options)?;
     println!("{compatible}\n\n{}\n", compatible.profile);
 
-    // The same site with the properties of small strain.
+    // This site with the properties of small strain.
     let small = |curves: &StrainCurves| Ok(StrainCurves::Linear { damping: curves.at(0.0)?[1] });
     let small = curves.iter().map(small).collect::<Result<Vec<_>>>()?;
     let linear = column.equivalent_linear(&rock, &small, &options)?;

@@ -1,13 +1,12 @@
-//! Floor response spectra: what equipment on the roof of a building feels, with a base that is
-//! held and with one that may uplift and slide.
+//! Floor response spectra for equipment in a building whose base is bonded, or may uplift and slide.
 //!
 //! ```text
 //! cargo run --release --example floor_spectra
 //! ```
 //!
-//! A floor's total acceleration, read by an acceleration probe, is a ground motion for what stands
-//! on it. Its response spectrum is the floor spectrum; peaks are broadened by 15 % for what is not
-//! known of soil and structure (U.S. NRC Regulatory Guide 1.122).
+//! The total acceleration of a floor, recorded by an acceleration probe, is the ground motion of equipment that stands
+//! on it, and its response spectrum is the floor spectrum. Peaks are broadened by 15 % for uncertain properties of soil
+//! and structure (U.S. NRC Regulatory Guide 1.122).
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -21,8 +20,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); 5];
     let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?;
     let (first, roof) = (building.floor(0)?, building.roof());
-    // Equipment responds to the high modes: 5 % in each of them, where damping in proportion to the
-    // stiffness gives the fifth 34 %.
+    // Equipment responds to high modes, so each has 5 %; damping proportional to stiffness would give the fifth 34 %.
     let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
@@ -40,7 +38,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
 }
 
 fn main() -> Result<()> {
-    // Fine enough for the peaks; every fourth line is printed, and the peak of the roof.
+    // Periods fine enough for the peaks; every fourth one is printed, and that of the roof's peak.
     let periods = log_spaced(0.05, 2.0, 61)?;
     let (held, free) = (shake(Bonded)?, shake(Coulomb::new(0.25)?)?);
 

@@ -1,14 +1,13 @@
-//! How likely is a block to slide too far? Friction coefficients × ground motions × strengths.
+//! How likely is a block to slide too far? Friction coefficients × ground motions × intensities.
 //!
 //! ```text
 //! cargo run --release --example friction_sweep
 //! cargo run --release --features rayon --example friction_sweep
 //! ```
 //!
-//! Every motion of a small set is scaled to the same peak acceleration, every case is run, and the
-//! share of motions with more slip than a limit is counted: a row of a fragility table. The set is
-//! far too small for a design; the way to do it is the point. [`Sweep`] runs the cases on all
-//! processors if the crate is built with the feature `rayon`.
+//! Each motion of a small set is scaled to one peak acceleration, all cases are run, and the fraction of motions with
+//! more slip than a limit makes a row of a fragility table. The set is far too small for a design; it shows the method.
+//! [`Sweep`] runs the cases on all processors if the crate is built with the feature `rayon`.
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -56,8 +55,8 @@ fn main() -> Result<()> {
     let motions = motions()?;
     let (kinds, peaks) = (motions.len(), PEAKS.len());
 
-    // Every combination is a case, the last parameter fastest. A case that fails is a row that says
-    // why, and does not stop the others.
+    // Every combination is a case; the last parameter varies fastest. A case that fails has a row that says why, and
+    // does not stop the others.
     let sweep = Sweep::grid([
         Parameter::numbers("friction", FRICTIONS),
         Parameter::numbers("peak_g", PEAKS),

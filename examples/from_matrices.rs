@@ -1,13 +1,12 @@
-//! A structure of 50 000 degrees of freedom from Matrix Market files, reduced so that it marches in real time.
+//! A structure of 50 000 degrees of freedom from Matrix Market files, reduced for fast runs.
 //!
 //! ```text
 //! cargo run --release --example from_matrices
 //! ```
 //!
-//! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals
-//! does, into `target`. The files are read back, contact nodes are named, and a
-//! Craig–Bampton reduction keeps these and the lowest modes of the rest. The full model marches two of
-//! its periods beside the reduced one, to compare.
+//! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals writes them into
+//! `target`. The files are read back, contact nodes are named, and a Craig–Bampton reduction keeps these and the lowest
+//! modes of the rest. Two periods of the full model are computed as well, to compare.
 
 use std::path::Path;
 use std::time::Instant;
@@ -23,8 +22,8 @@ const MODES: usize = 20;
 /// Steps in two of the tower's longest periods, 2.1 s each.
 const TWO_PERIODS: usize = 430;
 
-/// Writes the matrices of a tower, 10 m wide and 100 m high, of quadrilaterals of 0.2 m; its contact nodes and the
-/// displacement of its top.
+/// Writes the matrices of a tower, 10 m wide and 100 m high, of quadrilaterals of 0.2 m; returns its contact nodes and
+/// the displacement of its top.
 fn write_files(
     mass_file: &Path,
     stiffness_file: &Path,
@@ -41,7 +40,7 @@ fn write_files(
     Ok((model.contact_nodes(), top))
 }
 
-/// The structure on soil, with the displacement of its top as a probe, ready to march.
+/// The simulation of the structure on soil, with the displacement of its top as a probe.
 fn scene(
     structure: impl Structure + 'static,
     top: DofCombination,
@@ -59,7 +58,7 @@ fn scene(
         .build()
 }
 
-/// Marches and returns the sway of the top at every step, and seconds per step.
+/// Runs, and returns the displacement of the top at every step, and seconds per step.
 fn march(simulation: &mut Simulation, steps: usize) -> Result<(Vec<f64>, f64)> {
     let start = Instant::now();
     let mut sway = Vec::new();
@@ -90,7 +89,7 @@ fn main() -> Result<()> {
     );
     let recovery = reduced.recovery();
 
-    // The top is no degree of freedom of the reduced model, but a weighted sum of them.
+    // In the reduced model the top is not a degree of freedom but a weighted sum of them.
     let row = recovery.row(&top)?;
     let mut small = scene(reduced, row, Coordinates::Auto)?;
     let mut large = scene(model, top.clone(), Coordinates::Physical)?;
@@ -112,7 +111,7 @@ fn main() -> Result<()> {
         1e3 * largest(&sway_full),
         largest(&apart) / largest(&sway_full)
     );
-    // Any degree of freedom of the full model, whenever it is wanted.
+    // The recovery returns any degree of freedom of the full model.
     let everything = recovery.full(small.state().absolute_displacement())?;
     println!(
         "all {} degrees of freedom at the end: the top at {:.3} mm",

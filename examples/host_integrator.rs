@@ -1,5 +1,5 @@
-//! A code with a time integrator of its own: central differences for the structure, the ground and
-//! the contact problem of each step from the crate.
+//! A program with a time integrator of its own (central differences for the structure), which takes the ground and the
+//! contact problem of each step from the crate.
 //!
 //! ```text
 //! cargo run --release --example host_integrator
@@ -28,7 +28,7 @@ fn base(u: &[f64; 4], centers: &[f64]) -> Vec<f64> {
     down.chain(centers.iter().map(|_| u[0])).collect()
 }
 
-/// Acceleration by the column and by tractions on the base.
+/// Acceleration due to the column and to tractions on the base.
 fn acceleration(u: &[f64; 4], traction: &[f64], centers: &[f64], lengths: &[f64]) -> [f64; 4] {
     let count = centers.len();
     let column = COLUMN * (u[3] - u[0] + HEIGHT * u[2]);
@@ -94,7 +94,7 @@ fn main() -> Result<()> {
         peak = if shear.abs() > peak.abs() { shear } else { peak };
         open = open.max(solution.modes.iter().filter(|mode| !mode.is_closed()).count());
         slip = solution.states.iter().fold(slip, |most, s| most.max(s.slip.abs()));
-        // The step is accepted: the laws see its end from now on, and remember what they have to.
+        // The step is accepted: its end is the previous contact of the next one, state variables of the laws included.
         solution.commit(&mut start)?;
         (before, now) = (now, next);
     }

@@ -4,11 +4,11 @@
 //! cargo run --release --example impedances
 //! ```
 //!
-//! A strip 6 m wide is bonded to soil of 150 m/s: an undamped half-plane of it; 6 m of it with 5 %
-//! damping on rock of 450 m/s with 1 %; the same 6 m on a rigid base. Every K(ω) is split into a spring Re K and
-//! a dashpot Im K/ω beside it. The half-plane's dashpots are radiation alone. Those of the layers
-//! contain the soil's own damping, and hardly anything else below the first frequency of the layer, 6.25 Hz: a
-//! half-plane overestimates the damping of such a site.
+//! A strip 6 m wide is bonded to soil of 150 m/s: an undamped half-plane; a layer of 6 m with 5 % damping on rock of
+//! 450 m/s with 1 %; and that layer on a rigid base. Every K(ω) is split into a spring Re K and a dashpot Im K/ω. The
+//! half-plane's dashpots are radiation damping alone. Those of the layers contain the soil's own damping, and hardly
+//! anything else below the first frequency of the layer, 6.25 Hz: a half-plane overestimates the damping of such a
+//! site.
 
 use std::error::Error;
 use std::path::Path;
@@ -104,7 +104,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     draw(&cases, out)?;
     println!("\npictures in {}", out.display());
 
-    // Im K/μ of sway and heave at a₀ = 0.5 from tables of other programs.
+    // Im K/μ, horizontal and vertical, at a₀ = 0.5 from tables of other programs.
     for ((name, found), wanted) in
         cases.iter().zip([[1.315, 2.019], [0.602, 0.934], [0.256, 0.490]])
     {

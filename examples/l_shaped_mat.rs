@@ -1,11 +1,11 @@
-//! An L-shaped mat of own matrices that lifts and slides: one record along x, a response in all directions.
+//! An L-shaped mat given by matrices that lifts and slides: one record along x, a response in all directions.
 //!
 //! ```text
 //! cargo run --release --example l_shaped_mat
 //! ```
 //!
-//! Two rigid wings of 24 × 8 m and 8 × 12 m, 18 m high, stand on one mat on soil of 250 m/s. The mass matrix is written by
-//! hand, as another program would give it; the base is two faces. The picture of the contact goes into `target`.
+//! Two rigid wings of 24 × 8 m and 8 × 12 m, 18 m high, stand on one mat on soil of 250 m/s. The mass matrix is written
+//! by hand, as another program would give it; the base has two faces. Writes a picture of the contact to `target`.
 
 use basemat::motion::Triaxial;
 use basemat::plot::contact_plan;

@@ -1,14 +1,14 @@
-//! One building on four grounds: rock, the half-plane of the soil at its surface, and the layers that
-//! are really there, without and with damping.
+//! One building on four grounds: rock, a half-plane of the surface soil, and the layers of the site without and with
+//! damping.
 //!
 //! ```text
 //! cargo run --release --example layered_site
 //! ```
 //!
-//! The record, El Centro at 0.15 g, is that of the rock's outcrop. A simulation takes the motion of the
-//! free surface, so on rock it is the record itself, elsewhere what `site::SoilColumn` makes of it on the
-//! way up through the damped layers. The three soils see the same surface motion: what differs in
-//! their columns comes from the ground under the building alone. Writes floor spectra to `target/layered_site.svg`.
+//! The record, El Centro at 0.15 g, is that of the rock's outcrop. A simulation takes the motion of the free surface:
+//! on rock the record itself, elsewhere what `site::SoilColumn` makes of it on the way up through the damped layers.
+//! The three soils have the same surface motion, so differences come from the ground under the building alone. Writes
+//! floor spectra to `target/layered_site.svg`.
 
 use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::coupled::EnergyTerm;
@@ -31,7 +31,7 @@ const LAYERS: [(f64, f64, f64, f64, f64); 2] =
 const ROCK: (f64, f64, f64, f64) = (800.0, 0.25, 2300.0, 0.01);
 
 fn site(damped: bool) -> Result<SoilProfile> {
-    // Of the record's frequencies, and on either side of the storeys' and the layers'.
+    // A band that contains the frequencies of the record, the building and the layers.
     let law = |ratio: f64| {
         GeneralizedMaxwell::constant_q(if damped { ratio } else { 0.0 }, [0.2, 25.0], 2.0)
     };
@@ -44,7 +44,7 @@ fn site(damped: bool) -> Result<SoilProfile> {
     Ok(profile)
 }
 
-/// Ten seconds of a building, and the spectrum of its roof.
+/// Runs ten seconds of a building, and returns the spectrum of its roof too.
 fn shake(
     motion: &Record,
     ground: impl FnOnce(&dyn Structure) -> Result<Box<dyn Ground>>,
@@ -80,7 +80,7 @@ fn main() -> Result<()> {
             Ok(Box::new(ElasticGround::under(soil, structure, ELEMENTS)?))
         }
     };
-    // Of a profile that is met again, coefficients are computed once.
+    // Convolution weights of a profile that comes again are computed once.
     let kernels = SharedKernels::default();
     let layered = |profile: &SoilProfile| {
         let (profile, kernels) = (profile.clone(), kernels.clone());

@@ -5,9 +5,9 @@
 //! cargo run --release --example machine_foundation
 //! ```
 //!
-//! The unbalance m e turns at the top of the block and pulls outwards with m e ω². Bonded, the
-//! amplitude is that of (K(ω) − ω² M) u = F, with the impedances K of the ground. Fast enough, the
-//! machine lifts the block, and no frequency domain applies.
+//! The unbalance m e turns at the top of the block and pulls outwards with m e ω². Of a bonded block, the amplitude is
+//! that of (K(ω) − ω² M) u = F with the impedances K of the ground. At high speed the machine lifts the block, and the
+//! frequency domain no longer applies.
 
 use std::f64::consts::TAU;
 
@@ -46,10 +46,10 @@ fn machine(
         .structure(block))
 }
 
-/// Amplitude of the top at a steady `frequency` (Hz): marched, the last ten turns.
+/// Amplitude of the top at a steady `frequency` (Hz) in time: the last ten turns of a run.
 fn marched(frequency: f64) -> Result<f64> {
     let omega = TAU * frequency;
-    // Ten turns to come up to its force, thirty to settle.
+    // The force grows for ten turns, and the vibration settles for thirty.
     let up = move |t: f64| omega * (0.1 * frequency * t).min(1.0).sqrt();
     let mut simulation = machine(move |t| omega * t, up)?.interface(Bonded).build()?;
     let steps = |turns: f64| simulation.steps_for(turns / frequency);
@@ -68,7 +68,7 @@ fn marched(frequency: f64) -> Result<f64> {
     Ok(cosine.hypot(sine))
 }
 
-/// The same by (K(ω) − ω² M) u = F, u the sway of the base and its rotation to the right.
+/// That amplitude by (K(ω) − ω² M) u = F, with u the horizontal displacement of the base and its rotation to the right.
 fn in_frequency_domain(impedance: &StripImpedance) -> Result<f64> {
     let block = foundation()?;
     let square = (TAU * impedance.frequency).powi(2);
@@ -77,7 +77,7 @@ fn in_frequency_domain(impedance: &StripImpedance) -> Result<f64> {
     let sway = impedance.horizontal - inertia(mass);
     let coupling = impedance.coupling - inertia(mass * height);
     let rocking = impedance.rocking - inertia(block.base_inertia());
-    // Sway and rotation under the force at the top, by Cramer's rule.
+    // Displacement and rotation under the force at the top, by Cramer's rule.
     let force = UNBALANCE * square;
     let determinant = sway * rocking - coupling * coupling;
     let top = rocking - coupling * (2.0 * HEIGHT) + sway * (HEIGHT * HEIGHT);

@@ -4,9 +4,9 @@
 //! cargo run --release --example mat_in_plan
 //! ```
 //!
-//! A mat of 20 × 20 m on soil of 200 m/s, and 20 m of an endless strip 20 m wide: what a calculation in plane strain
-//! would have taken. The strip is softer, as it shares its soil with the rest of it, and radiates more, above all in
-//! rocking. Plane strain makes square mats rock too little.
+//! A mat of 20 × 20 m on soil of 200 m/s is compared with 20 m of an endless strip 20 m wide, as a calculation in plane
+//! strain takes it. The strip is softer, because its parts share their soil, and radiates more, above all in rocking.
+//! Plane strain makes square mats rock too little.
 
 use basemat::bem::layered::{StripContact, rigid_strip_impedances};
 use basemat::bem::plan::{Plan, impedances_in_plan};
@@ -24,7 +24,7 @@ fn main() -> basemat::Result<()> {
     let unit = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF);
     let frequencies = [0.25, 0.5, 1.0].map(|a0| a0 * unit);
 
-    // 16 cells to a side, those outside a tenth of a cell beyond the edge.
+    // 16 cells along a side; the outermost reach a tenth of a cell beyond the edge.
     let mat = Plan::rectangle(-HALF..HALF, -HALF..HALF, 16)?;
     let mats = impedances_in_plan(&profile, &mat, &frequencies, StripContact::Bonded)?;
     let elements = Strip::new(-HALF..HALF, 24, Grading::Cosine)?.elements();

@@ -29,13 +29,13 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
     let shape = DeformedShape::of_model(&tower);
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
-        // Two equal elements of contact under each of the mesh.
+        // Two equal contact elements under each element of the mesh.
         .ground(ElasticGround::new(soil, Strip::under(&tower, 16, Grading::Uniform)?)?)
         .structure(tower)
         .interface(law)
         .motion(el_centro_1940())
         .probe(Probe::acceleration("roof", roof))
-        // The bonded base has no friction: what would it need of this one?
+        // The bonded base has no friction of its own: its factor of safety takes this one.
         .safety_friction([FRICTION])
         .build()?;
     // Base and structure at every sixth step, for pictures in time.
@@ -46,7 +46,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
 
 fn main() -> Result<()> {
     let out = Path::new("target/pictures");
-    // As SVG for the web and paper, as PNG for what takes no SVG.
+    // SVG for the web and for paper, PNG for programs that take no SVG.
     let save = |name: &str, picture: Svg| {
         picture.save(out.join(format!("{name}.svg")))?;
         picture.save_png(out.join(format!("{name}.png")), 2.0)

@@ -4,7 +4,7 @@
 //! cargo run --release --example portal_frame
 //! ```
 //!
-//! Each column has a rigid footing of its own. Held by friction alone, footings turn on their edges, step towards
+//! Each column has a rigid footing of its own. Held by friction alone, the footings turn on their edges, move towards
 //! each other, and stay there; a [`Sweep`] over widths and friction coefficients shows how far.
 
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
@@ -12,21 +12,21 @@ use basemat::prelude::*;
 use basemat::structure::DofCombination;
 use basemat::{CaseError, Result};
 
-/// Of the columns, and between them, m.
+/// Height of the columns and distance between them, m.
 const HEIGHT: f64 = 5.0;
 const SPAN: f64 = 8.0;
 /// Area (m²/m) and second moment of area (m⁴/m): columns 0.6 × 0.6 m and a beam 0.4 × 0.8 m, every 5 m.
 const COLUMN: [f64; 2] = [0.072, 2.16e-3];
 const BEAM: [f64; 2] = [0.064, 3.413e-3];
 const YOUNG_MODULUS: f64 = 30.0e9;
-/// Of the roof, frame included, kg/m.
+/// Mass of the roof, frame included, kg/m.
 const ROOF_MASS: f64 = 30.0e3;
-/// Of the sway on a fixed base, Hz.
+/// Frequency of lateral vibration on a fixed base, Hz.
 const FREQUENCY: f64 = 2.707;
 /// Thickness (m) and density (kg/m³) of the footings.
 const FOOTING: [f64; 2] = [0.6, 2400.0];
 
-/// The frame on footings of `width` (m), and the sway of its roof against the mean of the footings.
+/// The frame on footings of `width` (m), and the drift of its roof against the mean of the footings.
 fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
     let member = |ends, [area, second_moment]: [f64; 2]| {
         Beam::new(ends, YOUNG_MODULUS, area, second_moment, 0.0)
@@ -62,7 +62,7 @@ fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
 fn shake(width: f64, law: impl InterfaceLaw + 'static) -> Result<Run> {
     let (model, drift) = portal(width)?;
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
-    // 5 % of critical damping in the sway on a fixed base.
+    // 5 % of critical damping of lateral vibration on a fixed base.
     let damping = RayleighDamping::new(0.0, 0.05 / (std::f64::consts::PI * FREQUENCY))?;
     let mut simulation = Simulation::builder(0.005)
         .ground(ElasticGround::under(soil, &model, 8)?)

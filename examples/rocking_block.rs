@@ -5,9 +5,8 @@
 //! cargo run --release --example rocking_block
 //! ```
 //!
-//! On rigid ground statics says that the block lifts off at the ground acceleration g b/h (Housner
-//! 1963). Elastic soil gives way under the edge: there the block rocks on less base than it has,
-//! and loses energy by radiation as well as by impacts.
+//! On rigid ground the block lifts off at the ground acceleration g b/h (Housner 1963). Elastic soil deforms under the
+//! edge, so the block rocks on less than its whole base, and loses energy by radiation as well as by impacts.
 
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -74,7 +73,7 @@ fn main() -> Result<()> {
             } else {
                 "stands"
             };
-            // The crate computes with small rotations and says so where they are not.
+            // The crate assumes small rotations, and warns where they are not.
             let large = if run.warnings.is_empty() { ' ' } else { '*' };
             warned |= large == '*';
             print!(

@@ -39,7 +39,7 @@ fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
 
 fn main() -> Result<()> {
     let cases = [
-        // Bonded, the base has no friction of its own: what would be needed of 0.25?
+        // The bonded base has no friction of its own: its factor of safety takes 0.25.
         ("bonded", shake(Bonded, 0.25)?),
         ("uplift", shake(Coulomb::uplift_only(), f64::INFINITY)?),
         ("uplift, slip", shake(Coulomb::new(0.25)?, 0.25)?),

@@ -4,8 +4,8 @@
 //! cargo run --release --example snap_back
 //! ```
 //!
-//! The pull belongs to the static state and is gone from the first step on. What dies out is the
-//! building's lowest mode on its soil: longer than on a fixed base, and damped by radiation alone.
+//! The pull belongs to the static state and is gone from the first step on. The building then vibrates in its lowest
+//! mode on the soil, whose period is longer than on a fixed base, damped by radiation alone.
 
 use basemat::Result;
 use basemat::coupled::Load;
@@ -31,13 +31,13 @@ fn main() -> Result<()> {
         let pulled = simulation.static_displacement()[roof];
         let mut sway = Vec::new();
         let run = simulation.run(2000, |state| sway.push(state.probes[0]))?;
-        // Peaks on the side of the pull, about where it comes to rest.
+        // Peaks on the side of the pull, relative to the position of rest.
         let rest = sway[sway.len() - 1];
         let peaks: Vec<(usize, f64)> = (1..sway.len() - 1)
             .filter(|&k| sway[k] > sway[k - 1] && sway[k] >= sway[k + 1] && sway[k] > rest)
             .map(|k| (k, sway[k] - rest))
             .collect();
-        // Higher modes ring along in the first.
+        // The first peak still contains higher modes.
         let (first, last) = (peaks[1], peaks[peaks.len().min(5) - 1]);
         let cycles = (peaks.len().min(5) - 2) as f64;
         let period = (last.0 - first.0) as f64 * TIME_STEP / cycles;

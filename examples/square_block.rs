@@ -4,9 +4,9 @@
 //! cargo run --release --example square_block
 //! ```
 //!
-//! A block of 16 × 16 m, 20 m high, on soil of 250 m/s, shaken by three records at once, mostly along a diagonal. Free to
-//! lift and slide, its corner rises by a quarter more than bonded. Turned by 45° under the same motion, the block rocks
-//! about an edge, and that corner rises less. In plane strain one metre of it stands on an endless strip and knows one
+//! Three records at once shake a block of 16 × 16 m, 20 m high, on soil of 250 m/s, mostly along a diagonal. Free to
+//! lift and slide, its corner rises by a quarter more than bonded. Turned by 45° under this motion, the block rocks
+//! about an edge, and that corner rises less. In plane strain one metre of it stands on an endless strip under one
 //! horizontal record.
 
 use std::f64::consts::PI;
@@ -22,7 +22,7 @@ const DENSITY: f64 = 400.0;
 /// Time step, s.
 const STEP: f64 = 0.005;
 
-/// The run, and the largest rise or fall of a corner by the rotations of the base, m: `corner` is their row.
+/// The run, and the largest rise or fall of a corner by the rotations of the base (m), which `corner` combines.
 fn shake(
     builder: basemat::coupled::SimulationBuilder,
     law: impl InterfaceLaw + 'static,

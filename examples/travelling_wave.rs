@@ -1,15 +1,14 @@
-//! Does it matter from where the waves come? A tower that may uplift and slide, under the same
-//! horizontal record as a vertical S wave, an inclined SV wave, a Rayleigh wave, and a wave of
-//! horizontal motion that runs along the surface.
+//! Does the kind of wave matter? A tower that may uplift and slide under one horizontal record, taken as a vertical S
+//! wave, an inclined SV wave, a Rayleigh wave, and a horizontal motion that travels along the surface.
 //!
 //! ```text
 //! cargo run --release --example travelling_wave
 //! ```
 //!
-//! In all four the left edge of the base sees the same horizontal motion. Waves that run along the
-//! surface arrive later at the right edge, and inclined SV and Rayleigh waves bring a vertical
-//! motion along. Both rock the tower even before it sways. A whole record that comes as a Rayleigh
-//! wave is an extreme: its vertical motion is larger than the horizontal one.
+//! In all four cases the left edge of the base has the same horizontal motion. Waves that travel along the surface
+//! arrive later at the right edge, and inclined SV and Rayleigh waves have a vertical component. Both rock the tower
+//! even before it deforms. A whole record as a Rayleigh wave is an extreme: its vertical motion exceeds the horizontal
+//! one.
 
 use basemat::Result;
 use basemat::motion::{Baseline, PlaneWave, TravellingWave};
@@ -43,10 +42,10 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
 
 fn main() -> Result<()> {
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
-    // Starts and ends at rest, as the Rayleigh wave needs it.
+    // The record starts and ends at rest, as a Rayleigh wave requires.
     let record =
         el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?.padded(LEAD, 8.0)?;
-    // Where all of these waves arrive first.
+    // The left edge, which all these waves reach first.
     let origin = -HALF_WIDTH;
     let inclined = PlaneWave::sv(soil, ANGLE.to_radians())?;
     let rayleigh = PlaneWave::rayleigh(soil);

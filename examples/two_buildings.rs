@@ -1,4 +1,4 @@
-//! Two buildings side by side: what the neighbour changes.
+//! Two buildings side by side: the influence of a neighbour.
 //!
 //! A tall building stands beside a low one on soft soil. Each is computed alone, then both
 //! together, coupled by the soil between them (structure–soil–structure interaction).
@@ -24,7 +24,7 @@ fn low() -> Result<ShearBuilding> {
 fn shake<const N: usize>(structure: impl Structure + 'static, roofs: [Probe; N]) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0)?;
     let mut simulation = Simulation::builder(0.005)
-        // Eight elements under each base; bases talk through the soil.
+        // Eight elements under each base; the bases are coupled through the soil.
         .ground(ElasticGround::under(soil, &structure, 8)?)
         .structure(structure)
         .interface(Coulomb::new(0.5)?)
@@ -40,7 +40,7 @@ fn main() -> Result<()> {
     let [on_tall, on_low] = roofs.map(|(name, roof)| Probe::acceleration(name, roof));
     let alone = [shake(tall()?, [on_tall.clone()])?, shake(low()?, [on_low.clone()])?];
 
-    // The low one 13 m to the right: 2 m are between them. The group finds each roof again.
+    // The low building stands 13 m to the right, with 2 m between them. `probe` moves each roof's probe into the group.
     let group = StructureGroup::new().with(tall()?, 0.0)?.with(low()?, 13.0)?;
     let probes = [group.probe(0, on_tall)?, group.probe(1, on_low)?];
     let together = shake(group, probes)?;

@@ -4,10 +4,11 @@
 //! cargo run --release --example wind_turbine
 //! ```
 //!
-//! A hub at 92 m on an octagon 20 m wide. The gust is the "Mexican hat" of IEC 61400-1, and the rotor keeps its thrust
-//! coefficient, as before any control acts. Practice wants no gap under the mat in normal operation (IEC 61400-6), and
-//! at least half of it in contact under extreme loads: steady wind leaves it closed, the gust opens more than a third.
-//! The mat's mass is a `RigidBody`'s, with the hub's sway along x and y on a cantilever: matrices of a user's own.
+//! The hub stands at 92 m on an octagon 20 m wide. The gust is the "Mexican hat" of IEC 61400-1, and the rotor keeps
+//! its thrust coefficient, as before any control acts. Practice allows no gap under the mat in normal operation (IEC
+//! 61400-6), and requires contact of at least half of it under extreme loads: steady wind leaves the mat closed, the
+//! gust opens more than a third. Structure matrices are written by hand: the mass of a `RigidBody`, and a hub that
+//! moves along x and y on a cantilever.
 
 use std::f64::consts::{PI, TAU};
 
@@ -23,7 +24,7 @@ const HUB: f64 = 92.0;
 const DENSITY: f64 = 2200.0;
 const TOP: f64 = 280.0e3;
 const FOOT: f64 = 150.0e3;
-/// On a fixed base, Hz; aerodynamic and structural damping, of critical.
+/// Frequency on a fixed base, Hz; aerodynamic and structural damping ratio.
 const FREQUENCY: f64 = 0.33;
 const DAMPING: f64 = 0.04;
 /// Diameter of the rotor, m; its thrust coefficient; density of air, kg/m³; wind at the hub, m/s.
@@ -31,7 +32,7 @@ const ROTOR: f64 = 112.0;
 const THRUST: f64 = 0.8;
 const AIR: f64 = 1.225;
 const WIND: f64 = 12.0;
-/// When the gust begins, and its duration, s.
+/// Start and duration of the gust, s.
 const START: f64 = 2.0;
 const GUST: f64 = 10.5;
 
@@ -67,7 +68,7 @@ fn turbine() -> basemat::Result<MatrixModel> {
     mass.add_outer([(1, 1.0), (3, -quarter)], FOOT);
     mass.add(2, 2, FOOT + TOP);
     let omega = TAU * FREQUENCY;
-    // What the hub moves beyond u + r × (0, 0, HUB), which the mat takes along, bends the tower.
+    // The tower bends by the hub's displacement less that carried along by the mat, u + r × (0, 0, HUB).
     for bending in [[(6, 1.0), (0, -1.0), (4, -HUB)], [(7, 1.0), (1, -1.0), (3, HUB)]] {
         mass.add(bending[0].0, bending[0].0, TOP);
         stiffness.add_outer(bending, TOP * omega * omega);

@@ -4,10 +4,9 @@
 //! cargo run --release --example your_own_ground
 //! ```
 //!
-//! Under each element stands a column of soil that never ends: a pressure p moves its top at the
-//! velocity p/(ρ c_P), a shear traction τ at τ/(ρ c_S), for ever. It has no memory but its present
-//! displacement, radiates as much as a ground can, and has no static stiffness; a spring of
-//! `held` Pa/m brings one, so that the structure has something to stand on.
+//! Under each element stands an endless column of soil: a pressure p moves its top at the velocity p/(ρ c_P), a shear
+//! traction τ at τ/(ρ c_S), for ever. The column has no memory except its present displacement, radiates as much as a
+//! ground can, and has no static stiffness; a spring of `held` Pa/m adds one, so that the structure can stand.
 
 use basemat::bem::{ContactElement, Ground, Strip};
 use basemat::interface::Coulomb;
@@ -22,7 +21,7 @@ struct Columns {
     /// Springs beside the dashpots, Pa/m.
     held: f64,
     time_step: f64,
-    /// Normal components (down), then tangential ones, at the end of the last accepted step.
+    /// Displacements at the end of the last accepted step: normal components (down), then tangential ones.
     displacement: Vec<f64>,
 }
 

@@ -12,10 +12,10 @@
 //! 3. is the trial that came out admissible, and if not, which mode should be tried next
 //!    ([`InterfaceLaw::next_mode`]).
 //!
-//! The end of the step before is in [`PreviousContact`], here the speed at which the element slid. What a law has to
-//! remember for longer is its memory ([`InterfaceLaw::state_variables`]).
+//! The end of the previous step is in [`PreviousContact`], here the speed at which the element slid. What a law has to
+//! remember for longer are its state variables ([`InterfaceLaw::state_variables`]).
 //!
-//! Where only the coefficient changes, a closure in [`VariableFriction`] is enough: the last but one row.
+//! Where only the coefficient changes, a closure in [`VariableFriction`] is enough, as in the last but one row.
 
 use basemat::interface::{
     Condition, ContactState, Mode, PreviousContact, Tolerance, VariableFriction,
@@ -30,7 +30,7 @@ struct VelocityWeakening {
 }
 
 impl VelocityWeakening {
-    /// The coefficient of this step: of its start alone, so that it stands while modes are searched for.
+    /// The coefficient of this step, by its start alone, so that it stays while modes are searched for.
     fn friction(&self, start: &PreviousContact) -> f64 {
         self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
     }
@@ -52,7 +52,7 @@ impl InterfaceLaw for VelocityWeakening {
         };
         let closed = Condition::gap_is(0.0);
         match mode {
-            // The structure slides to the right and drags the soil along: shear is positive.
+            // The structure slides to the right and drags the soil with it: shear is positive.
             Mode::SlipRight => [closed, cone(1.0)],
             Mode::SlipLeft => [closed, cone(-1.0)],
             Mode::Open => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
@@ -76,7 +76,7 @@ impl InterfaceLaw for VelocityWeakening {
             _ if trial.pressure < -tolerance.traction => Mode::Open,
             Mode::Stick if trial.shear > limit => Mode::SlipRight,
             Mode::Stick if trial.shear < -limit => Mode::SlipLeft,
-            // Shear against the sense of slip is that of a pressure below zero.
+            // Shear against the sense of slip belongs to a negative pressure.
             Mode::SlipRight if trial.shear < -tolerance.traction => Mode::Open,
             Mode::SlipLeft if trial.shear > tolerance.traction => Mode::Open,
             // Friction must not push: an element that slides the wrong way sticks.
@@ -87,7 +87,7 @@ impl InterfaceLaw for VelocityWeakening {
     }
 }
 
-/// A squat block that slides before it rocks, 10 s of El Centro at one and a half times its size.
+/// Runs a squat block, which slides before it rocks, under 10 s of El Centro times 1.5.
 fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let block = RigidBlock::new(8.0, 4.0, 2000.0)?;

@@ -5,14 +5,14 @@
 //! ```
 //!
 //! `basemat` knows nothing of storeys and columns here. It asks a [`Structure`] for its degrees of freedom,
-//! the points of its base, and its matrices; everything else (ground, contact, time steps, energy
-//! energy balance) comes with the crate. Four methods are needed, `damping` is the fifth below.
+//! the points of its base, and its matrices; everything else (ground, contact, time steps, energy balance) comes with
+//! the crate. Four methods are needed; `damping` is the fifth below.
 
 use basemat::prelude::*;
 
 const FLOORS: usize = 5;
 
-/// Degrees of freedom: `[u_x, u_y, θ]` of the rigid base, then the absolute sway of each floor.
+/// Degrees of freedom: `[u_x, u_y, θ]` of the rigid base, then the absolute horizontal displacement of each floor.
 /// All per metre of thickness, in kg, N and m.
 struct Building {
     width: f64,
@@ -57,8 +57,8 @@ impl Structure for Building {
         Ok(())
     }
 
-    // A spring that sees the deformation l·u has the matrix k lᵀl. No support: the ground holds
-    // the building up, and a rigid ride must give no force.
+    // A spring of stiffness k with the deformation l·u has the matrix k lᵀl. There is no support: the ground holds the
+    // building up, and rigid motions must give no force.
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for storey in 0..FLOORS {
             matrix.add_outer(self.drift(storey), self.storey_stiffness);

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A building that may uplift and slide
 #
-# First run, matrices of one's own, a layered site, many cases, fragility, parts of one's own. `walkthrough.py`
-# and `walkthrough.ipynb` are the same cells; pictures go to `walkthrough/`. Needs
+# A first run, matrices of your own, a layered site, three directions, many cases, fragility, and parts of your own.
+# `walkthrough.py` and `walkthrough.ipynb` have the same cells and write pictures to `walkthrough/`. They need
 # `pip install './python[pandas,plot]'`.
 
 # %%
@@ -20,7 +20,7 @@ OUT = Path("walkthrough")
 OUT.mkdir(exist_ok=True)
 
 # %% [markdown]
-# Five storeys on a base 10 m wide, soil with a shear wave speed of 205 m/s, El Centro.
+# El Centro shakes five storeys on a base 10 m wide, on soil with a shear wave speed of 205 m/s.
 
 # %%
 storeys = [bm.Storey(height=3.0, mass=20e3, stiffness=40e6)] * 5
@@ -65,7 +65,7 @@ figure.savefig(OUT / "time_series.png", dpi=120)
 print(runs["uplift, slip"].to_frame().agg(["min", "max"]).T)
 
 # %% [markdown]
-# The base over time: where it is open, where it slides.
+# Where the base is open and where it slides, over time:
 
 # %%
 run = runs["uplift, slip"]
@@ -83,7 +83,7 @@ axis.set(xlabel="time, s", ylabel="x, m", title="dark: open; light: sliding", xl
 figure.savefig(OUT / "contact.png", dpi=120)
 
 # %% [markdown]
-# Floor spectra, broadened by 15 %.
+# Floor spectra of the roof, broadened by 15 %:
 
 # %%
 periods = bm.log_spaced(0.05, 3.0, 200)
@@ -96,10 +96,10 @@ axis.legend()
 figure.savefig(OUT / "floor_spectra.png", dpi=120)
 
 # %% [markdown]
-# ## Matrices of one's own
+# ## Matrices of your own
 #
-# Any mass, stiffness and damping matrix of a structure free of supports will do, here those of the building.
-# Names of its degrees of freedom serve probes and frames.
+# A structure may be given by mass, stiffness and damping matrices without supports, here those of the building.
+# Probes and frames use the names of its degrees of freedom.
 
 # %%
 names = ["base x", "base y", "base rotation", *(f"floor {k}" for k in range(5))]
@@ -120,8 +120,8 @@ print(run.floor_spectra([0.1, 0.2, 0.5, 1.0]).round(2))
 # %% [markdown]
 # ## A layered site
 #
-# Two layers on rock, damped by 4 %. El Centro is taken for the motion of the rock's outcrop, and brought to the
-# surface; the ground under the building has the same layers. Its coefficients take some seconds.
+# Two layers with 4 % of damping lie on rock. El Centro is taken as the motion of the rock's outcrop, and carried to the
+# surface through them; they are also the ground under the building. Its convolution weights take a second or so.
 
 # %%
 damping = bm.DampingLaw.constant_q(0.04)
@@ -141,8 +141,9 @@ print(f"layered site: uplift {100.0 * run.uplifted_fraction.value:.0f} %, slip {
 # %% [markdown]
 # ## Three directions
 #
-# A tank on a square mat, shaken along x, along y and up. `RigidBody` stands on a ground in plan: `under` covers its base
-# with square cells, here four along a side. It lifts and slides in any direction; forces are those of the whole body, N and N·m.
+# A tank on a square mat is shaken along x, along y and up. `RigidBody` stands on a ground in plan: `under` covers its base
+# with square cells, here four along a side. It lifts and slides in any direction; forces are those of the whole body, in
+# N and N·m.
 
 # %%
 tank = bm.RigidBody.cuboid(8.0, 8.0, 10.0, density=400.0)
@@ -164,8 +165,8 @@ run.plot()[0].figure.savefig(OUT / "plan.png", dpi=120)
 run.plot_contact_plan().figure.savefig(OUT / "contact_plan.png", dpi=120)
 
 # %% [markdown]
-# Stiffness of the mat in all six motions, and a law of one's own: in plan it gives limits of the tractions, and slip is
-# along the shear traction. This friction falls with the way slid.
+# Next, the stiffness of the mat in all six motions, and a law of your own: in plan it gives limits of the tractions, and
+# slip is along the shear traction. This friction falls with the sliding distance.
 
 # %%
 stiffness = bm.ElasticGround.under(soil, tank, 8).impedances([0.0])[0].real
@@ -173,16 +174,16 @@ print(f"static stiffness: vertical {stiffness[2, 2]:.3g} N/m, about x {stiffness
 
 
 class Worn:
-    """Friction from 0.4 to 0.2 with the way that an element has slid (m), which it remembers."""
+    """Friction that falls from 0.4 to 0.2 with the sliding distance of an element (m), its state variable."""
 
     memory = 1
 
     def limits(self, start: bm.PreviousContact) -> bm.Limits:
-        """Of this step."""
+        """Limits in this step."""
         return bm.Limits(friction=0.2 + 0.2 * math.exp(-start.memory[0] / 0.005))
 
     def commit(self, start, end, mode):
-        """The way slid so far."""
+        """Sliding distance so far."""
         way = math.hypot(end.slip - start.slip, end.slip_across - start.slip_across)
         return [start.memory[0] + (way if mode == "slip" else 0.0)]
 
@@ -190,8 +191,8 @@ class Worn:
 print(f"largest slip: {1e3 * run.largest_slip.value:.1f} mm, worn {1e3 * in_plan(tank, Worn()).largest_slip.value:.1f} mm")
 
 # %% [markdown]
-# A building whose staircase draws the centre of stiffness to one end, under an SH wave that runs obliquely below it: the
-# far end drifts most.
+# A staircase moves the centre of stiffness of a building to one end. Under an SH wave that travels obliquely below it, the
+# other end drifts most.
 
 # %%
 storey = bm.PlanStorey(3.2, 240e3, (20.0, 12.0), (4e8, 3e8, 1.5e10), stiffness_center=(-5.0, 0.0))
@@ -203,7 +204,7 @@ run = in_plan(damped, bm.Coulomb(0.6), wave, probes=[bm.Probe.displacement(*own)
 print({name: f"{1e3 * own.magnitude:.1f} mm" for name, own in run.probes.items()})
 
 # %% [markdown]
-# Where the energy went in the first runs.
+# Where the energy went in the first runs:
 
 # %%
 for name, run in runs.items():
@@ -213,7 +214,7 @@ for name, run in runs.items():
 # %% [markdown]
 # ## Many cases
 #
-# Motions by intensity, on two threads; one row per case.
+# Four motions at six intensities, on two threads; the table has a row per case.
 
 # %%
 motions = {
@@ -237,8 +238,8 @@ print(slip.round(2))
 # %% [markdown]
 # ## Fragility
 #
-# The peak acceleration at which each motion makes the base slip by 5 mm, and a lognormal curve through them. A
-# study takes dozens of motions (`fragility.py`); four show how.
+# A lognormal curve is fitted to the peak accelerations at which the motions make the base slip by 5 mm. A real study takes
+# dozens of motions (`fragility.py`); four show the method.
 
 # %%
 limit = 5.0
@@ -254,15 +255,14 @@ axis.set(xlabel="peak ground acceleration, g", ylabel=f"probability of {limit:.0
 figure.savefig(OUT / "fragility.png", dpi=120)
 
 # %% [markdown]
-# ## Parts of one's own
+# ## Parts of your own
 #
-# A law of the interface: friction that falls while an element slides. What it raises comes out of the
-# run.
+# This interface law has friction that falls while an element slides. Exceptions that it raises come out of the run.
 
 
 # %%
 class Polished:
-    """Friction from 0.3 to 0.2 with the way that an element has slid (m), which it remembers."""
+    """Friction that falls from 0.3 to 0.2 with the sliding distance of an element (m), its state variable."""
 
     modes = ("stick", "slip left", "slip right", "open")
     memory = 1
@@ -272,15 +272,15 @@ class Polished:
         return bm.Coulomb(0.2 + 0.1 * float(np.exp(-start.memory[0] / 0.01)))
 
     def conditions(self, mode, start):
-        """Coulomb's."""
+        """Conditions of Coulomb's law."""
         return self.law(start).conditions(mode, start)
 
     def next_mode(self, mode, start, trial, tolerance):
-        """Coulomb's."""
+        """Next mode by Coulomb's law."""
         return self.law(start).next_mode(mode, start, trial, tolerance)
 
     def commit(self, start, end, mode):
-        """The way slid so far."""
+        """Sliding distance so far."""
         return [start.memory[0] + (abs(end.slip - start.slip) if "slip" in mode else 0.0)]
 
 
@@ -289,8 +289,8 @@ for name, law in {"0.3": bm.Coulomb(0.3), "polished": Polished(), "0.2": bm.Coul
     print(f"friction {name:>8}: residual slip {1e3 * run.residual_slip:.1f} mm, {run.wall:.2f} s")
 
 # %% [markdown]
-# A spring with a memory: columns whose strength falls with their plastic deformation. The simulation gives its
-# copy back with what it remembers.
+# These hysteretic columns lose strength with their plastic deformation. The simulation gives its copy back with its
+# internal variables.
 
 
 # %%
@@ -301,7 +301,7 @@ class Degrading:
     slip, way = 0.0, 0.0
 
     def force(self, deformation: float) -> float:
-        """Force on a straight way from the last committed deformation."""
+        """Force after a change from the last committed deformation."""
         limit = max(0.2 * self.first, self.first - self.loss * self.way)
         return max(-limit, min(limit, self.stiffness * (deformation - self.slip)))
 
