@@ -1,16 +1,14 @@
 //! Moving the state to the end of an accepted step.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use super::energy_balance::EnergyBalance;
 use super::motion::Motion;
 use super::scene::Scene;
-use super::state::{Context, Foundation, Origin, State, Transition};
+use super::state::{Foundation, Origin, State, Transition};
 use super::step::{Forcing, Increment};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
-use crate::geometry::Footing;
 use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 
 impl State {
@@ -22,7 +20,7 @@ impl State {
             .map(|e| {
                 let jump = |component| if component == 0 { at.gap[e] } else { -0.0 };
                 let traction = |component| at.traction[scene.layout().place(component, e)];
-                ContactState::from_components(jump, traction, scene.elements.is_plan())
+                ContactState::from_components(jump, traction, scene.layout().is_plan())
             })
             .collect();
         let modes = at.modes_with(&scene.laws);
@@ -33,28 +31,19 @@ impl State {
             })
             .collect();
         let start = PreviousContacts::new(&scene.laws, &start)?;
-        let (base, patch) = (&scene.base, &scene.elements);
-        let foundations = base
-            .foundations()
-            .map(|(_, elements)| Foundation { elements, ..Foundation::default() });
-        let shapes = base.foundations().zip(base.outlines());
-        let footings = shapes.map(|((_, own), outline)| Footing::new(patch, own, outline));
+        let foundations = scene.base.foundations();
+        let foundations =
+            foundations.map(|(_, elements)| Foundation { elements, ..Foundation::default() });
         let mut state = Self {
             step: 0,
             time: 0.0,
             origin: Origin::new(),
-            context: Arc::new(Context {
-                probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
-                elements: scene.elements.clone(),
-                friction: scene.safety_friction.clone(),
-                footings: footings.collect(),
-                arms: scene.foundation_arms.clone(),
-            }),
+            context: scene.context.clone(),
             motion: Motion::new(model),
             contact,
             modes,
             transitions: Vec::with_capacity(count),
-            probes: vec![0.0; scene.probes.len()],
+            probes: vec![0.0; scene.context.probes.len()],
             base_shear: 0.0,
             base_moment: 0.0,
             normal_force: 0.0,
@@ -105,62 +94,60 @@ impl State {
         let state = self;
         let Motion { displacement, velocity, acceleration, .. } = &state.motion;
         let areas = scene.base.areas();
-        let (mut total, mut open, mut slip, mut width) = ([0.0; 3], 0.0, 0.0, 0.0);
+        let (mut total, mut all_open, mut all_slip, mut base) = ([0.0; 3], 0.0, 0.0, 0.0);
         state.base_rotation = 0.0;
-        for (k, foundation) in state.foundations.iter_mut().enumerate() {
-            let [mut shear, mut normal, mut moment] = [0.0; 3];
-            let [mut own_open, mut own_slip, mut own_width] = [0.0; 3];
-            for e in foundation.elements.clone() {
-                let (contact, length) = (&state.contact[e], areas[e]);
-                own_width += length;
-                shear += length * contact.shear;
-                normal += length * contact.pressure;
-                own_slip += length * contact.slip;
-                moment -= length * contact.pressure * scene.arms[e][0];
+        let footings = scene.context.footings.iter();
+        for (k, (foundation, footing)) in state.foundations.iter_mut().zip(footings).enumerate() {
+            let [mut shear, mut across, mut normal] = [0.0; 3];
+            let [mut moment, mut moment_across, mut torque] = [0.0; 3];
+            let [mut open, mut slip, mut slip_across, mut width] = [0.0; 4];
+            for (e, [dx, dy]) in foundation.elements.clone().zip(&footing.arms) {
+                let (contact, area) = (&state.contact[e], areas[e]);
+                width += area;
+                shear += area * contact.shear;
+                across += area * contact.shear_across;
+                normal += area * contact.pressure;
+                slip += area * contact.slip;
+                slip_across += area * contact.slip_across;
+                moment -= area * contact.pressure * scene.arms[e];
+                moment_across -= area * contact.pressure * dy;
+                torque += area * (dx * contact.shear_across - dy * contact.shear);
                 if !state.modes[e].is_closed() {
-                    own_open += length;
+                    open += area;
                 }
             }
             for (sum, own) in total.iter_mut().zip([shear, normal, moment]) {
                 *sum += own;
             }
-            open += own_open;
-            slip += own_slip;
-            width += own_width;
-            foundation.base_shear = shear;
-            foundation.normal_force = normal;
-            foundation.base_moment = moment + normal * scene.foundation_arms[k][0];
-            if scene.elements.is_plan() {
-                let [x, y] = scene.foundation_arms[k];
-                let [mut across, mut moment, mut torque, mut slip] = [0.0; 4];
-                for e in foundation.elements.clone() {
-                    let (contact, shear) = (&state.contact[e], state.contact[e].shear_across);
-                    let [dx, dy] = [scene.arms[e][0] - x, scene.arms[e][1] - y];
-                    across += areas[e] * shear;
-                    slip += areas[e] * contact.slip_across;
-                    moment -= areas[e] * contact.pressure * dy;
-                    torque += areas[e] * (dx * shear - dy * contact.shear);
-                }
-                foundation.shear_across = across;
-                (foundation.moment_across, foundation.torque) = (moment, torque);
-                foundation.mean_slip_across = slip / own_width;
-            }
-            foundation.uplifted_fraction = own_open / own_width;
-            foundation.mean_slip = own_slip / own_width;
-            let own = [
-                &mut foundation.base_rotation,
-                &mut foundation.rotation_across,
-                &mut foundation.twist,
-            ];
-            let rotations = scene.base.rotations(k, displacement);
-            own.into_iter().zip(rotations).for_each(|(own, rotation)| *own = rotation);
-            if foundation.base_rotation.abs() > state.base_rotation.abs() {
-                state.base_rotation = foundation.base_rotation;
+            all_open += open;
+            all_slip += slip;
+            base += width;
+            let mut rotations = [0.0; 3];
+            let found = scene.base.rotations(k, displacement);
+            rotations.iter_mut().zip(found).for_each(|(own, rotation)| *own = rotation);
+            let [base_rotation, rotation_across, twist] = rotations;
+            *foundation = Foundation {
+                elements: foundation.elements.clone(),
+                base_shear: shear,
+                base_moment: moment + normal * footing.center[0],
+                normal_force: normal,
+                uplifted_fraction: open / width,
+                mean_slip: slip / width,
+                base_rotation,
+                shear_across: across,
+                moment_across,
+                torque,
+                mean_slip_across: slip_across / width,
+                rotation_across,
+                twist,
+            };
+            if base_rotation.abs() > state.base_rotation.abs() {
+                state.base_rotation = base_rotation;
             }
         }
         [state.base_shear, state.normal_force, state.base_moment] = total;
-        state.uplifted_fraction = open / width;
-        state.mean_slip = slip / width;
+        state.uplifted_fraction = all_open / base;
+        state.mean_slip = all_slip / base;
         let translations = &state.motion.translations;
         for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
             let [u, v, a] = &probe.rows;

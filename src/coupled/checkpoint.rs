@@ -260,7 +260,7 @@ pub(super) fn restore(
 
 /// Modes by their numbers: those of an element's law, or in plan all.
 fn modes_of(scene: &Scene, element: usize) -> &[Mode] {
-    if scene.elements.is_plan() { &Mode::ALL } else { scene.law(element).modes() }
+    if scene.layout().is_plan() { &Mode::ALL } else { scene.law(element).modes() }
 }
 
 /// Takes over modes and whether elements have been open, from their numbers.
@@ -288,14 +288,15 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance:
     for row in [c.acceleration, c.velocity, c.displacement] {
         steps.extend(row);
     }
-    let mut elements: Vec<f64> = scene.elements.iter().flat_map(|e| [e.left, e.right]).collect();
-    if scene.elements.is_plan() {
-        elements.extend(scene.elements.depths().iter().flatten());
+    let mut elements: Vec<f64> =
+        scene.base.elements().iter().flat_map(|e| [e.left, e.right]).collect();
+    if scene.layout().is_plan() {
+        elements.extend(scene.base.elements().depths().iter().flatten());
     }
     Identity {
         dofs: model.dofs,
         energy_balance,
-        probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
+        probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
         memory: state.start.memory_ends().to_vec(),
         steps,
         elements,

@@ -109,6 +109,6 @@ pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
 pub use simulation::largest_convergent_step;
-pub(crate) use state::Origin;
+pub(crate) use state::{Context, Origin};
 pub use state::{Foundation, State, Transition};
 pub use warning::Warning;

@@ -72,7 +72,7 @@ impl Simulation {
         }
         state.advance(scene, forcing, increment);
         increment.spread.copy_from_slice(&increment.traction);
-        scene.elements.spread_inside(&mut increment.spread);
+        scene.base.elements().spread_inside(&mut increment.spread);
         ground.commit(&increment.spread);
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&increment.seen);
@@ -101,7 +101,7 @@ impl Simulation {
 
     /// The contact elements, from left to right.
     pub(crate) fn elements(&self) -> &Patch {
-        &self.scene.elements
+        self.scene.base.elements()
     }
 
     /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
@@ -162,7 +162,7 @@ impl Simulation {
 
     /// The probes, in the order of [`State::probes`].
     pub fn probes(&self) -> &[Probe] {
-        &self.scene.probes
+        &self.scene.context.probes
     }
 
     /// Static displacement of the structure's degrees of freedom under weight and loads at t = 0, m and rad. Its rigid
@@ -244,11 +244,9 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let Scene { time_step, elements, probes, serviceability, .. } = &self.scene;
-        let speed = self.ground.shear_wave_speed();
-        let resolution = Resolution::new(*time_step, elements, speed, &self.state);
-        let run = Run::start(probes, &self.state, resolution);
-        run.with_limits(serviceability, &self.state)
+        let (speed, state) = (self.ground.shear_wave_speed(), &self.state);
+        let resolution = Resolution::new(self.scene.time_step, speed, state);
+        Run::start(state, &self.scene.serviceability, resolution)
     }
 
     /// Closes a run of this simulation: its warnings and wall time.

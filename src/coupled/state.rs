@@ -6,9 +6,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::energy_balance::EnergyBalance;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
-use crate::error::{Error, Result};
+use crate::coupled::probe_index;
+use crate::error::Result;
 use crate::geometry::{Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
+use crate::structure::probe::Probe;
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,15 +87,12 @@ pub struct Foundation {
 /// Data of the simulation that results of a state need; two states are compared without them.
 #[derive(Debug)]
 pub(crate) struct Context {
-    /// Names of the probes.
-    pub(crate) probes: Vec<String>,
+    pub(crate) probes: Vec<Probe>,
     pub(crate) elements: Patch,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
     /// Shape of each foundation.
     pub(crate) footings: Vec<Footing>,
-    /// Middle of each foundation from the point of the base moment, m.
-    pub(crate) arms: Vec<[f64; 2]>,
 }
 
 impl PartialEq for Context {
@@ -174,7 +173,7 @@ pub struct State {
     pub method: SearchMethod,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) origin: Origin,
-    /// Names of the probes, shared by all states of a simulation.
+    /// Shared by all states of a simulation.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) context: Arc<Context>,
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -239,10 +238,10 @@ impl State {
     /// # Errors
     /// [`Error::Name`] if there is none.
     pub fn probe(&self, name: &str) -> Result<f64> {
-        let place = self.context.probes.iter().position(|own| own == name);
         // The list of values is public: it may have been cut.
-        let value = place.and_then(|place| self.probes.get(place));
-        value.copied().ok_or_else(|| Error::no_name("probe", name, self.context.probes.iter()))
+        let known = &self.context.probes;
+        let known = &known[..known.len().min(self.probes.len())];
+        probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
     }
 
     /// The numbers that the law of an element remembers

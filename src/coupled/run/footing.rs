@@ -31,10 +31,10 @@ impl<'a> Base<'a> {
 
     /// Sum over all foundations, each with its middle from the point of the base moment; or the foundation's own.
     pub(super) fn sum(&self, value: impl Fn(&Foundation, [f64; 2]) -> f64) -> f64 {
-        let each = || self.state.foundations.iter().zip(&self.state.context.arms);
+        let each = || self.state.foundations.iter().zip(&self.state.context.footings);
         match self.own() {
             Some(own) => value(own, [0.0; 2]),
-            None => each().fold(0.0, |sum, (own, arm)| sum + value(own, *arm)),
+            None => each().fold(0.0, |sum, (own, footing)| sum + value(own, footing.center)),
         }
     }
 
@@ -190,7 +190,7 @@ mod tests {
         let components = if outline.is_empty() { 2 } else { 3 };
         let depths = depths.map(|depth| [0.0, depth]).to_vec();
         let patch = Patch::new(components, BASE.to_vec(), depths, vec![1.0; 2]).unwrap();
-        Footing::new(&patch, 0..2, outline)
+        Footing::new(&patch, 0..2, outline, [0.0; 2])
     }
 
     fn in_plane() -> Footing {

@@ -23,9 +23,7 @@ pub(crate) struct Base {
     /// Component by component.
     rows: Rows,
     foundations: Vec<Outline>,
-    layout: ContactLayout,
-    areas: Vec<f64>,
-    middles: Vec<[f64; 2]>,
+    elements: Patch,
     nodes: Vec<FaceNode>,
 }
 
@@ -108,9 +106,7 @@ impl Base {
         nodes: Vec<FaceNode>,
         patch: &Patch,
     ) -> Self {
-        let middles = (0..patch.len()).map(|e| patch.middle(e)).collect();
-        let (layout, areas) = (patch.layout(), patch.areas().to_vec());
-        Self { rows: Rows::Sparse(rows), foundations, layout, areas, middles, nodes }
+        Self { rows: Rows::Sparse(rows), foundations, elements: patch.clone(), nodes }
     }
 
     /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
@@ -182,7 +178,8 @@ impl Base {
 
     /// The foundations that reach beyond the ground's elements by more than their longest side there, along which axis
     /// in plan, and how far (m).
-    pub(crate) fn uncovered(&self, ground: &Patch) -> Vec<(usize, Option<char>, f64)> {
+    pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
+        let ground = &self.elements;
         let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
             let sides = own.map(|e| (ground.middle(e)[axis], ground.sides(e)[axis]));
             let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
@@ -202,24 +199,24 @@ impl Base {
         .collect()
     }
 
+    /// The contact elements.
+    pub(crate) fn elements(&self) -> &Patch {
+        &self.elements
+    }
+
     /// Areas A of the elements, m²; in the plane their lengths.
     pub(crate) fn areas(&self) -> &[f64] {
-        &self.areas
+        self.elements.areas()
     }
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        self.layout
-    }
-
-    /// Middle of an element `[x, y]`, m.
-    pub(crate) fn middle(&self, element: usize) -> [f64; 2] {
-        self.middles[element]
+        self.elements.layout()
     }
 
     /// Area that goes with contact component `i`.
     pub(crate) fn area(&self, i: usize) -> f64 {
-        self.areas[self.layout.origin(i)[1]]
+        self.areas()[self.layout().origin(i)[1]]
     }
 
     /// out ← B u.
@@ -229,9 +226,10 @@ impl Base {
 
     /// Mean `[right, up, away]` of contact displacements over the whole base; nothing moves away in the plane.
     pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
-        let [down, along, across] = self.layout.split(displacement);
-        let area: f64 = self.areas.iter().sum();
-        let mean = |values: &[f64]| dot(values, &self.areas) / area;
+        let [down, along, across] = self.layout().split(displacement);
+        let areas = self.areas();
+        let area: f64 = areas.iter().sum();
+        let mean = |values: &[f64]| dot(values, areas) / area;
         [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
     }
 

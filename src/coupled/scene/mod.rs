@@ -7,16 +7,16 @@ mod line;
 pub(crate) mod operators;
 pub(crate) mod transformation;
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::build::equilibrium::StaticState;
 use super::build::parts::Parts;
 use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
+use super::state::Context;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
-use crate::geometry::{ContactLayout, Patch, far_ends, middle, span};
+use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
@@ -35,10 +35,7 @@ pub(crate) struct Scene {
     pub(crate) conserves_energy: bool,
     pub(crate) model: Model,
     pub(crate) base: Base,
-    pub(crate) elements: Patch,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
-    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
-    pub(crate) safety_friction: Vec<f64>,
     /// Limits that runs are held against.
     pub(crate) serviceability: Serviceability,
     pub(crate) static_state: StaticState,
@@ -52,13 +49,12 @@ pub(crate) struct Scene {
     pub(crate) soil: Arc<Thinned>,
     /// Free field at t = 0, from which it is measured, 2Q.
     pub(crate) start_motion: Vec<f64>,
-    pub(crate) probes: Vec<Probe>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// Element midpoints `[x, y]` relative to the point of the base moment.
-    pub(crate) arms: Vec<[f64; 2]>,
-    /// The middle of each foundation likewise.
-    pub(crate) foundation_arms: Vec<[f64; 2]>,
+    /// Element midpoints along x from the point of the base moment.
+    pub(crate) arms: Vec<f64>,
+    /// What results of its states need.
+    pub(crate) context: Arc<Context>,
 }
 
 /// A probe in the coordinates that are stepped.
@@ -76,31 +72,6 @@ impl ProbeRows {
             .map(|part| part.vectors.each_ref().map(|r| rows[0].of(&spread(r, model.coordinates))));
         Self { carried: carried.collect(), rows }
     }
-}
-
-/// The middle of each foundation from the point `[x, y]` of the base moment: between the ends of its first and last
-/// element in the plane, whose midpoints from there are `arms`, and of its outline in plan.
-fn foundation_arms(
-    base: &Base,
-    elements: &Patch,
-    center: [f64; 2],
-    arms: &[[f64; 2]],
-) -> Vec<[f64; 2]> {
-    let of_elements = |own: Range<usize>, axis: usize| {
-        middle(far_ends(own.map(|e| {
-            let half = 0.5 * elements.sides(e)[axis];
-            [arms[e][axis] - half, arms[e][axis] + half]
-        })))
-    };
-    let of_outline = |corners: &[[f64; 2]], axis: usize| {
-        middle(span(corners.iter().map(|corner| corner[axis]))) - center[axis]
-    };
-    let both = base.foundations().zip(base.outlines());
-    both.map(|((_, own), corners)| match corners {
-        [] => [0, 1].map(|axis| of_elements(own.clone(), axis)),
-        _ => [0, 1].map(|axis| of_outline(corners, axis)),
-    })
-    .collect()
 }
 
 impl Scene {
@@ -123,16 +94,23 @@ impl Scene {
             let up = model.influence.of(UP, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
-        let elements = parts.elements.clone();
-        let [x, y] = parts.moment_center;
-        let middles = (0..elements.len()).map(|element| elements.middle(element));
-        let arms: Vec<_> = middles.map(|middle| [middle[0] - x, middle[1] - y]).collect();
+        let (elements, origin) = (&parts.elements, parts.moment_center);
+        let arms = elements.iter().map(|element| element.center() - origin[0]);
+        let shapes = base.foundations().zip(base.outlines());
+        let footings =
+            shapes.map(|((_, own), outline)| Footing::new(elements, own, outline, origin));
+        let probe_rows = given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
+        let context = Context {
+            probes: std::mem::take(&mut given.probes),
+            elements: elements.clone(),
+            friction: std::mem::take(&mut given.safety_friction),
+            footings: footings.collect(),
+        };
         Self {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
             laws: std::mem::take(&mut given.laws),
-            safety_friction: std::mem::take(&mut given.safety_friction),
             serviceability: given.serviceability,
             static_state,
             loads: loads.collect(),
@@ -140,11 +118,9 @@ impl Scene {
             joined,
             soil: parts.soil.clone(),
             start_motion: std::mem::take(&mut parts.start_motion),
-            probe_rows: given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
-            probes: std::mem::take(&mut given.probes),
-            foundation_arms: foundation_arms(&base, &elements, [x, y], &arms),
-            arms,
-            elements,
+            probe_rows,
+            arms: arms.collect(),
+            context: Arc::new(context),
             model,
             base,
         }
@@ -152,7 +128,7 @@ impl Scene {
 
     /// Number of contact elements Q.
     pub(crate) fn count(&self) -> usize {
-        self.elements.len()
+        self.base.elements().len()
     }
 
     /// Order of the numbers of a contact vector.
