@@ -2,15 +2,11 @@
 
 use std::ops::Range;
 
-use super::faces::{Faces, hull, mats};
-use super::line::{check_order, check_overlap, chord_rotation, mean_weights};
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
-use crate::error::{Error, Result, require};
+use crate::error::{Error, Result, at_least};
 use crate::geometry::{ContactLayout, Patch, axis_name, far_ends};
 use crate::linalg::dot;
-use crate::structure::{
-    DofCombination, FaceNode, Structure, base_nodes, check_base_nodes, foundation_nodes,
-};
+use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_base_nodes};
 
 /// B, which takes coordinates to element means of the base displacement (normal components down),
 /// and BᵀA, which takes tractions to forces on the coordinates: the structure's degrees of freedom, or those
@@ -30,11 +26,11 @@ pub(crate) struct Base {
 /// One foundation: its nodes, its elements, and the rotation of its chord; in plan those about the other axes too, and
 /// the corners of its convex outline.
 #[derive(Debug, Clone)]
-struct Outline {
-    nodes: Range<usize>,
-    elements: Range<usize>,
-    rotations: Vec<Weights>,
-    corners: Vec<[f64; 2]>,
+pub(super) struct Outline {
+    pub(super) nodes: Range<usize>,
+    pub(super) elements: Range<usize>,
+    pub(super) rotations: Vec<Weights>,
+    pub(super) corners: Vec<[f64; 2]>,
 }
 
 impl Base {
@@ -61,92 +57,26 @@ impl Base {
         }
     }
 
-    /// The base of these faces: each mat of faces that touch is a foundation.
-    fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
-        let mats = mats(faces)?;
-        let nodes = mats.concat().concat();
-        let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
-        let surface = Faces::new(&nodes, &corners)?;
-        let mut foundations = Vec::with_capacity(mats.len());
-        let mut first = 0;
-        for mat in &mats {
-            let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let rotations = FaceNode::mean_rotations(&nodes[own.clone()]);
-            let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
-            first = own.end;
-            let corners = hull(nodes[own.clone()].iter());
-            foundations.push(Outline { nodes: own, elements: 0..0, rotations, corners });
-        }
-        let layout = patch.layout();
-        let mut rows = vec![Terms::new(); layout.len()];
-        for e in 0..patch.len() {
-            let [down, along, across] = layout.places(e);
-            let weights = surface.mean_weights(e, patch)?;
-            let mut owners = weights.iter().filter_map(|(node, _)| {
-                foundations.iter().position(|mat| mat.nodes.contains(node))
-            });
-            let owner = owners.next().unwrap_or(0);
-            let one = owners.all(|other| other == owner);
-            take(&mut foundations[owner].elements, e, one)?;
-            for (node, weight) in weights {
-                accumulate(&mut rows[down], &nodes[node].vertical, -weight);
-                accumulate(&mut rows[along], &nodes[node].horizontal, weight);
-                accumulate(&mut rows[across], &nodes[node].across, weight);
-            }
-        }
-        if foundations.iter().any(|mat| mat.elements.is_empty()) {
-            return Err(Error::Size { quantity: UNDER, found: 0, needed: 1 });
-        }
-        Ok(Self::from_rows(rows, foundations, nodes, patch))
-    }
-
-    fn from_rows(
-        rows: Vec<Terms>,
-        foundations: Vec<Outline>,
+    /// A base of these foundations, by the (node, weight) of the mean over each element.
+    pub(super) fn from_weights(
         nodes: Vec<FaceNode>,
-        patch: &Patch,
+        foundations: Vec<Outline>,
+        weights: Vec<Vec<(usize, f64)>>,
+        elements: &Patch,
     ) -> Self {
-        Self { rows: Rows::Sparse(rows), foundations, elements: patch.clone(), nodes }
-    }
-
-    /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
-    /// and at the last node.
-    fn on_line(nodes: Vec<FaceNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
-        check_order(&nodes)?;
-        let mut foundations = Vec::with_capacity(ends.len() + 1);
-        let mut element = 0;
-        for own in foundation_nodes(nodes.len(), ends)? {
-            let last = own.end - 1;
-            let end = nodes.get(own.end).map_or(elements.len(), |next| {
-                let middle = 0.5 * (nodes[last].x + next.x);
-                elements.partition_point(|element| element.center() < middle)
-            });
-            let footing = Outline {
-                elements: element..end,
-                rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
-                nodes: own,
-                corners: Vec::new(),
-            };
-            if end <= element {
-                return Err(Error::Size { quantity: UNDER, found: 0, needed: 1 });
-            }
-            foundations.push(footing);
-            element = end;
-        }
         let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
-        for footing in &foundations {
-            let own = &nodes[footing.nodes.clone()];
-            for e in footing.elements.clone() {
-                let [down, along] = layout.places(e);
-                check_overlap(own, &elements[e])?;
-                for (node, weight) in mean_weights(own, &elements[e]) {
-                    accumulate(&mut rows[down], &own[node].vertical, -weight);
-                    accumulate(&mut rows[along], &own[node].horizontal, weight);
+        for (e, weights) in weights.into_iter().enumerate() {
+            for (node, weight) in weights {
+                let FaceNode { horizontal, vertical, across, .. } = &nodes[node];
+                let terms = [(vertical, -weight), (horizontal, weight), (across, weight)];
+                for (component, (terms, weight)) in terms[..layout.components()].iter().enumerate()
+                {
+                    accumulate(&mut rows[layout.place(component, e)], terms, *weight);
                 }
             }
         }
-        Ok(Self::from_rows(rows, foundations, nodes, elements))
+        Self { rows: Rows::Sparse(rows), foundations, elements: elements.clone(), nodes }
     }
 
     /// This base in the coordinates that are stepped.
@@ -285,25 +215,10 @@ impl Base {
     }
 }
 
-const UNDER: &str = "list of contact elements under a foundation";
-
-/// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
-fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
-    let value = e as f64;
-    let needed = "elements under one mat each";
-    require("number of a contact element under two mats", value, one, needed)?;
-    if elements.start == elements.end {
-        elements.start = e;
-    } else if elements.end != e {
-        let quantity = "number of a contact element apart from the others of its mat";
-        return Err(Error::Input {
-            quantity,
-            value,
-            needed: "elements of a mat one after another",
-        });
-    }
-    elements.end = e + 1;
-    Ok(())
+/// Refuses a foundation without elements.
+pub(super) fn check_covered(foundations: &[Outline]) -> Result<()> {
+    let quantity = "list of contact elements under a foundation";
+    foundations.iter().try_for_each(|own| at_least(quantity, own.elements.len(), 1))
 }
 
 #[cfg(test)]
