@@ -1,5 +1,6 @@
-//! The state after a step.
+//! The state after a step, and a sequence of states.
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -51,7 +52,7 @@ impl Transition {
 #[non_exhaustive]
 pub struct Foundation {
     /// Elements of the foundation, as indices of [`State::contact`].
-    pub elements: std::ops::Range<usize>,
+    pub elements: Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
     /// Moment on the soil about the middle of its elements, in plan of its outline, counter-clockwise, N·m/m.
@@ -250,9 +251,71 @@ impl State {
     pub fn state_variables(&self, element: usize) -> &[f64] {
         if element < self.start.len() { self.start.memory_of(element) } else { &[] }
     }
+}
 
-    /// Largest |slip| of any element, m.
-    pub fn largest_slip(&self) -> f64 {
-        self.contact.iter().fold(0.0, |m, c| m.max(c.slip.hypot(c.slip_across)))
+// States that follow one another.
+
+/// The states of one simulation, each later than the one before.
+#[derive(Debug, Clone)]
+pub(crate) struct Sequence {
+    origin: Origin,
+    elements: usize,
+    probes: usize,
+    foundations: Vec<Range<usize>>,
+    end: f64,
+}
+
+impl Sequence {
+    /// Beginning with `state`.
+    pub(crate) fn new(state: &State) -> Self {
+        Self {
+            origin: state.origin,
+            elements: state.contact.len(),
+            probes: state.probes.len(),
+            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
+            end: state.time,
+        }
+    }
+
+    /// One that takes no state: that of a run read from a file.
+    #[cfg(feature = "serde")]
+    pub(crate) fn closed() -> Self {
+        Self::ended(f64::INFINITY)
+    }
+
+    /// One that takes no state, whose last one was at `end`, s.
+    #[cfg(feature = "serde")]
+    pub(crate) fn ended(end: f64) -> Self {
+        let (elements, probes, foundations) = (0, 0, Vec::new());
+        Self { origin: Origin::new(), elements, probes, foundations, end }
+    }
+
+    /// Writes the time of the last state alone.
+    #[cfg(feature = "serde")]
+    pub(crate) fn write_end<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> std::result::Result<S::Ok, S::Error> {
+        to.serialize_f64(self.end)
+    }
+
+    /// Whether `state` is of the same simulation and later; it is the last one then.
+    pub(crate) fn takes(&mut self, state: &State) -> bool {
+        // Its fields are public: somebody may have changed them.
+        let takes = state.origin.is(self.origin)
+            && state.contact.len() == self.elements
+            && state.modes.len() == self.elements
+            && state.probes.len() == self.probes
+            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
+            && state.time > self.end;
+        if takes {
+            self.end = state.time;
+        }
+        takes
+    }
+
+    /// Time of the last state, s.
+    pub(crate) fn end(&self) -> f64 {
+        self.end
     }
 }

@@ -1,11 +1,9 @@
-//! The base over a run: distance slid and slip events, uplift, extremes of its elements, the sequence of states.
-
-use std::ops::Range;
+//! The base over a run: distance slid and slip events, uplift, extremes of its elements.
 
 use super::Extremes;
 use super::peak::resultant;
 use crate::bem::ContactElement;
-use crate::coupled::{Origin, Peak, State, Warning};
+use crate::coupled::{Peak, State, Warning};
 use crate::geometry::Patch;
 use crate::interface::{ContactState, Mode};
 
@@ -176,70 +174,6 @@ pub(super) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
         if !mode.is_closed() {
             envelope.open += step;
         }
-    }
-}
-
-// States that follow one another.
-
-/// The states of one simulation, each later than the one before.
-#[derive(Debug, Clone)]
-pub(crate) struct Sequence {
-    origin: Origin,
-    elements: usize,
-    probes: usize,
-    foundations: Vec<Range<usize>>,
-    end: f64,
-}
-
-impl Sequence {
-    /// Beginning with `state`.
-    pub(crate) fn new(state: &State) -> Self {
-        Self {
-            origin: state.origin,
-            elements: state.contact.len(),
-            probes: state.probes.len(),
-            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
-            end: state.time,
-        }
-    }
-
-    /// One that takes no state: that of a run read from a file.
-    #[cfg(feature = "serde")]
-    pub(crate) fn closed() -> Self {
-        Self::ended(f64::INFINITY)
-    }
-
-    /// One that takes no state, whose last one was at `end`, s.
-    #[cfg(feature = "serde")]
-    pub(crate) fn ended(end: f64) -> Self {
-        let (elements, probes, foundations) = (0, 0, Vec::new());
-        Self { origin: Origin::new(), elements, probes, foundations, end }
-    }
-
-    /// Writes the time of the last state alone.
-    #[cfg(feature = "serde")]
-    pub(crate) fn write_end<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_f64(self.end)
-    }
-
-    /// Whether `state` is of the same simulation and later; it is the last one then.
-    pub(crate) fn takes(&mut self, state: &State) -> bool {
-        // Its fields are public: somebody may have changed them.
-        let takes = state.origin.is(self.origin)
-            && state.contact.len() == self.elements
-            && state.modes.len() == self.elements
-            && state.probes.len() == self.probes
-            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
-            && state.time > self.end;
-        if takes {
-            self.end = state.time;
-        }
-        takes
-    }
-
-    /// Time of the last state, s.
-    pub(crate) fn end(&self) -> f64 {
-        self.end
     }
 }
 

@@ -3,10 +3,10 @@
 use std::time::{Duration, Instant};
 
 pub(crate) mod base;
-mod footing;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
+mod safety;
 mod serviceability;
 
 pub use base::{ElementEnvelope, Sliding, SlipEvent, Uplift};
@@ -16,10 +16,11 @@ pub use serviceability::{Criterion, ServiceCheck, Serviceability};
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
-use crate::coupled::{Context, EnergyBalance, Probe, Resolution, State, Warning, probe_index};
+use crate::coupled::{
+    Context, EnergyBalance, Probe, Resolution, Sequence, State, Warning, probe_index,
+};
 use crate::error::Result;
 use crate::motion::FreeField;
-use base::Sequence;
 
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::contact::SearchMethod).
@@ -247,7 +248,7 @@ impl Run {
     }
 
     /// Number of slip events, of several foundations those of each.
-    pub fn slip_events(&self) -> usize {
+    pub(crate) fn slip_events(&self) -> usize {
         self.foundations.iter().map(|own| own.sliding.events.len()).sum()
     }
 
@@ -274,11 +275,5 @@ impl Run {
     pub fn largest_gap(&self) -> Peak {
         let gaps = self.envelope.iter().map(|envelope| envelope.gap);
         gaps.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
-    }
-
-    /// Error bound of the energy balance's `soil` by an approximate history, J/m since the start; zero for
-    /// exact histories, NaN if no energy balance is kept. See [`EnergyBalance::soil_error_bound`].
-    pub(crate) fn history_error_bound(&self) -> f64 {
-        self.energy_balance.soil_error_bound
     }
 }

@@ -5,8 +5,8 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::footing::{Base, against_overturning, against_sliding, open_area};
 use super::peak::resultant;
+use super::safety::{Base, against_overturning, against_sliding, open_area};
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Peak, State};
 use crate::error::{Error, Result};
