@@ -17,7 +17,7 @@ pub(crate) use search::ModeSearch;
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
-    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
+    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, check_list, memory_ends,
 };
 use crate::linalg::largest;
 
@@ -197,14 +197,7 @@ impl ContactProblem {
                 ("Delassus operator", ContactLayout::new(PLANE, count.max(1)).square());
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
-        if laws.len() != 1 && laws.len() != count {
-            let quantity = "list of interface laws";
-            return Err(Error::Size { quantity, found: laws.len(), needed: count });
-        }
-        if laws.iter().any(|law| law.modes().is_empty()) {
-            let needed = "`modes` must name at least one mode";
-            return Err(Error::Scene { quantity: "interface law", needed });
-        }
+        check_list(&laws, count)?;
         check_finite("Delassus operator", &delassus)?;
         let memory_ends = memory_ends(&laws, count)?;
         Ok(Self {

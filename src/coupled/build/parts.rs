@@ -2,21 +2,20 @@
 
 use std::sync::Arc;
 
+use super::SimulationBuilder;
 use crate::bem::{Ground, patch};
 use crate::contact::ContactSearch;
-use crate::coupled::motion::Load;
-use crate::coupled::run::Serviceability;
-use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
+use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{
     Error, Observer, Result, all_finite, finite, memory, not_negative, positive, require,
     require_part, same_length,
 };
 use crate::geometry::Patch;
-use crate::interface::{ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact};
+use crate::interface::{
+    ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, check_list,
+};
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
-use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
-use crate::structure::probe::Probe;
 use crate::structure::{Structure, is_nonlinear, probe};
 
 /// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of
@@ -71,53 +70,7 @@ words! { pub(crate) GravityStage, "gravity stage", {
     Unloaded = "unloaded",
 } }
 
-/// Settings and parts given to a builder beside structure and ground.
-pub(crate) struct Given {
-    pub(crate) time_step: f64,
-    pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
-    pub(crate) motion: Box<dyn FreeField>,
-    pub(crate) scheme: Box<dyn TimeScheme>,
-    pub(crate) search: ContactSearch,
-    pub(crate) gravity: f64,
-    pub(crate) gravity_stage: GravityStage,
-    pub(crate) loads: Vec<Load>,
-    /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
-    pub(crate) displacement: Vec<f64>,
-    pub(crate) velocity: Vec<f64>,
-    pub(crate) probes: Vec<Probe>,
-    pub(crate) moment_center: Option<f64>,
-    /// Steps expected, 0 if unknown.
-    pub(crate) steps: usize,
-    pub(crate) coordinates: Coordinates,
-    pub(crate) energy_balance: bool,
-    pub(crate) safety_friction: Vec<f64>,
-    pub(crate) serviceability: Serviceability,
-}
-
-impl Given {
-    /// Settings with this time step, all others default.
-    pub(super) fn new(time_step: f64) -> Self {
-        Self {
-            time_step,
-            laws: Vec::new(),
-            motion: Box::new(AtRest),
-            scheme: Box::new(Midpoint),
-            search: ContactSearch::default(),
-            gravity: STANDARD_GRAVITY,
-            gravity_stage: GravityStage::default(),
-            loads: Vec::new(),
-            displacement: Vec::new(),
-            velocity: Vec::new(),
-            probes: Vec::new(),
-            moment_center: None,
-            steps: 0,
-            coordinates: Coordinates::default(),
-            energy_balance: true,
-            safety_friction: Vec::new(),
-            serviceability: Serviceability::default(),
-        }
-    }
-
+impl SimulationBuilder {
     /// Whether weight and loads are there before the run begins.
     pub(crate) fn is_static(&self) -> bool {
         self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
@@ -139,7 +92,8 @@ pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
     /// Ready for steps.
     pub(crate) ground: Box<dyn Ground>,
-    pub(crate) given: Given,
+    /// Its structure and ground have gone to the fields above.
+    pub(crate) given: SimulationBuilder,
     pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
     /// Instantaneous operator of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
@@ -153,9 +107,7 @@ pub(crate) struct Parts {
 impl Parts {
     /// Checks what was given, each part by itself, and makes the ground ready for steps.
     pub(super) fn new(
-        structure: Option<Box<dyn Structure>>,
-        ground: Option<Box<dyn Ground>>,
-        mut given: Given,
+        mut given: SimulationBuilder,
         observer: Option<&mut Observer<'_>>,
     ) -> Result<Self> {
         let time_step = positive("time step", given.time_step)?;
@@ -163,11 +115,15 @@ impl Parts {
         not_negative("gravity", given.gravity)?;
         given.serviceability = given.serviceability.checked()?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
-        let mut structure =
-            structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let mut structure = given
+            .structure
+            .take()
+            .ok_or(missing("structure", "give one to the builder with `structure`"))?;
         is_nonlinear(structure.as_mut())?;
-        let mut ground =
-            ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        let mut ground = given
+            .ground
+            .take()
+            .ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = patch(ground.as_ref())?;
         let (layout, count) = (elements.layout(), elements.len());
         let gravity = given.static_gravity();
@@ -207,7 +163,7 @@ impl Parts {
 }
 
 /// Refuses loads and motions of other degrees of freedom than the structure's, and numbers that are not finite.
-fn check_motion(given: &Given, dofs: usize) -> Result<()> {
+fn check_motion(given: &SimulationBuilder, dofs: usize) -> Result<()> {
     let mut loads = given.loads.iter().enumerate();
     loads.try_for_each(|(index, load)| load.check(index, dofs))?;
     for (values, quantity) in
@@ -273,12 +229,7 @@ fn check_laws(
     if laws.is_empty() {
         return refuse("interface law", "give one to the builder with `interface`");
     }
-    if laws.len() != 1 {
-        same_length("list of interface laws", laws.len(), count)?;
-    }
-    if laws.iter().any(|law| law.modes().is_empty()) {
-        return refuse("interface law", "`modes` must name at least one mode");
-    }
+    check_list(laws, count)?;
     if search == (ContactSearch::FlowChart { iterations: 0 }) {
         return refuse("contact search", "the flow chart needs one iteration or more");
     }
@@ -286,7 +237,7 @@ fn check_laws(
 }
 
 /// Refuses laws without limits on a ground in plan, and the search of the plane.
-fn check_limits(given: &Given) -> Result<()> {
+fn check_limits(given: &SimulationBuilder) -> Result<()> {
     let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
     require_part("contact search", given.search == ContactSearch::Robust, needed)?;
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, given.time_step);
