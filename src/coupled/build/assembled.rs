@@ -9,6 +9,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use crate::coupled::diagnosis::mechanism::AtRest;
 use crate::coupled::diagnosis::{mechanism, supports};
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
@@ -63,10 +64,7 @@ impl Assembled {
         // A mechanism fails in one way or another, as rounding has it, but never by its sign.
         let (influence, held) = own.find_influence().map_err(|error| match error {
             Error::Indefinite { .. } => error,
-            _ => match own.mechanism(structure) {
-                Some(cause) => Error::Stability(Box::new(cause)),
-                None => error,
-            },
+            _ => own.at_rest(structure).behind(error),
         })?;
         Ok((Self { influence: Arc::new(influence), ..own }, held))
     }
@@ -101,8 +99,14 @@ impl Assembled {
     }
 
     /// K with the tangent of the nonlinear force at rest.
-    pub(crate) fn stiffness_at_rest(&self) -> &SparseMatrix {
+    fn stiffness_at_rest(&self) -> &SparseMatrix {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
+    }
+
+    /// The structure at rest, for a search for mechanisms; `structure` knows the names of its degrees of freedom.
+    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
+        let stiffness = self.stiffness_at_rest();
+        AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
     }
 
     /// The influence vectors, and the factored stiffness with its base held.

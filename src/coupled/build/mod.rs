@@ -311,7 +311,7 @@ impl SimulationBuilder {
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
-            assembled.check_mechanism(structure.as_ref(), &mut held)?;
+            assembled.at_rest(structure.as_ref()).check(&mut held)?;
         }
         Ok(Simulation {
             forcing: Forcing::new(&scene),

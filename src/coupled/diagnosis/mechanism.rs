@@ -1,7 +1,6 @@
 //! Mechanisms: structures with a motion that nothing resists while their base is at rest, or nothing at
 //! all.
 
-use crate::coupled::build::assembled::Assembled;
 use crate::coupled::scene::base::Base;
 use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, largest, weighted_dot};
@@ -23,35 +22,44 @@ const MOST_MOTIONS: usize = 32;
 /// Passes of inverse iteration for each.
 const ITERATIONS: usize = 3;
 
-impl Assembled {
+/// Stiffness (tangent of the nonlinear force at rest included), mass and base of a structure.
+#[derive(Clone, Copy)]
+pub(crate) struct AtRest<'a> {
+    pub(crate) structure: &'a dyn Structure,
+    pub(crate) stiffness: &'a SparseMatrix,
+    pub(crate) mass: &'a SparseMatrix,
+    pub(crate) base: &'a Base,
+}
+
+impl AtRest<'_> {
     /// Refuses a mechanism, also where the loads do not set it in motion. `held` is the factored stiffness with
     /// its base held, by which most structures pass without another factor.
-    pub(crate) fn check_mechanism(
-        &self,
-        structure: &dyn Structure,
-        held: &mut SparseFactor,
-    ) -> Result<()> {
+    pub(crate) fn check(&self, held: &mut SparseFactor) -> Result<()> {
         let regular = Regular::held(self).1;
         let softest = regular.softest(held, &[]);
         if softest.is_some_and(|motion| regular.share_of_work(&motion) > FIRM) {
             return Ok(());
         }
-        let found = self.free_motion(structure, SURELY_FREE);
-        found.map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
+        self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
     }
 
-    /// The mechanism behind a failure, if there is one; `structure` knows the names of its degrees of freedom.
-    pub(crate) fn mechanism(&self, structure: &dyn Structure) -> Option<StabilityError> {
-        self.free_motion(structure, FREE)
+    /// The mechanism behind a failure, if there is one.
+    pub(super) fn mechanism(&self) -> Option<StabilityError> {
+        self.motion(FREE)
+    }
+
+    /// Cause of `error`, that the structure has no equilibrium or no factors.
+    pub(crate) fn behind(&self, error: Error) -> Error {
+        self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
     }
 
     /// Displacements with the base at rest that do work of at most `free` on the stiffness.
-    fn free_motion(&self, structure: &dyn Structure, free: f64) -> Option<StabilityError> {
+    fn motion(&self, free: f64) -> Option<StabilityError> {
         if self.base.dofs().is_empty() {
             return None;
         }
         let dofs = Regular::held(self).1.free_dofs(free)?;
-        let place = place(structure, &dofs);
+        let place = place(self.structure, &dofs);
         Some(StabilityError::Mechanism { dofs, place })
     }
 }
@@ -90,12 +98,12 @@ pub(super) struct Regular {
 
 impl Regular {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
-    pub(super) fn held(assembled: &Assembled) -> (HeldBase<'_>, Self) {
-        let stiffness = assembled.stiffness_at_rest();
+    pub(super) fn held<'a>(at_rest: &AtRest<'a>) -> (HeldBase<'a>, Self) {
+        let AtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = if stiffest > 0.0 { stiffest } else { 1.0 };
-        let held = HeldBase::new(assembled.base.nodes(), stiffness, spring);
-        let regular = Self::new(held.matrix.clone(), spring, &assembled.mass.diagonal());
+        let held = HeldBase::new(base.nodes(), stiffness, spring);
+        let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal());
         (held, regular)
     }
 

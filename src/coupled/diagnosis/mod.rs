@@ -42,11 +42,12 @@ pub(crate) fn cause(
         return error;
     }
     let Standing { assembled, structure, .. } = *stage;
+    let at_rest = assembled.at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
     let others = [&assembled.damping, &assembled.mass];
-    let massless = || unresisted(structure, assembled.stiffness_at_rest(), others);
-    assembled
-        .mechanism(structure)
+    let massless = || unresisted(structure, at_rest.stiffness, others);
+    at_rest
+        .mechanism()
         .or_else(|| if is_singular { massless() } else { None })
         .or_else(|| resultants(stage, laws, load))
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
@@ -60,7 +61,7 @@ fn resultants(
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
     let is_plan = base.layout().is_plan();
-    let (held, regular) = Regular::held(assembled);
+    let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
         let [along, upward, away] = part.resultants(load);
