@@ -20,7 +20,7 @@ use super::energy_accumulator::EnergyAccumulator;
 use super::energy_balance::EnergyBalance;
 use super::motion::Load;
 use super::scene::Scene;
-use super::scheme::{Midpoint, TimeScheme};
+use super::scheme::TimeScheme;
 use super::simulation::Simulation;
 use super::state::State;
 use super::step::newton::Solver;
@@ -31,76 +31,18 @@ use crate::contact::ContactSearch;
 use crate::coupled::run::Serviceability;
 use crate::error::{Observer, Result};
 use crate::interface::InterfaceLaw;
-use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
+pub use parts::SimulationBuilder;
 use parts::{Coordinates, GravityStage, Parts};
 use stepped::Stepped;
-
-/// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
-/// defaults (no motion, standard gravity, midpoint rule, no probes).
-pub struct SimulationBuilder {
-    structure: Option<Box<dyn Structure>>,
-    ground: Option<Box<dyn Ground>>,
-    pub(super) time_step: f64,
-    pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
-    pub(super) motion: Box<dyn FreeField>,
-    pub(super) scheme: Box<dyn TimeScheme>,
-    pub(super) search: ContactSearch,
-    pub(super) gravity: f64,
-    pub(super) gravity_stage: GravityStage,
-    pub(super) loads: Vec<Load>,
-    /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
-    pub(super) displacement: Vec<f64>,
-    pub(super) velocity: Vec<f64>,
-    pub(super) probes: Vec<Probe>,
-    pub(super) moment_center: Option<f64>,
-    /// Steps expected, 0 if unknown.
-    pub(super) steps: usize,
-    pub(super) coordinates: Coordinates,
-    pub(super) energy_balance: bool,
-    pub(super) safety_friction: Vec<f64>,
-    pub(super) serviceability: Serviceability,
-}
-
-short_debug! {
-    SimulationBuilder;
-    self;
-    time_step: self.time_step,
-    structure: self.structure.is_some(),
-    ground: self.ground.is_some(),
-    laws: self.laws.len(),
-    gravity: self.gravity,
-    gravity_stage: self.gravity_stage,
-    search: self.search,
-    coordinates: self.coordinates,
-}
 
 impl Simulation {
     /// Begins a simulation with steps of `time_step` seconds.
     pub fn builder(time_step: f64) -> SimulationBuilder {
-        SimulationBuilder {
-            structure: None,
-            ground: None,
-            time_step,
-            laws: Vec::new(),
-            motion: Box::new(AtRest),
-            scheme: Box::new(Midpoint),
-            search: ContactSearch::default(),
-            gravity: STANDARD_GRAVITY,
-            gravity_stage: GravityStage::default(),
-            loads: Vec::new(),
-            displacement: Vec::new(),
-            velocity: Vec::new(),
-            probes: Vec::new(),
-            moment_center: None,
-            steps: 0,
-            coordinates: Coordinates::default(),
-            energy_balance: true,
-            safety_friction: Vec::new(),
-            serviceability: Serviceability::default(),
-        }
+        SimulationBuilder::new(time_step)
     }
 }
 

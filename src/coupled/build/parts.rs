@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::SimulationBuilder;
 use crate::bem::{Ground, patch};
 use crate::contact::ContactSearch;
-use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::motion::Load;
+use crate::coupled::run::Serviceability;
+use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{
     Error, Observer, Result, all_finite, finite, memory, not_negative, positive, require,
     require_part, same_length,
@@ -16,6 +17,8 @@ use crate::interface::{
 };
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
+use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::structure::probe::Probe;
 use crate::structure::{Structure, is_nonlinear, probe};
 
 /// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of
@@ -70,15 +73,74 @@ words! { pub(crate) GravityStage, "gravity stage", {
     Unloaded = "unloaded",
 } }
 
+/// Parts of a [`Simulation`](crate::Simulation): a structure, a ground and an interface law are needed, the rest has
+/// defaults (no motion, standard gravity, midpoint rule, no probes).
+pub struct SimulationBuilder {
+    pub(super) structure: Option<Box<dyn Structure>>,
+    pub(super) ground: Option<Box<dyn Ground>>,
+    pub(crate) time_step: f64,
+    pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(crate) motion: Box<dyn FreeField>,
+    pub(crate) scheme: Box<dyn TimeScheme>,
+    pub(crate) search: ContactSearch,
+    pub(crate) gravity: f64,
+    pub(crate) gravity_stage: GravityStage,
+    pub(crate) loads: Vec<Load>,
+    /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) probes: Vec<Probe>,
+    pub(crate) moment_center: Option<f64>,
+    /// Steps expected, 0 if unknown.
+    pub(crate) steps: usize,
+    pub(crate) coordinates: Coordinates,
+    pub(crate) energy_balance: bool,
+    pub(crate) safety_friction: Vec<f64>,
+    pub(crate) serviceability: Serviceability,
+}
+
+short_debug! {
+    SimulationBuilder;
+    self;
+    time_step: self.time_step,
+    structure: self.structure.is_some(),
+    ground: self.ground.is_some(),
+    laws: self.laws.len(),
+    gravity: self.gravity,
+    gravity_stage: self.gravity_stage,
+    search: self.search,
+    coordinates: self.coordinates,
+}
+
 impl SimulationBuilder {
+    /// Settings with this time step, all others default.
+    pub(super) fn new(time_step: f64) -> Self {
+        Self {
+            structure: None,
+            ground: None,
+            time_step,
+            laws: Vec::new(),
+            motion: Box::new(AtRest),
+            scheme: Box::new(Midpoint),
+            search: ContactSearch::default(),
+            gravity: STANDARD_GRAVITY,
+            gravity_stage: GravityStage::default(),
+            loads: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            probes: Vec::new(),
+            moment_center: None,
+            steps: 0,
+            coordinates: Coordinates::default(),
+            energy_balance: true,
+            safety_friction: Vec::new(),
+            serviceability: Serviceability::default(),
+        }
+    }
+
     /// Whether weight and loads are there before the run begins.
     pub(crate) fn is_static(&self) -> bool {
         self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
-    }
-
-    /// Gravity as the laws may count on it at the start: zero where nothing presses.
-    pub(crate) fn static_gravity(&self) -> f64 {
-        if self.is_static() { self.gravity } else { 0.0 }
     }
 
     /// Whether weight acts as a load from t = 0 on.
@@ -126,7 +188,8 @@ impl Parts {
             .ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = patch(ground.as_ref())?;
         let (layout, count) = (elements.layout(), elements.len());
-        let gravity = given.static_gravity();
+        // The laws may count on gravity only where something presses at the start.
+        let gravity = if given.is_static() { given.gravity } else { 0.0 };
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         if elements.is_plan() {
             check_limits(&given)?;
@@ -225,14 +288,11 @@ fn check_laws(
     scene: &ContactScene,
     count: usize,
 ) -> Result<()> {
-    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
-    if laws.is_empty() {
-        return refuse("interface law", "give one to the builder with `interface`");
-    }
+    let needed = "give one to the builder with `interface`";
+    require_part("interface law", !laws.is_empty(), needed)?;
     check_list(laws, count)?;
-    if search == (ContactSearch::FlowChart { iterations: 0 }) {
-        return refuse("contact search", "the flow chart needs one iteration or more");
-    }
+    let iterates = search != ContactSearch::FlowChart { iterations: 0 };
+    require_part("contact search", iterates, "the flow chart needs one iteration or more")?;
     laws.iter().try_for_each(|law| law.check(scene))
 }
 

@@ -1,9 +1,8 @@
 //! The static state in stages, weight first, then the loads at t = 0, and the initial motion.
 
-use super::SimulationBuilder;
 use super::assembled::Assembled;
 use super::equilibrium::{Standing, StaticState};
-use super::parts::{GravityStage, Parts};
+use super::parts::{GravityStage, Parts, SimulationBuilder};
 use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
