@@ -72,7 +72,7 @@ fn main() -> Result<()> {
     let linear = column.equivalent_linear(&rock, &small, &options)?;
 
     let periods = log_spaced(0.05, 3.0, 121)?;
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     let mut spectra = vec![("rock", rock.response_spectrum(&periods, 0.05)?)];
     for (name, site) in [("linear", &linear), ("strain-compatible", &compatible)] {
         let (run, floor) = shake(site)?;

@@ -98,7 +98,7 @@ fn main() -> Result<()> {
         shake(&surface, layered(&damped))?,
     ];
 
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     let mut spectra = Vec::new();
     for (name, (run, spectrum)) in names.into_iter().zip([rock, clay, elastic, damped]) {
         let peak = spectrum.iter().fold(0.0_f64, |m, o| m.max(o.pseudo_acceleration));

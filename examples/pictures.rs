@@ -86,7 +86,7 @@ fn main() -> Result<()> {
     let grids = paraview::write_series(out.join("vtk"), "tower", &shape, &free)?;
 
     println!("{free_run}");
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     comparison.extend([("bonded", bonded_run), ("uplift and slip", free_run)]);
     println!("\n{comparison}\n\npictures and {grids} grids in {}", out.display());
     Ok(())

@@ -64,7 +64,7 @@ fn main() -> Result<()> {
     }
 
     // The same runs in one table: peaks, uplift, slip, safety, energies.
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     for (name, mut run) in cases {
         run.probes.clear();
         comparison.add(name, run);

@@ -59,7 +59,7 @@ fn main() -> Result<()> {
         inclined.apparent_velocity(),
         rayleigh.apparent_velocity()
     );
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     comparison.add("vertical", shake(soil, record.clone())?);
     comparison.add(
         format!("SV, {ANGLE}°"),

@@ -6,22 +6,77 @@
 mod cone;
 mod delassus;
 mod element;
-mod method;
 mod path;
 mod problem;
 mod search;
 
 pub(crate) use delassus::Delassus;
-pub use method::{ContactSearch, SearchMethod};
 pub(crate) use problem::{ContactInput, ContactSolver};
 pub(crate) use search::ModeSearch;
 
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
-    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
+    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, check_list, memory_ends,
 };
 use crate::linalg::largest;
+
+/// Search for the contact modes of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+#[non_exhaustive]
+pub enum ContactSearch {
+    /// Active set, then Gauss–Seidel, then path following, then, if there are no more than 65 536 sets
+    /// of modes, all of them: finds what there is to find.
+    #[default]
+    Robust,
+    /// The flow chart in the Appendix of Patel & Spyrakos alone: assume the modes of the step
+    /// before, solve, ask every element, change modes, repeat until nothing changes. Where it
+    /// comes back to modes it has tried, or needs more than `iterations` of them, the step is an
+    /// error.
+    FlowChart {
+        /// Solves per step, at most; one or more.
+        iterations: usize,
+    },
+}
+
+/// Method that found the modes of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum SearchMethod {
+    /// The active set converged.
+    ActiveSet,
+    /// Gauss–Seidel with local enumeration was needed.
+    GaussSeidel,
+    /// The solution was followed from a known one, or found among all sets of modes.
+    Path,
+    /// In plan: Newton's method was needed.
+    Newton,
+    /// In plan: the proximal point method was needed.
+    Proximal,
+}
+
+words! { pub(crate) SearchMethod, "search method", {
+    ActiveSet = "active_set",
+    GaussSeidel = "gauss_seidel",
+    Path = "path",
+    Newton = "newton",
+    Proximal = "proximal",
+} }
+
+words_with_numbers! {
+    /// One of its words, or an [`Error::Word`](crate::Error::Word).
+    ///
+    /// ```
+    /// use basemat::contact::ContactSearch;
+    /// assert_eq!("flow_chart(50)".parse(), Ok(ContactSearch::FlowChart { iterations: 50 }));
+    /// assert!("flow_chart(0.5)".parse::<ContactSearch>().is_err());
+    /// ```
+    ContactSearch, "contact search", { Robust = "robust"; FlowChart { iterations } = "flow_chart" }
+}
 
 // The contact problem for codes with a time integrator of their own.
 
@@ -142,14 +197,7 @@ impl ContactProblem {
                 ("Delassus operator", ContactLayout::new(PLANE, count.max(1)).square());
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
-        if laws.len() != 1 && laws.len() != count {
-            let quantity = "list of interface laws";
-            return Err(Error::Size { quantity, found: laws.len(), needed: count });
-        }
-        if laws.iter().any(|law| law.modes().is_empty()) {
-            let needed = "`modes` must name at least one mode";
-            return Err(Error::Scene { quantity: "interface law", needed });
-        }
+        check_list(&laws, count)?;
         check_finite("Delassus operator", &delassus)?;
         let memory_ends = memory_ends(&laws, count)?;
         Ok(Self {

@@ -17,9 +17,9 @@
 
 use super::cone::Cone;
 use super::element::local_mode;
-use super::method::{ContactSearch, SearchMethod};
 use super::path::Path;
 use super::problem::{Bond, ContactInput, ContactSolver};
+use super::{ContactSearch, SearchMethod};
 use crate::error::StepError;
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::Mode;

@@ -1,8 +1,5 @@
 //! Moving the state to the end of an accepted step.
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
-
 use super::energy_balance::EnergyBalance;
 use super::foundation::{Foundation, Sums};
 use super::motion::Motion;
@@ -10,8 +7,7 @@ use super::scene::Scene;
 use super::state::{Context, Origin, State, Transition};
 use super::step::{Forcing, Increment};
 use crate::contact::SearchMethod;
-use crate::error::{Error, Result};
-use crate::geometry::Footing;
+use crate::error::Result;
 use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 
 impl State {
@@ -23,7 +19,7 @@ impl State {
             .map(|e| {
                 let jump = |component| if component == 0 { at.gap[e] } else { -0.0 };
                 let traction = |component| at.traction[scene.layout().place(component, e)];
-                ContactState::from_components(jump, traction, scene.elements.is_plan())
+                ContactState::from_components(jump, traction, scene.layout().is_plan())
             })
             .collect();
         let modes = at.modes_with(&scene.laws);
@@ -34,30 +30,19 @@ impl State {
             })
             .collect();
         let start = PreviousContacts::new(&scene.laws, &start)?;
-        let (base, patch) = (&scene.base, &scene.elements);
-        let foundations = base
-            .foundations()
-            .map(|(_, elements)| Foundation { elements, ..Foundation::default() });
-        let shapes = base.foundations().zip(base.outlines());
-        let footings: Vec<_> =
-            shapes.map(|((_, own), outline)| Footing::new(patch, own, outline)).collect();
-        let arm = |own: &Footing| [0, 1].map(|axis| own.center[axis] - scene.moment_center[axis]);
+        let foundations = scene.base.foundations();
+        let foundations =
+            foundations.map(|(_, elements)| Foundation { elements, ..Foundation::default() });
         let mut state = Self {
             step: 0,
             time: 0.0,
             origin: Origin::new(),
-            context: Arc::new(Context {
-                probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
-                elements: scene.elements.clone(),
-                friction: scene.safety_friction.clone(),
-                arms: footings.iter().map(arm).collect(),
-                footings,
-            }),
+            context: scene.context.clone(),
             motion: Motion::new(model),
             contact,
             modes,
             transitions: Vec::with_capacity(count),
-            probes: vec![0.0; scene.probes.len()],
+            probes: vec![0.0; scene.context.probes.len()],
             base_shear: 0.0,
             base_moment: 0.0,
             normal_force: 0.0,
@@ -110,13 +95,13 @@ impl State {
         let (mut total, mut sums) = ([0.0; 3], Sums::default());
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
-            let Context { elements, friction, footings, arms, .. } = &*state.context;
+            let Context { elements, friction, footings, .. } = &*state.context;
             let footing = &footings[k];
             let own = foundation.update(footing, elements, friction, &state.contact, &state.modes);
             sums.area += own.area;
             sums.open += own.open;
             sums.slip += own.slip;
-            let moment = foundation.base_moment - foundation.normal_force * arms[k][0];
+            let moment = foundation.base_moment - foundation.normal_force * footing.center[0];
             let forces = [foundation.base_shear, foundation.normal_force, moment];
             total.iter_mut().zip(forces).for_each(|(sum, own)| *sum += own);
             let own = [
@@ -141,59 +126,5 @@ impl State {
             let carried: f64 = carried.map(|(r, y)| by(r, y.displacement)).sum();
             *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
         }
-    }
-}
-
-// Answers of the observer of a run: go on, stop, or fail.
-
-/// Answer of an observer of [`Simulation::run`](crate::Simulation::run): nothing,
-/// [`ControlFlow`] to stop after a step, or a [`Result`] of either, whose error ends the run.
-///
-/// ```
-/// use std::ops::ControlFlow::{Break, Continue};
-///
-/// use basemat::bem::SpringGround;
-/// use basemat::interface::Coulomb;
-/// use basemat::motion::el_centro_1940;
-/// use basemat::structure::RigidBlock;
-/// use basemat::{Error, Simulation};
-///
-/// let mut simulation = Simulation::builder(0.01)
-///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
-///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
-///     .interface(Coulomb::new(0.4)?)
-///     .motion(el_centro_1940())
-///     .build()?;
-/// let run = simulation.run(500, |state| {
-///     if state.uplifted_fraction > 0.2 { Break(()) } else { Continue(()) }
-/// })?;
-/// assert!(run.steps < 500);
-/// let refused = simulation.run(500, |_| Err::<(), _>(Error::part("observer", "has seen enough")));
-/// assert!(refused.is_err());
-/// # Ok::<(), Error>(())
-/// ```
-pub trait Observed {
-    /// Whether the run goes on.
-    ///
-    /// # Errors
-    /// The observer's own.
-    fn flow(self) -> Result<ControlFlow<()>>;
-}
-
-impl Observed for () {
-    fn flow(self) -> Result<ControlFlow<()>> {
-        Ok(ControlFlow::Continue(()))
-    }
-}
-
-impl Observed for ControlFlow<()> {
-    fn flow(self) -> Result<ControlFlow<()>> {
-        Ok(self)
-    }
-}
-
-impl<T: Observed> Observed for std::result::Result<T, Error> {
-    fn flow(self) -> Result<ControlFlow<()>> {
-        self.and_then(Observed::flow)
     }
 }

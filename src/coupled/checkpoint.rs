@@ -4,14 +4,13 @@ use super::energy_accumulator::EnergyAccumulator;
 use super::energy_balance::EnergyBalance;
 use super::motion::Translation;
 use super::scene::Scene;
-use super::scene::operators::Operators;
 use super::state::State;
-use crate::bem::Ground;
+use crate::Simulation;
 use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::SPACE;
-use crate::interface::{ContactState, Mode};
-use crate::structure::{Structure, restore_variables, save_variables};
+use crate::interface::{ContactState, Mode, PreviousContact};
+use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
@@ -158,109 +157,180 @@ impl Identity {
     }
 }
 
-/// Saves the state of the run.
-pub(super) fn save(
-    scene: &Scene,
-    structure: &dyn Structure,
-    ground: &dyn Ground,
-    operators: &Operators,
-    state: &State,
-    books: Option<&EnergyAccumulator>,
-) -> Result<Checkpoint> {
-    let modes = state
-        .start
-        .iter()
-        .enumerate()
-        .map(|(e, start)| {
+impl Simulation {
+    /// Saves the state of the run, to be restored by [`Simulation::resume`].
+    ///
+    /// Its size is that of the history: all tractions for exact histories, those of two windows at
+    /// most for the exponentials.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the
+    /// structure cannot save its state.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Checkpoint;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::Simulation;
+    ///
+    /// let scene = || {
+    ///     Simulation::builder(0.01)
+    ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///         .interface(Coulomb::new(0.4)?)
+    ///         .motion(el_centro_1940())
+    ///         .gravity(9.81)
+    ///         .build()
+    /// };
+    /// let mut simulation = scene()?;
+    /// simulation.run(200, |_| {})?;
+    /// let saved: Checkpoint = simulation.checkpoint()?;
+    /// simulation.run(100, |_| {})?;
+    ///
+    /// let mut other = scene()?;
+    /// other.resume(&saved)?;
+    /// assert_eq!(other.state().step, 200);
+    /// other.run(100, |_| {})?;
+    /// assert_eq!(other.state(), simulation.state());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn checkpoint(&self) -> Result<Checkpoint> {
+        let Self { scene, state, .. } = self;
+        let number = |(e, start): (usize, PreviousContact<'_>)| {
             let known = modes_of(scene, e);
             let number = known.iter().position(|mode| *mode == start.mode);
             let unknown = CheckpointError::Unsupported { part: "interface law" };
             Ok((number.ok_or(unknown)?, start.has_opened))
-        })
-        .collect::<Result<Vec<_>>>()?;
-    let directions = scene.layout().components();
-    let (mut own, mut own_books) = (state.clone(), books.cloned());
-    let numbers = numbers(directions, &mut own, own_books.as_mut());
-    let mut checkpoint = Checkpoint {
-        format: FORMAT,
-        identity: identity(scene, operators, state, books.is_some()),
-        steps: state.step,
-        modes,
-        memory: state.start.memory().to_vec(),
-        state: numbers.into_iter().map(|value| *value).collect(),
-        ground: ground.save()?,
-        structure: save_variables(structure)?,
-        sum: 0,
-    };
-    checkpoint.sum = checkpoint.sum();
-    Ok(checkpoint)
-}
+        };
+        let (mut own, mut books) = (state.clone(), self.books.clone());
+        let numbers = numbers(scene.layout().components(), &mut own, books.as_mut());
+        let mut checkpoint = Checkpoint {
+            format: FORMAT,
+            identity: self.identity(),
+            steps: state.step,
+            modes: state.start.iter().enumerate().map(number).collect::<Result<_>>()?,
+            memory: state.start.memory().to_vec(),
+            state: numbers.into_iter().map(|value| *value).collect(),
+            ground: self.ground.save()?,
+            structure: save_variables(self.structure.as_ref())?,
+            sum: 0,
+        };
+        checkpoint.sum = checkpoint.sum();
+        Ok(checkpoint)
+    }
 
-/// The state and books of `checkpoint`, with structure and ground restored to it; these are
-/// unchanged on an error.
-pub(super) fn restore(
-    checkpoint: &Checkpoint,
-    scene: &Scene,
-    structure: &mut dyn Structure,
-    ground: &mut dyn Ground,
-    operators: &Operators,
-    (state, books): (&State, Option<&EnergyAccumulator>),
-) -> Result<(State, Option<EnergyAccumulator>)> {
-    if checkpoint.format != FORMAT {
-        let found = checkpoint.format;
-        return Err(CheckpointError::Format { found, needed: FORMAT }.into());
+    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
+    /// wherever this one is; what follows is the same to the last bit on the same processor.
+    ///
+    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, initial and ground motion,
+    /// gravity and laws are not, nor what a user's structure leaves out of what it [saves][`save`]. The transitions,
+    /// trials and method of the step before the checkpoint are not kept.
+    ///
+    /// # Errors
+    /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
+    /// numbers missing or not finite. The simulation is then as it was.
+    ///
+    /// [`save`]: crate::structure::NonlinearForce::save
+    pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
+        if checkpoint.format != FORMAT {
+            let found = checkpoint.format;
+            return Err(CheckpointError::Format { found, needed: FORMAT }.into());
+        }
+        if checkpoint.sum != checkpoint.sum() {
+            return Err(CheckpointError::Damaged.into());
+        }
+        checkpoint.identity.check(&self.identity())?;
+        let corrupt = |quantity| CheckpointError::Corrupt { quantity };
+        if checkpoint.steps > MOST_STEPS {
+            return Err(corrupt("number of steps").into());
+        }
+        for (values, quantity) in [
+            (&checkpoint.memory, "memory of the interface laws"),
+            (&checkpoint.state, "state"),
+            (&checkpoint.ground, "state of the ground"),
+            (&checkpoint.structure, "state of the structure"),
+        ] {
+            if values.iter().any(|value| !value.is_finite()) {
+                return Err(corrupt(quantity).into());
+            }
+        }
+        let (scene, structure) = (&self.scene, self.structure.as_mut());
+        let (mut state, mut books) = (self.state.clone(), self.books.clone());
+        let own = numbers(scene.layout().components(), &mut state, books.as_mut());
+        if own.len() != checkpoint.state.len() {
+            return Err(corrupt("state").into());
+        }
+        own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
+        restore_modes(scene, &checkpoint.modes, &mut state)?;
+        let memory = state.start.memory_mut();
+        if memory.len() != checkpoint.memory.len() {
+            return Err(corrupt("memory of the interface laws").into());
+        }
+        memory.copy_from_slice(&checkpoint.memory);
+        let before = save_variables(structure)?;
+        restore_variables(structure, &checkpoint.structure)?;
+        if let Err(error) = self.ground.restore(checkpoint.steps, &checkpoint.ground) {
+            restore_variables(structure, &before)?;
+            return Err(error);
+        }
+        // From here on nothing fails.
+        state.step = checkpoint.steps;
+        state.time = state.step as f64 * scene.time_step;
+        (state.trials, state.method) = (0, SearchMethod::ActiveSet);
+        state.transitions.clear();
+        state.motion.changed();
+        state.energy_balance =
+            books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
+        state.update_resultants(scene);
+        (self.state, self.books) = (state, books);
+        Ok(())
     }
-    if checkpoint.sum != checkpoint.sum() {
-        return Err(CheckpointError::Damaged.into());
-    }
-    checkpoint.identity.check(&identity(scene, operators, state, books.is_some()))?;
-    let corrupt = |quantity| CheckpointError::Corrupt { quantity };
-    if checkpoint.steps > MOST_STEPS {
-        return Err(corrupt("number of steps").into());
-    }
-    for (values, quantity) in [
-        (&checkpoint.memory, "memory of the interface laws"),
-        (&checkpoint.state, "state"),
-        (&checkpoint.ground, "state of the ground"),
-        (&checkpoint.structure, "state of the structure"),
-    ] {
-        if values.iter().any(|value| !value.is_finite()) {
-            return Err(corrupt(quantity).into());
+
+    /// Numbers that another simulation of the same scene has too.
+    fn identity(&self) -> Identity {
+        let Self { scene, state, .. } = self;
+        let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
+        let model = &scene.model;
+        // Modes may come with either sign. A nonlinear structure has none, and columns that change.
+        let columns = self.solver.operators().columns.iter().enumerate().filter(|_| model.linear);
+        let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
+        let c = scene.coefficients;
+        let mut steps = vec![scene.time_step];
+        for row in [c.acceleration, c.velocity, c.displacement] {
+            steps.extend(row);
+        }
+        let mut elements: Vec<f64> =
+            scene.base.elements().iter().flat_map(|e| [e.left, e.right]).collect();
+        if scene.layout().is_plan() {
+            elements.extend(scene.base.elements().depths().iter().flatten());
+        }
+        Identity {
+            dofs: model.dofs,
+            energy_balance: self.books.is_some(),
+            probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
+            memory: state.start.memory_ends().to_vec(),
+            steps,
+            elements,
+            structure: vec![
+                sum(model.mass.values()),
+                sum(model.damping.values()),
+                sum(model.stiffness.values()),
+                signed,
+            ],
+            ground: vec![sum(&scene.soil)],
+            // The weight is none of the static state where it acts as a load.
+            static_contact: [&scene.static_state.traction, &scene.weight]
+                .map(|values| sum(values))
+                .to_vec(),
         }
     }
-    let directions = scene.layout().components();
-    let (mut state, mut books) = (state.clone(), books.cloned());
-    let own = numbers(directions, &mut state, books.as_mut());
-    if own.len() != checkpoint.state.len() {
-        return Err(corrupt("state").into());
-    }
-    own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
-    restore_modes(scene, &checkpoint.modes, &mut state)?;
-    let memory = state.start.memory_mut();
-    if memory.len() != checkpoint.memory.len() {
-        return Err(corrupt("memory of the interface laws").into());
-    }
-    memory.copy_from_slice(&checkpoint.memory);
-    let before = save_variables(structure)?;
-    restore_variables(structure, &checkpoint.structure)?;
-    if let Err(error) = ground.restore(checkpoint.steps, &checkpoint.ground) {
-        restore_variables(structure, &before)?;
-        return Err(error);
-    }
-    state.step = checkpoint.steps;
-    state.time = state.step as f64 * scene.time_step;
-    (state.trials, state.method) = (0, SearchMethod::ActiveSet);
-    state.transitions.clear();
-    state.motion.changed();
-    state.energy_balance =
-        books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-    state.update_resultants(scene);
-    Ok((state, books))
 }
 
 /// Modes by their numbers: those of an element's law, or in plan all.
 fn modes_of(scene: &Scene, element: usize) -> &[Mode] {
-    if scene.elements.is_plan() { &Mode::ALL } else { scene.law(element).modes() }
+    if scene.layout().is_plan() { &Mode::ALL } else { scene.law(element).modes() }
 }
 
 /// Takes over modes and whether elements have been open, from their numbers.
@@ -275,42 +345,6 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
         state.start.restore(e, state.contact[e], mode, has_opened);
     }
     Ok(())
-}
-
-fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance: bool) -> Identity {
-    let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
-    let model = &scene.model;
-    // Modes may come with either sign. A nonlinear structure has none, and columns that change.
-    let columns = operators.columns.iter().enumerate().filter(|_| model.linear);
-    let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
-    let c = scene.coefficients;
-    let mut steps = vec![scene.time_step];
-    for row in [c.acceleration, c.velocity, c.displacement] {
-        steps.extend(row);
-    }
-    let mut elements: Vec<f64> = scene.elements.iter().flat_map(|e| [e.left, e.right]).collect();
-    if scene.elements.is_plan() {
-        elements.extend(scene.elements.depths().iter().flatten());
-    }
-    Identity {
-        dofs: model.dofs,
-        energy_balance,
-        probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
-        memory: state.start.memory_ends().to_vec(),
-        steps,
-        elements,
-        structure: vec![
-            sum(model.mass.values()),
-            sum(model.damping.values()),
-            sum(model.stiffness.values()),
-            signed,
-        ],
-        ground: vec![sum(&scene.soil)],
-        // The weight is none of the static state where it acts as a load.
-        static_contact: [&scene.static_state.traction, &scene.weight]
-            .map(|values| sum(values))
-            .to_vec(),
-    }
 }
 
 /// Every number that a step leaves to the next, for two or three directions, always in this order.

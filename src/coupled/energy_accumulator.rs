@@ -13,7 +13,7 @@ use super::scene::Scene;
 use super::scene::transformation::Terms;
 use super::scheme::SchemeCoefficients;
 use super::state::State;
-use super::step::{Forcing, Increment};
+use super::step::{Forcing, Increment, StepData};
 use crate::bem::Ground;
 use crate::error::LawError;
 use crate::interface::Mode;
@@ -146,26 +146,19 @@ impl EnergyAccumulator {
         all
     }
 
-    /// Books the step that leads from `state` to its end.
-    pub(crate) fn book(
-        &mut self,
-        scene: &Scene,
-        structure: &dyn Structure,
-        ground: &dyn Ground,
-        state: &State,
-        forcing: &Forcing,
-        increment: &Increment,
-    ) {
+    /// Books the step that leads from its state to its end.
+    pub(crate) fn book(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
+        let StepData { scene, forcing, .. } = data;
         if forcing.loaded {
             self.energy_balance.input += dot(&forcing.load, &increment.total);
             self.energy_balance.relative_input += dot(&forcing.load, &increment.displacement);
         }
         if !scene.model.linear {
-            self.book_nonlinear_force(scene, structure, increment);
+            self.book_nonlinear_force(data, increment);
         }
-        self.book_structure(scene, state, forcing, increment);
+        self.book_structure(data, increment);
         self.book_relative_input(scene, forcing, increment);
-        self.book_contact(scene, ground, state, forcing, increment);
+        self.book_contact(data, ground, increment);
         self.see_largest(scene.time_step);
     }
 
@@ -180,12 +173,8 @@ impl EnergyAccumulator {
     }
 
     /// The nonlinear force: stored, dissipated, or just done.
-    fn book_nonlinear_force(
-        &mut self,
-        scene: &Scene,
-        structure: &dyn Structure,
-        increment: &Increment,
-    ) {
+    fn book_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
+        let StepData { scene, structure, .. } = data;
         let done = dot(&increment.force, &increment.total);
         let Some((stored, dissipated)) = energies(scene, structure, &increment.seen) else {
             self.nonlinear_work += done;
@@ -198,13 +187,8 @@ impl EnergyAccumulator {
     }
 
     /// Kinetic and strain energy, damping, and what the time scheme takes.
-    fn book_structure(
-        &mut self,
-        scene: &Scene,
-        state: &State,
-        forcing: &Forcing,
-        increment: &Increment,
-    ) {
+    fn book_structure(&mut self, data: StepData<'_>, increment: &Increment) {
+        let StepData { scene, state, forcing, .. } = data;
         let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
         let Motion { velocity: v0, acceleration: a0, .. } = &state.motion;
         let (v1, energy_balance) = (&increment.velocity, &mut self.energy_balance);
@@ -271,14 +255,8 @@ impl EnergyAccumulator {
 
     /// Soil, contact, compliant interfaces and preload. The jump is that of the contact problem: if
     /// the structure went elsewhere, its energies would not balance the work of the tractions.
-    fn book_contact(
-        &mut self,
-        scene: &Scene,
-        ground: &dyn Ground,
-        state: &State,
-        forcing: &Forcing,
-        increment: &Increment,
-    ) {
+    fn book_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
+        let StepData { scene, state, forcing, .. } = data;
         let soil = &mut self.scratch.means;
         let energy_balance = &mut self.energy_balance;
         soil.copy_from_slice(&forcing.history);

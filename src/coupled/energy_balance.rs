@@ -252,8 +252,8 @@ mod tests {
             static_contact: -7.0,
             input: 376.0,
             relative_input: 300.0,
-            soil_error_bound: 0.0,
             largest: 376.0,
+            ..EnergyBalance::default()
         };
         assert_eq!(energy_balance.residual(), 0.0);
         let shares = energy_balance.shares().unwrap();

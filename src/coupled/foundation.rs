@@ -177,7 +177,7 @@ mod tests {
         friction: &[f64],
         contact: &[ContactState; 2],
     ) -> Safety {
-        let footing = Footing::new(patch, 0..2, outline);
+        let footing = Footing::new(patch, 0..2, outline, [0.0; 2]);
         let mut foundation = Foundation { elements: 0..2, ..Default::default() };
         foundation.update(&footing, patch, friction, contact, &[Mode::Stick; 2]);
         foundation.safety

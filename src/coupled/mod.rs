@@ -93,7 +93,6 @@ mod step;
 mod variation;
 mod warning;
 
-pub use advance::Observed;
 pub use build::SimulationBuilder;
 pub use build::parts::{Coordinates, GravityStage};
 pub use checkpoint::Checkpoint;
@@ -105,12 +104,12 @@ pub(crate) use run::peak::probe_index;
 
 pub use crate::structure::probe::Probe;
 pub use foundation::Foundation;
-pub use refine::{Refinement, Setting, refine};
+pub use refine::{Refinement, Setting, largest_convergent_step, refine};
 pub(crate) use resolution::Resolution;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
-pub use simulation::largest_convergent_step;
-pub(crate) use state::Origin;
+pub use simulation::Observed;
+pub(crate) use state::{Context, Sequence};
 pub use state::{State, Transition};
 pub use warning::Warning;

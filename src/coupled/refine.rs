@@ -1,10 +1,13 @@
-//! Error against run time, for a scene of the user's own.
+//! Time step and elements for a scene of the user's own: error against run time, and the longest step that converges.
 
 use std::fmt;
 use std::time::Duration;
 
 use super::run::clock;
-use crate::error::{Result, all_finite, at_least, positive, same_length};
+use crate::Simulation;
+use crate::error::{
+    Error, Result, StepError, all_finite, at_least, not_negative, positive, same_length,
+};
 use crate::text::table::Table;
 
 /// Orders of convergence that differences are extrapolated with: observed ones beyond are not those
@@ -214,6 +217,69 @@ impl fmt::Display for Refinement {
         }
         Ok(())
     }
+}
+
+// Which time step gets a scene through, when a longer one has steps without solution.
+
+/// Halvings that are tried.
+const HALVINGS: usize = 10;
+
+/// The longest step, `time_step` (s) or that halved once or more, with which the simulation that
+/// `make` builds runs for `duration` (s) without [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`];
+/// `None` if the tenth halving fails, too.
+///
+/// A simulation cannot change its step: the soil's coefficients and its memory belong to one. So
+/// this runs whole simulations, each twice as long as the one before. Give the time of the failed step
+/// as `duration`.
+///
+/// ```
+/// use basemat::bem::{ElasticGround, Grading, Strip};
+/// use basemat::coupled::largest_convergent_step;
+/// use basemat::interface::ThinLayer;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Simulation, Soil};
+///
+/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper, in steps
+/// // in which waves cross five elements.
+/// let make = |step: f64| {
+///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
+///     Simulation::builder(step)
+///         .ground(ElasticGround::new(soil, Strip::under(&block, 10, Grading::Uniform)?)?)
+///         .structure(block)
+///         .interface(ThinLayer::new(soil, 1.0, 0.4)?.with_thickness_ratio(1e-3)?)
+///         .motion(el_centro_1940().scaled(3.0)?)
+///         .build()
+/// };
+/// let step = largest_convergent_step(0.0125, 5.0, make)?;
+/// assert!(step.is_some_and(|step| step <= 0.0125));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is
+/// finite and above zero and `duration` finite and not negative.
+pub fn largest_convergent_step(
+    time_step: f64,
+    duration: f64,
+    mut make: impl FnMut(f64) -> Result<Simulation>,
+) -> Result<Option<f64>> {
+    let mut step = positive("time step", time_step)?;
+    not_negative("duration", duration)?;
+    for _ in 0..=HALVINGS {
+        let mut simulation = make(step)?;
+        match simulation.run(simulation.steps_for(duration), |_| {}) {
+            Ok(_) => return Ok(Some(step)),
+            Err(Error::Step {
+                source:
+                    StepError::Contact { .. } | StepError::Cone { .. } | StepError::Newton { .. },
+                ..
+            }) => step *= 0.5,
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(None)
 }
 
 #[cfg(test)]

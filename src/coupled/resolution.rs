@@ -50,7 +50,7 @@ use super::state::State;
 use super::variation::{OWN, Sampler, Variation};
 use super::warning::Warning;
 use crate::bem::Ground;
-use crate::geometry::{Patch, SPACE, axis_name, far_ends};
+use crate::geometry::{SPACE, axis_name, far_ends};
 use crate::motion::FreeField;
 
 /// Largest r where the base shear follows the ground.
@@ -166,12 +166,8 @@ struct GroundSamples {
 }
 
 impl Resolution {
-    pub(crate) fn new(
-        time_step: f64,
-        elements: &Patch,
-        shear_wave_speed: Option<f64>,
-        state: &State,
-    ) -> Self {
+    pub(crate) fn new(time_step: f64, shear_wave_speed: Option<f64>, state: &State) -> Self {
+        let elements = &state.context.elements;
         let in_plan = elements.is_plan();
         let sides = |axis: usize| (0..elements.len()).map(move |e| elements.sides(e)[axis]);
         let narrowest = |axis: usize| sides(axis).fold(f64::INFINITY, f64::min);

@@ -1,21 +1,18 @@
-//! The simulation: the loop over steps, and the time step that gets a scene through.
+//! The simulation: the loop over steps, and the answers of its observer.
 
 use std::ops::ControlFlow;
 
-use super::advance::Observed;
-use super::checkpoint;
-use super::checkpoint::Checkpoint;
 use super::diagnosis::Conditioning;
 use super::energy_accumulator::EnergyAccumulator;
 use super::resolution::Resolution;
 use super::scene::Scene;
 use super::state::State;
 use super::step::newton::Solver;
-use super::step::{Forcing, Increment};
+use super::step::{Forcing, Increment, StepData};
 use super::warning::Warning;
 use crate::bem::Ground;
 use crate::coupled::run::Run;
-use crate::error::{Error, Observer, Result, StepError, not_negative, positive};
+use crate::error::{Error, Observer, Result, StepError};
 use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
@@ -67,12 +64,13 @@ impl Simulation {
             Warning::count_friction(warnings, taken);
         }
         if let Some(books) = &mut self.books {
-            books.book(scene, structure.as_ref(), ground.as_ref(), state, forcing, increment);
+            let data = StepData { scene, structure: structure.as_ref(), state, forcing };
+            books.book(data, ground.as_ref(), increment);
             state.energy_balance = books.energy_balance;
         }
         state.advance(scene, forcing, increment);
         increment.spread.copy_from_slice(&increment.traction);
-        scene.elements.spread_inside(&mut increment.spread);
+        scene.base.elements().spread_inside(&mut increment.spread);
         ground.commit(&increment.spread);
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&increment.seen);
@@ -85,7 +83,7 @@ impl Simulation {
         let Self { scene, structure, ground, motion, forcing, solver, increment, state, .. } = self;
         let structure = structure.as_ref();
         forcing.observe(scene, state, structure, ground.as_mut(), motion.as_ref(), time)?;
-        solver.solve(scene, structure, state, forcing, increment)?;
+        solver.solve(StepData { scene, structure, state, forcing }, increment)?;
         Ok(increment.ask_laws(scene, state)?)
     }
 
@@ -101,7 +99,7 @@ impl Simulation {
 
     /// The contact elements, from left to right.
     pub(crate) fn elements(&self) -> &Patch {
-        &self.scene.elements
+        self.scene.base.elements()
     }
 
     /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
@@ -162,7 +160,7 @@ impl Simulation {
 
     /// The probes, in the order of [`State::probes`].
     pub fn probes(&self) -> &[Probe] {
-        &self.scene.probes
+        &self.scene.context.probes
     }
 
     /// Static displacement of the structure's degrees of freedom under weight and loads at t = 0, m and rad. Its rigid
@@ -244,11 +242,9 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let Scene { time_step, elements, probes, serviceability, .. } = &self.scene;
-        let speed = self.ground.shear_wave_speed();
-        let resolution = Resolution::new(*time_step, elements, speed, &self.state);
-        let run = Run::start(probes, &self.state, resolution);
-        run.with_limits(serviceability, &self.state)
+        let (speed, state) = (self.ground.shear_wave_speed(), &self.state);
+        let resolution = Resolution::new(self.scene.time_step, speed, state);
+        Run::start(state, &self.scene.serviceability, resolution)
     }
 
     /// Closes a run of this simulation: its warnings and wall time.
@@ -262,133 +258,56 @@ impl Simulation {
     pub fn conditioning(&self) -> Conditioning {
         self.conditioning
     }
+}
 
-    /// Saves the state of the run, to be restored by [`Simulation::resume`].
-    ///
-    /// Its size is that of the history: all tractions for exact histories, those of two windows at
-    /// most for the exponentials.
+/// Answer of an observer of [`Simulation::run`](crate::Simulation::run): nothing,
+/// [`ControlFlow`] to stop after a step, or a [`Result`] of either, whose error ends the run.
+///
+/// ```
+/// use std::ops::ControlFlow::{Break, Continue};
+///
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Error, Simulation};
+///
+/// let mut simulation = Simulation::builder(0.01)
+///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+///     .interface(Coulomb::new(0.4)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// let run = simulation.run(500, |state| {
+///     if state.uplifted_fraction > 0.2 { Break(()) } else { Continue(()) }
+/// })?;
+/// assert!(run.steps < 500);
+/// let refused = simulation.run(500, |_| Err::<(), _>(Error::part("observer", "has seen enough")));
+/// assert!(refused.is_err());
+/// # Ok::<(), Error>(())
+/// ```
+pub trait Observed {
+    /// Whether the run goes on.
     ///
     /// # Errors
-    /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the
-    /// structure cannot save its state.
-    ///
-    /// ```
-    /// use basemat::bem::SpringGround;
-    /// use basemat::coupled::Checkpoint;
-    /// use basemat::interface::Coulomb;
-    /// use basemat::motion::el_centro_1940;
-    /// use basemat::structure::RigidBlock;
-    /// use basemat::Simulation;
-    ///
-    /// let scene = || {
-    ///     Simulation::builder(0.01)
-    ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
-    ///         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
-    ///         .interface(Coulomb::new(0.4)?)
-    ///         .motion(el_centro_1940())
-    ///         .gravity(9.81)
-    ///         .build()
-    /// };
-    /// let mut simulation = scene()?;
-    /// simulation.run(200, |_| {})?;
-    /// let saved: Checkpoint = simulation.checkpoint()?;
-    /// simulation.run(100, |_| {})?;
-    ///
-    /// let mut other = scene()?;
-    /// other.resume(&saved)?;
-    /// assert_eq!(other.state().step, 200);
-    /// other.run(100, |_| {})?;
-    /// assert_eq!(other.state(), simulation.state());
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    pub fn checkpoint(&self) -> Result<Checkpoint> {
-        let (structure, ground) = (self.structure.as_ref(), self.ground.as_ref());
-        let (operators, books) = (self.solver.operators(), self.books.as_ref());
-        checkpoint::save(&self.scene, structure, ground, operators, &self.state, books)
-    }
+    /// The observer's own.
+    fn flow(self) -> Result<ControlFlow<()>>;
+}
 
-    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
-    /// wherever this one is; what follows is the same to the last bit on the same processor.
-    ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, initial and ground motion,
-    /// gravity and laws are not, nor what a user's structure leaves out of what it [saves][`save`]. The transitions,
-    /// trials and method of the step before the checkpoint are not kept.
-    ///
-    /// # Errors
-    /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
-    /// numbers missing or not finite. The simulation is then as it was.
-    ///
-    /// [`save`]: crate::structure::NonlinearForce::save
-    pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
-        let Self { scene, structure, ground, solver, .. } = self;
-        let (structure, ground) = (structure.as_mut(), ground.as_mut());
-        let own = (&self.state, self.books.as_ref());
-        let restored =
-            checkpoint::restore(checkpoint, scene, structure, ground, solver.operators(), own)?;
-        (self.state, self.books) = restored;
-        Ok(())
+impl Observed for () {
+    fn flow(self) -> Result<ControlFlow<()>> {
+        Ok(ControlFlow::Continue(()))
     }
 }
 
-// Which time step gets a scene through, when a longer one has steps without solution.
-
-/// Halvings that are tried.
-const HALVINGS: usize = 10;
-
-/// The longest step, `time_step` (s) or that halved once or more, with which the simulation that
-/// `make` builds runs for `duration` (s) without [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`];
-/// `None` if the tenth halving fails, too.
-///
-/// A simulation cannot change its step: the soil's coefficients and its memory belong to one. So
-/// this runs whole simulations, each twice as long as the one before. Give the time of the failed step
-/// as `duration`.
-///
-/// ```
-/// use basemat::bem::{ElasticGround, Grading, Strip};
-/// use basemat::coupled::largest_convergent_step;
-/// use basemat::interface::ThinLayer;
-/// use basemat::motion::el_centro_1940;
-/// use basemat::structure::RigidBlock;
-/// use basemat::{Simulation, Soil};
-///
-/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper, in steps
-/// // in which waves cross five elements.
-/// let make = |step: f64| {
-///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
-///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
-///     Simulation::builder(step)
-///         .ground(ElasticGround::new(soil, Strip::under(&block, 10, Grading::Uniform)?)?)
-///         .structure(block)
-///         .interface(ThinLayer::new(soil, 1.0, 0.4)?.with_thickness_ratio(1e-3)?)
-///         .motion(el_centro_1940().scaled(3.0)?)
-///         .build()
-/// };
-/// let step = largest_convergent_step(0.0125, 5.0, make)?;
-/// assert!(step.is_some_and(|step| step <= 0.0125));
-/// # Ok::<(), basemat::Error>(())
-/// ```
-///
-/// # Errors
-/// Those of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is
-/// finite and above zero and `duration` finite and not negative.
-pub fn largest_convergent_step(
-    time_step: f64,
-    duration: f64,
-    mut make: impl FnMut(f64) -> Result<Simulation>,
-) -> Result<Option<f64>> {
-    let mut step = positive("time step", time_step)?;
-    not_negative("duration", duration)?;
-    for _ in 0..=HALVINGS {
-        let mut simulation = make(step)?;
-        match simulation.run(simulation.steps_for(duration), |_| {}) {
-            Ok(_) => return Ok(Some(step)),
-            Err(Error::Step {
-                source:
-                    StepError::Contact { .. } | StepError::Cone { .. } | StepError::Newton { .. },
-                ..
-            }) => step *= 0.5,
-            Err(other) => return Err(other),
-        }
+impl Observed for ControlFlow<()> {
+    fn flow(self) -> Result<ControlFlow<()>> {
+        Ok(self)
     }
-    Ok(None)
+}
+
+impl<T: Observed> Observed for std::result::Result<T, Error> {
+    fn flow(self) -> Result<ControlFlow<()>> {
+        self.and_then(Observed::flow)
+    }
 }

@@ -1,5 +1,6 @@
-//! The state after a step.
+//! The state after a step, and a sequence of states.
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -7,9 +8,11 @@ use super::energy_balance::EnergyBalance;
 use super::foundation::Foundation;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
-use crate::error::{Error, Result};
+use crate::coupled::probe_index;
+use crate::error::Result;
 use crate::geometry::{Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
+use crate::structure::probe::Probe;
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,15 +47,12 @@ impl Transition {
 /// Data of the simulation that results of a state need; two states are compared without them.
 #[derive(Debug)]
 pub(crate) struct Context {
-    /// Names of the probes.
-    pub(crate) probes: Vec<String>,
+    pub(crate) probes: Vec<Probe>,
     pub(crate) elements: Patch,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
     /// Shape of each foundation.
     pub(crate) footings: Vec<Footing>,
-    /// Middle of each foundation from the point of the base moment, m.
-    pub(crate) arms: Vec<[f64; 2]>,
 }
 
 impl PartialEq for Context {
@@ -133,7 +133,7 @@ pub struct State {
     pub method: SearchMethod,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) origin: Origin,
-    /// Names of the probes, shared by all states of a simulation.
+    /// Shared by all states of a simulation.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) context: Arc<Context>,
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -198,10 +198,10 @@ impl State {
     /// # Errors
     /// [`Error::Name`] if there is none.
     pub fn probe(&self, name: &str) -> Result<f64> {
-        let place = self.context.probes.iter().position(|own| own == name);
         // The list of values is public: it may have been cut.
-        let value = place.and_then(|place| self.probes.get(place));
-        value.copied().ok_or_else(|| Error::no_name("probe", name, self.context.probes.iter()))
+        let known = &self.context.probes;
+        let known = &known[..known.len().min(self.probes.len())];
+        probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
     }
 
     /// The numbers that the law of an element remembers
@@ -210,9 +210,71 @@ impl State {
     pub fn state_variables(&self, element: usize) -> &[f64] {
         if element < self.start.len() { self.start.memory_of(element) } else { &[] }
     }
+}
 
-    /// Largest |slip| of any element, m.
-    pub fn largest_slip(&self) -> f64 {
-        self.contact.iter().fold(0.0, |m, c| m.max(c.slip.hypot(c.slip_across)))
+// States that follow one another.
+
+/// The states of one simulation, each later than the one before.
+#[derive(Debug, Clone)]
+pub(crate) struct Sequence {
+    origin: Origin,
+    elements: usize,
+    probes: usize,
+    foundations: Vec<Range<usize>>,
+    end: f64,
+}
+
+impl Sequence {
+    /// Beginning with `state`.
+    pub(crate) fn new(state: &State) -> Self {
+        Self {
+            origin: state.origin,
+            elements: state.contact.len(),
+            probes: state.probes.len(),
+            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
+            end: state.time,
+        }
+    }
+
+    /// One that takes no state: that of a run read from a file.
+    #[cfg(feature = "serde")]
+    pub(crate) fn closed() -> Self {
+        Self::ended(f64::INFINITY)
+    }
+
+    /// One that takes no state, whose last one was at `end`, s.
+    #[cfg(feature = "serde")]
+    pub(crate) fn ended(end: f64) -> Self {
+        let (elements, probes, foundations) = (0, 0, Vec::new());
+        Self { origin: Origin::new(), elements, probes, foundations, end }
+    }
+
+    /// Writes the time of the last state alone.
+    #[cfg(feature = "serde")]
+    pub(crate) fn write_end<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> std::result::Result<S::Ok, S::Error> {
+        to.serialize_f64(self.end)
+    }
+
+    /// Whether `state` is of the same simulation and later; it is the last one then.
+    pub(crate) fn takes(&mut self, state: &State) -> bool {
+        // Its fields are public: somebody may have changed them.
+        let takes = state.origin.is(self.origin)
+            && state.contact.len() == self.elements
+            && state.modes.len() == self.elements
+            && state.probes.len() == self.probes
+            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
+            && state.time > self.end;
+        if takes {
+            self.end = state.time;
+        }
+        takes
+    }
+
+    /// Time of the last state, s.
+    pub(crate) fn end(&self) -> f64 {
+        self.end
     }
 }

@@ -192,13 +192,13 @@ impl Warning {
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }
-        let uncovered = scene.base.uncovered(&scene.elements).into_iter();
+        let uncovered = scene.base.uncovered().into_iter();
         warnings.extend(uncovered.map(|(foundation, axis, reach)| Self::UncoveredBase {
             foundation,
             reach,
             axis,
         }));
-        if motion.moves_across() && !scene.elements.is_plan() {
+        if motion.moves_across() && !scene.layout().is_plan() {
             warnings.push(Self::MotionAcross);
         }
         if let Some(taken) = scene.static_state.stand_in {

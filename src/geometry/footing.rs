@@ -39,7 +39,7 @@ impl Edge {
 pub(crate) struct Footing {
     /// Left and right end, front and back end, m; no depth in the plane.
     pub(crate) ends: [[f64; 2]; 2],
-    /// The middle, from which lever arms are measured, m.
+    /// Middle of the foundation from the point of the base moment, m.
     pub(crate) center: [f64; 2],
     /// Middle of each element from that of the foundation, m.
     pub(crate) arms: Vec<[f64; 2]>,
@@ -48,8 +48,14 @@ pub(crate) struct Footing {
 }
 
 impl Footing {
-    /// Of these elements, with the corners of the convex outline, counter-clockwise; none in the plane.
-    pub(crate) fn new(patch: &Patch, elements: Range<usize>, outline: &[[f64; 2]]) -> Self {
+    /// Of these elements, with the corners of the convex outline, counter-clockwise; none in the plane. `origin` is the
+    /// point of the base moment.
+    pub(crate) fn new(
+        patch: &Patch,
+        elements: Range<usize>,
+        outline: &[[f64; 2]],
+        origin: [f64; 2],
+    ) -> Self {
         let (ends, center, edges);
         if outline.is_empty() {
             let along = elements.clone().map(|e| [patch[e].left, patch[e].right]);
@@ -75,7 +81,9 @@ impl Footing {
             let place = patch.middle(e);
             [0, 1].map(|axis| place[axis] - center[axis])
         });
-        Self { ends, center, arms: arms.collect(), edges }
+        let arms = arms.collect();
+        let center = [0, 1].map(|axis| center[axis] - origin[axis]);
+        Self { ends, center, arms, edges }
     }
 }
 

@@ -69,26 +69,17 @@ impl Coulomb {
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.
     pub fn new(friction: f64) -> Result<Self> {
         check_friction(friction)?;
-        Ok(Self { friction, tensile_strength: 0.0, condition: UnilateralCondition::Position })
+        Ok(Self { friction, ..Self::frictionless() })
     }
 
     /// Law that opens but never slides (infinite friction).
     pub fn uplift_only() -> Self {
-        Self {
-            friction: f64::INFINITY,
-            tensile_strength: 0.0,
-            condition: UnilateralCondition::Position,
-        }
+        Self { friction: f64::INFINITY, ..Self::frictionless() }
     }
 
     /// Law without friction.
     pub(super) fn frictionless() -> Self {
         Self { friction: 0.0, tensile_strength: 0.0, condition: UnilateralCondition::Position }
-    }
-
-    /// This law with another coefficient, unchecked.
-    pub(super) fn with_coefficient(self, friction: f64) -> Self {
-        Self { friction, ..self }
     }
 
     /// Adds a tensile strength (Pa), which holds an element until it first opens; friction is then limited by friction
@@ -291,7 +282,7 @@ impl VariableFriction {
 
     /// The law of the step.
     fn at(&self, start: &PreviousContact) -> Coulomb {
-        self.contact.with_coefficient((self.coefficient)(start))
+        Coulomb { friction: (self.coefficient)(start), ..self.contact }
     }
 }
 

@@ -21,7 +21,7 @@ pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use yielding::Yielding;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require_part, same_length};
 
 /// Opening and **total** traction (static part included) of one contact element, as means over it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -196,6 +196,15 @@ pub struct ContactScene {
     pub gravity: f64,
     /// Time step, s.
     pub time_step: f64,
+}
+
+/// Refuses laws that are neither one nor one for each of `count` elements, and a law without modes.
+pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<()> {
+    if laws.len() != 1 {
+        same_length("list of interface laws", laws.len(), count)?;
+    }
+    let named = laws.iter().all(|law| !law.modes().is_empty());
+    require_part("interface law", named, "`modes` must name at least one mode")
 }
 
 /// The law of `element` from a list of one law for all, or one each.

@@ -27,7 +27,7 @@ pub struct PreviousContact<'a> {
     pub memory: &'a [f64],
 }
 
-impl PreviousContact<'_> {
+impl<'a> PreviousContact<'a> {
     /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
     /// simulation: it has opened if it is open, its slip rate is zero, its static pressure that
     /// of `state`, and its memory empty. All fields can then be set.
@@ -64,11 +64,19 @@ impl PreviousContact<'_> {
         memory
     }
 
+    fn without_memory(&self) -> PreviousContact<'static> {
+        let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = *self;
+        let memory = &[];
+        PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+    }
+
     /// This contact with other state variables: for a law made of others, each of which owns a part of them.
     #[must_use]
-    pub(crate) fn with_memory(self, memory: &[f64]) -> PreviousContact<'_> {
-        let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = self;
-        PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+    pub(crate) fn with_memory<'b>(self, memory: &'b [f64]) -> PreviousContact<'b>
+    where
+        'a: 'b,
+    {
+        PreviousContact { memory, ..self }
     }
 }
 
@@ -81,22 +89,12 @@ impl PreviousContact<'_> {
 /// moves it on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreviousContacts {
-    time_step: f64,
-    past: Vec<Past>,
+    /// Past of each element, without its memory.
+    past: Vec<PreviousContact<'static>>,
     /// The memories of all elements, one after the other.
     memory: Vec<f64>,
     /// Ends of the state variables of each element; empty if no law has any.
     ends: Vec<usize>,
-}
-
-/// A [`PreviousContact`] without the fields that elements share or seldom have.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Past {
-    state: ContactState,
-    mode: Mode,
-    has_opened: bool,
-    slip_rate: f64,
-    static_pressure: f64,
 }
 
 /// Ends of the state variables of each element; empty if no law has any.
@@ -123,15 +121,9 @@ impl PreviousContacts {
         elements: &[PreviousContact<'_>],
     ) -> Result<Self> {
         let ends = memory_ends(laws, elements.len())?;
-        let time_step = elements.first().map_or(1.0, |start| start.time_step);
-        let past = |start: &PreviousContact<'_>| {
-            let PreviousContact { state, mode, has_opened, slip_rate, static_pressure, .. } =
-                *start;
-            Past { state, mode, has_opened, slip_rate, static_pressure }
-        };
-        let past = elements.iter().map(past).collect();
+        let past = elements.iter().map(PreviousContact::without_memory).collect();
         let memory = vec![0.0; ends.last().copied().unwrap_or(0)];
-        let mut starts = Self { time_step, past, memory, ends };
+        let mut starts = Self { past, memory, ends };
         for (e, start) in elements.iter().enumerate() {
             let range = starts.memory_range(e);
             if start.memory.is_empty() && !range.is_empty() {
@@ -161,16 +153,13 @@ impl PreviousContacts {
 
     /// Length of the step to come, s.
     pub(crate) fn time_step(&self) -> f64 {
-        self.time_step
+        self.past.first().map_or(1.0, |start| start.time_step)
     }
 
     /// The start of an element that is there.
     #[inline]
     pub(crate) fn of(&self, element: usize) -> PreviousContact<'_> {
-        let Past { state, mode, has_opened, slip_rate, static_pressure } = self.past[element];
-        let memory = self.memory_of(element);
-        let time_step = self.time_step;
-        PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+        self.past[element].with_memory(self.memory_of(element))
     }
 
     /// Opening and traction of an element at the end of the step before.
@@ -214,7 +203,7 @@ impl PreviousContacts {
 
     /// Sets where an element is, its mode, and whether it has been open.
     pub(crate) fn restore(&mut self, e: usize, state: ContactState, mode: Mode, has_opened: bool) {
-        self.past[e] = Past { state, mode, has_opened, ..self.past[e] };
+        self.past[e] = PreviousContact { state, mode, has_opened, ..self.past[e] };
     }
 
     /// Has the laws commit the step that ends in `states` and `modes` to `memory`, which has the
@@ -247,7 +236,7 @@ impl PreviousContacts {
             let along = state.slip - past.state.slip;
             let across = state.slip_across - past.state.slip_across;
             let in_plan = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
-            past.slip_rate = if in_plan { along.hypot(across) } else { along } / self.time_step;
+            past.slip_rate = if in_plan { along.hypot(across) } else { along } / past.time_step;
             past.has_opened |= !mode.is_closed();
             (past.state, past.mode) = (*state, *mode);
         }

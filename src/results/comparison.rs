@@ -24,7 +24,8 @@ use crate::text::table::Table;
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Comparison {
-    cases: Vec<(String, Run)>,
+    /// Name and run of each case.
+    pub cases: Vec<(String, Run)>,
 }
 
 /// Value of a run; none where a run does not have it.
@@ -131,19 +132,9 @@ fn lines(of: &[bool]) -> Vec<Line> {
 }
 
 impl Comparison {
-    /// Comparison without cases.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// Adds a case.
     pub fn add(&mut self, name: impl Into<String>, run: Run) {
         self.cases.push((name.into(), run));
-    }
-
-    /// The cases, in the order they were added.
-    pub fn cases(&self) -> &[(String, Run)] {
-        &self.cases
     }
 
     /// The rows of its cases.
@@ -216,7 +207,7 @@ impl Comparison {
 
 impl<S: Into<String>> FromIterator<(S, Run)> for Comparison {
     fn from_iter<I: IntoIterator<Item = (S, Run)>>(cases: I) -> Self {
-        let mut comparison = Self::new();
+        let mut comparison = Self::default();
         comparison.extend(cases);
         comparison
     }

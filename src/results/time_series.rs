@@ -3,8 +3,7 @@
 use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
-use crate::coupled::run::base::Sequence;
-use crate::coupled::{EnergyBalance, Probe, State, probe_index};
+use crate::coupled::{EnergyBalance, Probe, Sequence, State, probe_index};
 use crate::error::{Result, require};
 use crate::interface::{ContactState, Mode};
 

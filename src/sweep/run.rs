@@ -180,19 +180,9 @@ impl<'a> Sweep<'a> {
         });
     }
 
-    /// [`Sweep::run`] for `cases` alone, until `sink` breaks: cases that are running then come to it
-    /// as well, no others are begun.
-    pub(super) fn run_some<T: Send, E: Send>(
-        &self,
-        cases: &[usize],
-        run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
-        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) -> ControlFlow<()> + Send,
-    ) {
-        self.run_each(cases.len(), &|place| cases[place], run, sink);
-    }
-
-    /// Runs `count` cases, whose numbers `number` gives.
-    fn run_each<T: Send, E: Send>(
+    /// [`Sweep::run`] for `count` cases, whose numbers `number` gives, until `sink` breaks: cases that are running then
+    /// come to it as well, no others are begun.
+    pub(super) fn run_each<T: Send, E: Send>(
         &self,
         count: usize,
         number: &(dyn Fn(usize) -> usize + Sync),

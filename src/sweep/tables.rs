@@ -103,7 +103,7 @@ impl Sweep<'_> {
             };
             let mut file = open().map_err(unwritten(&part))?;
             let mut fault = None;
-            self.run_some(&left, run, |case, result| {
+            self.run_each(left.len(), &|place| left[place], run, |case, result| {
                 let row = row(case, result);
                 // After a failed write nothing more is written, so that only the last line can be
                 // incomplete.

@@ -162,7 +162,7 @@ fn runs_and_histories_are_saved() -> Result<()> {
     let _ = std::fs::remove_dir_all(&folder);
     histories.csv().save(folder.join("run.csv"))?;
     assert_eq!(std::fs::read_to_string(folder.join("run.csv")).unwrap(), *histories.csv());
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     comparison.add("only", run);
     comparison.csv().save(folder.join("cases.csv"))?;
     assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), *comparison.csv());

@@ -29,7 +29,7 @@ fn told(run: Run) -> String {
         run.whole.sliding.clone(),
         run.whole.uplift,
     );
-    let mut table = Comparison::new();
+    let mut table = Comparison::default();
     table.add("run", run);
     format!("{page}\n{fields:?}\n{parts:?}\n{}", table.csv())
 }

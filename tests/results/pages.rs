@@ -26,7 +26,7 @@ fn probes_come_with_their_unit() {
     let mut simulation = build().build().unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
     let run = simulation.run(STEPS, |state| histories.record(state)).unwrap();
-    let (page, mut table) = (run.to_string(), Comparison::new());
+    let (page, mut table) = (run.to_string(), Comparison::default());
     table.extend([("a", run.clone())]);
     let table_page = table.to_string();
     let labels = [
@@ -74,7 +74,7 @@ fn cases_with_other_probes_or_units_have_no_common_rows() {
     };
     let tilt = || Probe::displacement("tilt", RigidBlock::ROTATION);
     let same: Comparison = ["a", "b"].map(|name| (name, run(tilt()))).into_iter().collect();
-    assert_eq!((same.cases().len(), same.csv().lines().count()), (2, 3));
+    assert_eq!((same.cases.len(), same.csv().lines().count()), (2, 3));
     assert!(same.to_string().contains("tilt"));
     let mixed = [("a", run(tilt())), ("b", run(tilt().in_unit("rad")))];
     let mixed: Comparison = mixed.into_iter().collect();
@@ -99,7 +99,7 @@ fn pages_and_tables() {
     // No line too wide for a page.
     assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
 
-    let mut comparison = Comparison::new();
+    let mut comparison = Comparison::default();
     comparison.add("first, \"a\"", run.clone());
     comparison.add("second", run.clone());
     println!("{comparison}");
@@ -117,8 +117,8 @@ fn pages_and_tables() {
     let markdown = comparison.markdown();
     assert!(markdown.lines().all(|line| line.matches('|').count() == 5), "{markdown}");
     // Nothing to compare is a table, too.
-    assert!(Comparison::new().to_string().contains("base shear"));
-    assert_eq!(Comparison::new().csv().lines().count(), 1);
+    assert!(Comparison::default().to_string().contains("base shear"));
+    assert_eq!(Comparison::default().csv().lines().count(), 1);
 
     let text = histories.csv();
     assert_eq!(text.lines().count(), STEPS + 2);

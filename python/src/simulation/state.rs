@@ -84,7 +84,7 @@ members! {
     /// Slip averaged over the base, m.
     mean_slip: f64 = own.0.mean_slip;
     /// Largest |slip| of any element, m.
-    largest_slip: f64 = own.0.largest_slip();
+    largest_slip: f64 = own.0.value(basemat::results::Quantity::LargestSlip);
     /// Rotation of the base, counter-clockwise, rad.
     base_rotation: f64 = own.0.base_rotation;
     /// Mean displacement (to the right, up) of the free field under the base, m.

@@ -25,7 +25,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-use super::method::SearchMethod;
+use super::SearchMethod;
 use super::problem::{ContactInput, ContactSolver};
 use crate::error::{LawError, StepError};
 use crate::geometry::{ContactLayout, SPACE};

@@ -3,7 +3,7 @@
 use super::newton::Newton;
 use super::problem::{Problem, STAND_IN};
 use super::proximal::Proximal;
-use crate::contact::method::SearchMethod;
+use crate::contact::SearchMethod;
 
 /// Most sweeps of a round.
 const SWEEPS: usize = 60;

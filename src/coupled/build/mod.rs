@@ -35,34 +35,14 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
-use parts::{Coordinates, Given, GravityStage, Parts};
+pub use parts::SimulationBuilder;
+use parts::{Coordinates, GravityStage, Parts};
 use stepped::Stepped;
-
-/// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
-/// defaults (no motion, standard gravity, midpoint rule, no probes).
-pub struct SimulationBuilder {
-    structure: Option<Box<dyn Structure>>,
-    ground: Option<Box<dyn Ground>>,
-    given: Given,
-}
-
-short_debug! {
-    SimulationBuilder;
-    self;
-    time_step: self.given.time_step,
-    structure: self.structure.is_some(),
-    ground: self.ground.is_some(),
-    laws: self.given.laws.len(),
-    gravity: self.given.gravity,
-    gravity_stage: self.given.gravity_stage,
-    search: self.given.search,
-    coordinates: self.given.coordinates,
-}
 
 impl Simulation {
     /// Begins a simulation with steps of `time_step` seconds.
     pub fn builder(time_step: f64) -> SimulationBuilder {
-        SimulationBuilder { structure: None, ground: None, given: Given::new(time_step) }
+        SimulationBuilder::new(time_step)
     }
 }
 
@@ -85,35 +65,35 @@ impl SimulationBuilder {
     /// One interface law for all elements.
     #[must_use]
     pub fn interface(mut self, law: impl InterfaceLaw + 'static) -> Self {
-        self.given.laws = vec![Box::new(law)];
+        self.laws = vec![Box::new(law)];
         self
     }
 
     /// An interface law for each element, from left to right.
     #[must_use]
     pub fn interfaces(mut self, laws: Vec<Box<dyn InterfaceLaw>>) -> Self {
-        self.given.laws = laws;
+        self.laws = laws;
         self
     }
 
     /// The ground motion.
     #[must_use]
     pub fn motion(mut self, motion: impl FreeField + 'static) -> Self {
-        self.given.motion = Box::new(motion);
+        self.motion = Box::new(motion);
         self
     }
 
     /// The structure's time scheme; [`Midpoint`](crate::coupled::Midpoint) unless given.
     #[must_use]
     pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
-        self.given.scheme = Box::new(scheme);
+        self.scheme = Box::new(scheme);
         self
     }
 
     /// Search for the contact modes of a step.
     #[must_use]
     pub fn contact_search(mut self, search: ContactSearch) -> Self {
-        self.given.search = search;
+        self.search = search;
         self
     }
 
@@ -123,14 +103,14 @@ impl SimulationBuilder {
     /// sliding.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
-        self.given.gravity = gravity;
+        self.gravity = gravity;
         self
     }
 
     /// An external load, beside those given before and the structure's own.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
-        self.given.loads.push(load);
+        self.loads.push(load);
         self
     }
 
@@ -138,35 +118,35 @@ impl SimulationBuilder {
     /// [`GravityStage::Unloaded`], which shows one, and not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
-        self.given.displacement = displacement.into();
+        self.displacement = displacement.into();
         self
     }
 
     /// Velocity of the degrees of freedom at t = 0.
     #[must_use]
     pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
-        self.given.velocity = velocity.into();
+        self.velocity = velocity.into();
         self
     }
 
     /// Friction while the weight comes on.
     #[must_use]
     pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
-        self.given.gravity_stage = gravity_stage;
+        self.gravity_stage = gravity_stage;
         self
     }
 
     /// A quantity recorded at every step, see [`super::State::probes`]. Names must differ.
     #[must_use]
     pub fn probe(mut self, probe: Probe) -> Self {
-        self.given.probes.push(probe);
+        self.probes.push(probe);
         self
     }
 
     /// Adds probes.
     #[must_use]
     pub fn probes(mut self, probes: impl IntoIterator<Item = Probe>) -> Self {
-        self.given.probes.extend(probes);
+        self.probes.extend(probes);
         self
     }
 
@@ -174,7 +154,7 @@ impl SimulationBuilder {
     /// given, and along y always.
     #[must_use]
     pub fn moment_center(mut self, x: f64) -> Self {
-        self.given.moment_center = Some(x);
+        self.moment_center = Some(x);
         self
     }
 
@@ -183,21 +163,21 @@ impl SimulationBuilder {
     /// for that of the first run and for 4 000).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.given.steps = steps;
+        self.steps = steps;
         self
     }
 
     /// Coordinates in which a linear structure is stepped; [`Coordinates::Auto`] unless given.
     #[must_use]
     pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
-        self.given.coordinates = coordinates;
+        self.coordinates = coordinates;
         self
     }
 
     /// Keeps no energy balance: its terms and its residual are then NaN, and a step takes less time.
     #[must_use]
     pub fn without_energy_balance(mut self) -> Self {
-        self.given.energy_balance = false;
+        self.energy_balance = false;
         self
     }
 
@@ -206,7 +186,7 @@ impl SimulationBuilder {
     /// which has none. They change nothing else.
     #[must_use]
     pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
-        self.given.safety_friction = coefficients.into();
+        self.safety_friction = coefficients.into();
         self
     }
 
@@ -214,7 +194,7 @@ impl SimulationBuilder {
     /// held against; none unless given. They change nothing else.
     #[must_use]
     pub fn serviceability(mut self, limits: Serviceability) -> Self {
-        self.given.serviceability = limits;
+        self.serviceability = limits;
         self
     }
 
@@ -245,7 +225,7 @@ impl SimulationBuilder {
     }
 
     fn built(self, observer: Option<&mut Observer<'_>>) -> Result<Simulation> {
-        let mut parts = Parts::new(self.structure, self.ground, self.given, observer)?;
+        let mut parts = Parts::new(self, observer)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
         let at_rest = statics::solve(&mut parts, &assembled)?;
         let joined = supports::joined_by_force(

@@ -12,7 +12,9 @@ use crate::error::{
     require_part, same_length,
 };
 use crate::geometry::Patch;
-use crate::interface::{ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact};
+use crate::interface::{
+    ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, check_list,
+};
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
@@ -71,8 +73,11 @@ words! { pub(crate) GravityStage, "gravity stage", {
     Unloaded = "unloaded",
 } }
 
-/// Settings and parts given to a builder beside structure and ground.
-pub(crate) struct Given {
+/// Parts of a [`Simulation`](crate::Simulation): a structure, a ground and an interface law are needed, the rest has
+/// defaults (no motion, standard gravity, midpoint rule, no probes).
+pub struct SimulationBuilder {
+    pub(super) structure: Option<Box<dyn Structure>>,
+    pub(super) ground: Option<Box<dyn Ground>>,
     pub(crate) time_step: f64,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
     pub(crate) motion: Box<dyn FreeField>,
@@ -94,10 +99,25 @@ pub(crate) struct Given {
     pub(crate) serviceability: Serviceability,
 }
 
-impl Given {
+short_debug! {
+    SimulationBuilder;
+    self;
+    time_step: self.time_step,
+    structure: self.structure.is_some(),
+    ground: self.ground.is_some(),
+    laws: self.laws.len(),
+    gravity: self.gravity,
+    gravity_stage: self.gravity_stage,
+    search: self.search,
+    coordinates: self.coordinates,
+}
+
+impl SimulationBuilder {
     /// Settings with this time step, all others default.
     pub(super) fn new(time_step: f64) -> Self {
         Self {
+            structure: None,
+            ground: None,
             time_step,
             laws: Vec::new(),
             motion: Box::new(AtRest),
@@ -123,11 +143,6 @@ impl Given {
         self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
     }
 
-    /// Gravity as the laws may count on it at the start: zero where nothing presses.
-    pub(crate) fn static_gravity(&self) -> f64 {
-        if self.is_static() { self.gravity } else { 0.0 }
-    }
-
     /// Whether weight acts as a load from t = 0 on.
     pub(crate) fn falls(&self) -> bool {
         self.gravity > 0.0 && self.gravity_stage == GravityStage::Unloaded
@@ -139,7 +154,8 @@ pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
     /// Ready for steps.
     pub(crate) ground: Box<dyn Ground>,
-    pub(crate) given: Given,
+    /// Its structure and ground have gone to the fields above.
+    pub(crate) given: SimulationBuilder,
     pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
     /// Instantaneous operator of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
@@ -153,9 +169,7 @@ pub(crate) struct Parts {
 impl Parts {
     /// Checks what was given, each part by itself, and makes the ground ready for steps.
     pub(super) fn new(
-        structure: Option<Box<dyn Structure>>,
-        ground: Option<Box<dyn Ground>>,
-        mut given: Given,
+        mut given: SimulationBuilder,
         observer: Option<&mut Observer<'_>>,
     ) -> Result<Self> {
         let time_step = positive("time step", given.time_step)?;
@@ -163,14 +177,19 @@ impl Parts {
         not_negative("gravity", given.gravity)?;
         given.serviceability = given.serviceability.checked()?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
-        let mut structure =
-            structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let mut structure = given
+            .structure
+            .take()
+            .ok_or(missing("structure", "give one to the builder with `structure`"))?;
         is_nonlinear(structure.as_mut())?;
-        let mut ground =
-            ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        let mut ground = given
+            .ground
+            .take()
+            .ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = patch(ground.as_ref())?;
         let (layout, count) = (elements.layout(), elements.len());
-        let gravity = given.static_gravity();
+        // The laws may count on gravity only where something presses at the start.
+        let gravity = if given.is_static() { given.gravity } else { 0.0 };
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         if elements.is_plan() {
             check_limits(&given)?;
@@ -207,7 +226,7 @@ impl Parts {
 }
 
 /// Refuses loads and motions of other degrees of freedom than the structure's, and numbers that are not finite.
-fn check_motion(given: &Given, dofs: usize) -> Result<()> {
+fn check_motion(given: &SimulationBuilder, dofs: usize) -> Result<()> {
     let mut loads = given.loads.iter().enumerate();
     loads.try_for_each(|(index, load)| load.check(index, dofs))?;
     for (values, quantity) in
@@ -269,24 +288,16 @@ fn check_laws(
     scene: &ContactScene,
     count: usize,
 ) -> Result<()> {
-    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
-    if laws.is_empty() {
-        return refuse("interface law", "give one to the builder with `interface`");
-    }
-    if laws.len() != 1 {
-        same_length("list of interface laws", laws.len(), count)?;
-    }
-    if laws.iter().any(|law| law.modes().is_empty()) {
-        return refuse("interface law", "`modes` must name at least one mode");
-    }
-    if search == (ContactSearch::FlowChart { iterations: 0 }) {
-        return refuse("contact search", "the flow chart needs one iteration or more");
-    }
+    let needed = "give one to the builder with `interface`";
+    require_part("interface law", !laws.is_empty(), needed)?;
+    check_list(laws, count)?;
+    let iterates = search != ContactSearch::FlowChart { iterations: 0 };
+    require_part("contact search", iterates, "the flow chart needs one iteration or more")?;
     laws.iter().try_for_each(|law| law.check(scene))
 }
 
 /// Refuses laws without limits on a ground in plan, and the search of the plane.
-fn check_limits(given: &Given) -> Result<()> {
+fn check_limits(given: &SimulationBuilder) -> Result<()> {
     let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
     require_part("contact search", given.search == ContactSearch::Robust, needed)?;
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, given.time_step);

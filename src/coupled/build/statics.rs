@@ -2,7 +2,7 @@
 
 use super::assembled::Assembled;
 use super::equilibrium::{Standing, StaticState};
-use super::parts::{Given, GravityStage, Parts};
+use super::parts::{GravityStage, Parts, SimulationBuilder};
 use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
@@ -159,13 +159,13 @@ const CLOSED: f64 = 1e-12;
 /// Sets `state`, which is at rest, and the structure's internal variables in motion; `mass` is that of
 /// the degrees of freedom.
 pub(super) fn set_in_motion(
-    given: &Given,
+    given: &SimulationBuilder,
     mass: &SparseMatrix,
     scene: &Scene,
     structure: &mut dyn Structure,
     state: &mut State,
 ) -> Result<()> {
-    let Given { displacement, velocity, .. } = given;
+    let SimulationBuilder { displacement, velocity, .. } = given;
     if displacement.is_empty() && velocity.is_empty() && !given.falls() {
         return Ok(());
     }
@@ -193,7 +193,7 @@ pub(super) fn set_in_motion(
 }
 
 /// Gaps, slips and modes of the displaced base.
-fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
+fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
     let layout = scene.layout();
     let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; layout.len()]);
     scene.base.means(&state.motion.displacement, &mut moved);

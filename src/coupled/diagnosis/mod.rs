@@ -129,7 +129,7 @@ fn resultants(
             };
             return broken(pulls, error);
         }
-        let all_middles = part.elements().iter().map(|&e| base.middle(e));
+        let all_middles = part.elements().iter().map(|&e| base.elements().middle(e));
         let passed = [0, 1].map(|axis| middles[axis] + eccentricities[axis]);
         let slack = half_widths.map(|half| 1e-9 * half);
         let mut axes = base.layout().axes();

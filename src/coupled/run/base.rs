@@ -1,13 +1,95 @@
-//! The base over a run: distance slid and slip events, uplift, extremes of its elements, the sequence of states.
+//! The base after a step, as a whole or one foundation of it, and over a run: distance slid and slip events, uplift,
+//! extremes of its elements.
 
 use std::ops::Range;
 
 use super::Extremes;
 use super::peak::resultant;
 use crate::bem::ContactElement;
-use crate::coupled::{Origin, Peak, State, Warning};
-use crate::geometry::Patch;
+use crate::coupled::foundation::Safety;
+use crate::coupled::{Foundation, Peak, State, Warning};
+use crate::geometry::{Patch, far_ends};
 use crate::interface::{ContactState, Mode};
+
+/// The base as a whole, or the foundation of this number.
+#[derive(Clone, Copy)]
+pub(super) struct Base<'a> {
+    pub(super) state: &'a State,
+    pub(super) foundation: Option<usize>,
+}
+
+impl<'a> Base<'a> {
+    fn own(&self) -> Option<&'a Foundation> {
+        self.foundation.map(|k| &self.state.foundations[k])
+    }
+
+    /// Value of the whole base, or that of the foundation.
+    pub(super) fn pick(&self, whole: f64, own: fn(&Foundation) -> f64) -> f64 {
+        self.own().map_or(whole, own)
+    }
+
+    /// Sum over all foundations, each with its middle from the point of the base moment; or the foundation's own.
+    pub(super) fn sum(&self, value: impl Fn(&Foundation, [f64; 2]) -> f64) -> f64 {
+        let each = || self.state.foundations.iter().zip(&self.state.context.footings);
+        match self.own() {
+            Some(own) => value(own, [0.0; 2]),
+            None => each().fold(0.0, |sum, (own, footing)| sum + value(own, footing.center)),
+        }
+    }
+
+    /// The largest of all foundations, or the foundation's own.
+    pub(super) fn largest(&self, value: fn(&Foundation) -> f64) -> f64 {
+        let larger = |far: f64, own: f64| if own.abs() > far.abs() { own } else { far };
+        let all = || self.state.foundations.iter().map(value).fold(0.0, larger);
+        self.own().map_or_else(all, value)
+    }
+
+    /// Mean over the area; zero of numbers that a state does not have.
+    pub(super) fn mean(&self, value: fn(&ContactState) -> f64) -> f64 {
+        let each = self.areas().iter().zip(self.contact());
+        let sums =
+            each.fold([0.0; 2], |[sum, all], (area, own)| [sum + area * value(own), all + area]);
+        if sums[0] == 0.0 { 0.0 } else { sums[0] / sums[1] }
+    }
+
+    pub(super) fn elements(&self) -> Range<usize> {
+        self.own().map_or(0..self.state.contact.len(), |own| own.elements.clone())
+    }
+
+    /// Contact of its elements. The lists of a state are public: they may have been cut.
+    pub(super) fn contact(&self) -> &'a [ContactState] {
+        self.state.contact.get(self.elements()).unwrap_or_default()
+    }
+
+    pub(super) fn modes(&self) -> &'a [Mode] {
+        self.state.modes.get(self.elements()).unwrap_or_default()
+    }
+
+    fn areas(&self) -> &'a [f64] {
+        self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
+    }
+
+    /// Left and right, front and back end: of its elements in the plane, of its outline in plan.
+    pub(super) fn ends(&self) -> [[f64; 2]; 2] {
+        let footings = &self.state.context.footings;
+        let own = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
+        let own = footings.get(own).unwrap_or_default();
+        [0, 1].map(|axis| far_ends(own.iter().map(|own| own.ends[axis])))
+    }
+
+    /// The least factor of safety of its foundations; NaN where none is known.
+    pub(super) fn least(&self, factor: fn(&Safety) -> f64) -> f64 {
+        let all = || self.state.foundations.iter().map(|own| factor(&own.safety));
+        self.own().map_or_else(|| all().fold(f64::NAN, f64::min), |own| factor(&own.safety))
+    }
+}
+
+/// Area of the open elements of a base.
+pub(super) fn open_area(base: &Base<'_>) -> f64 {
+    let open = base.areas().iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
+    // An empty sum would be a negative zero.
+    open.fold(0.0, |sum, (area, _)| sum + area)
+}
 
 /// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
 /// ones slide, and the mean slip does not turn round.
@@ -176,70 +258,6 @@ pub(super) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
         if !mode.is_closed() {
             envelope.open += step;
         }
-    }
-}
-
-// States that follow one another.
-
-/// The states of one simulation, each later than the one before.
-#[derive(Debug, Clone)]
-pub(crate) struct Sequence {
-    origin: Origin,
-    elements: usize,
-    probes: usize,
-    foundations: Vec<Range<usize>>,
-    end: f64,
-}
-
-impl Sequence {
-    /// Beginning with `state`.
-    pub(crate) fn new(state: &State) -> Self {
-        Self {
-            origin: state.origin,
-            elements: state.contact.len(),
-            probes: state.probes.len(),
-            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
-            end: state.time,
-        }
-    }
-
-    /// One that takes no state: that of a run read from a file.
-    #[cfg(feature = "serde")]
-    pub(crate) fn closed() -> Self {
-        Self::ended(f64::INFINITY)
-    }
-
-    /// One that takes no state, whose last one was at `end`, s.
-    #[cfg(feature = "serde")]
-    pub(crate) fn ended(end: f64) -> Self {
-        let (elements, probes, foundations) = (0, 0, Vec::new());
-        Self { origin: Origin::new(), elements, probes, foundations, end }
-    }
-
-    /// Writes the time of the last state alone.
-    #[cfg(feature = "serde")]
-    pub(crate) fn write_end<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_f64(self.end)
-    }
-
-    /// Whether `state` is of the same simulation and later; it is the last one then.
-    pub(crate) fn takes(&mut self, state: &State) -> bool {
-        // Its fields are public: somebody may have changed them.
-        let takes = state.origin.is(self.origin)
-            && state.contact.len() == self.elements
-            && state.modes.len() == self.elements
-            && state.probes.len() == self.probes
-            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
-            && state.time > self.end;
-        if takes {
-            self.end = state.time;
-        }
-        takes
-    }
-
-    /// Time of the last state, s.
-    pub(crate) fn end(&self) -> f64 {
-        self.end
     }
 }
 

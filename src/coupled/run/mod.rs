@@ -3,7 +3,6 @@
 use std::time::{Duration, Instant};
 
 pub(crate) mod base;
-mod footing;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
@@ -16,10 +15,11 @@ pub use serviceability::{Criterion, ServiceCheck, Serviceability};
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
-use crate::coupled::{EnergyBalance, Probe, Resolution, State, Warning, probe_index};
+use crate::coupled::{
+    Context, EnergyBalance, Probe, Resolution, Sequence, State, Warning, probe_index,
+};
 use crate::error::Result;
 use crate::motion::FreeField;
-use base::Sequence;
 
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::contact::SearchMethod).
@@ -118,15 +118,15 @@ pub(crate) fn clock() -> Option<Instant> {
 }
 
 impl Run {
-    /// Run before its first step, at `state`.
-    pub(crate) fn start(probes: &[Probe], state: &State, resolution: Resolution) -> Self {
+    /// Run before its first step, at `state`, which is held against `limits`.
+    pub(crate) fn start(state: &State, limits: &Serviceability, resolution: Resolution) -> Self {
         let time = state.time;
         let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {
             name: probe.name.clone(),
             unit: probe.unit.clone(),
             extremes: Extremes::of(value, time),
         };
-        let elements = &state.context.elements;
+        let Context { elements, probes, .. } = state.context.as_ref();
         Self {
             steps: 0,
             start: time,
@@ -136,7 +136,7 @@ impl Run {
             foundations: (0..state.foundations.len())
                 .map(|k| Summary::start(state, Some(k)))
                 .collect(),
-            serviceability: Vec::new(),
+            serviceability: limits.start(state),
             envelope: base::start(elements, state),
             mode_changes: 0,
             debondings: 0,
@@ -154,12 +154,6 @@ impl Run {
             least_algorithmic: state.energy_balance.algorithmic,
             begin: clock(),
         }
-    }
-
-    /// Held against `limits`, from `state` on.
-    pub(crate) fn with_limits(mut self, limits: &Serviceability, state: &State) -> Self {
-        self.serviceability = limits.start(state);
-        self
     }
 
     /// Takes in the next step; [`Simulation::run`](crate::Simulation::run) does it for every step.
@@ -253,7 +247,7 @@ impl Run {
     }
 
     /// Number of slip events, of several foundations those of each.
-    pub fn slip_events(&self) -> usize {
+    pub(crate) fn slip_events(&self) -> usize {
         self.foundations.iter().map(|own| own.sliding.events.len()).sum()
     }
 
@@ -280,11 +274,5 @@ impl Run {
     pub fn largest_gap(&self) -> Peak {
         let gaps = self.envelope.iter().map(|envelope| envelope.gap);
         gaps.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
-    }
-
-    /// Error bound of the energy balance's `soil` by an approximate history, J/m since the start; zero for
-    /// exact histories, NaN if no energy balance is kept. See [`EnergyBalance::soil_error_bound`].
-    pub(crate) fn history_error_bound(&self) -> f64 {
-        self.energy_balance.soil_error_bound
     }
 }

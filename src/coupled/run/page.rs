@@ -281,8 +281,9 @@ impl Run {
             "  energy balance open by at most {:.1e} of the largest energy",
             self.energy_error
         )?;
-        if self.history_error_bound() > 0.0 {
-            let bound = number(1e-3 * self.history_error_bound());
+        let bound = self.energy_balance.soil_error_bound;
+        if bound > 0.0 {
+            let bound = number(1e-3 * bound);
             write!(f, "\n  soil within {bound} {unit} (approximate history)")?;
         }
         Ok(())

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::footing::{Base, open_area};
+use super::base::{Base, open_area};
 use super::peak::resultant;
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Peak, State};

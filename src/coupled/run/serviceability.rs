@@ -115,13 +115,9 @@ pub struct Serviceability {
 
 validated! {
     Serviceability as ServiceabilityForm {
-        #[serde(default)]
         slip: Option<f64>,
-        #[serde(default)]
         gap: Option<f64>,
-        #[serde(default)]
         uplifted_fraction: Option<f64>,
-        #[serde(default)]
         rotation: Option<f64>,
     }
     => {

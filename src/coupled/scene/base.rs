@@ -2,15 +2,11 @@
 
 use std::ops::Range;
 
-use super::faces::{Faces, hull, mats};
-use super::line::{check_order, check_overlap, chord_rotation, mean_weights};
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
-use crate::error::{Error, Result, require};
+use crate::error::{Error, Result, at_least};
 use crate::geometry::{ContactLayout, Patch, axis_name, far_ends};
 use crate::linalg::dot;
-use crate::structure::{
-    DofCombination, FaceNode, Structure, base_nodes, check_base_nodes, foundation_nodes,
-};
+use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_base_nodes};
 
 /// B, which takes coordinates to element means of the base displacement (normal components down),
 /// and BᵀA, which takes tractions to forces on the coordinates: the structure's degrees of freedom, or those
@@ -23,20 +19,18 @@ pub(crate) struct Base {
     /// Component by component.
     rows: Rows,
     foundations: Vec<Outline>,
-    layout: ContactLayout,
-    areas: Vec<f64>,
-    middles: Vec<[f64; 2]>,
+    elements: Patch,
     nodes: Vec<FaceNode>,
 }
 
 /// One foundation: its nodes, its elements, and the rotation of its chord; in plan those about the other axes too, and
 /// the corners of its convex outline.
 #[derive(Debug, Clone)]
-struct Outline {
-    nodes: Range<usize>,
-    elements: Range<usize>,
-    rotations: Vec<Weights>,
-    corners: Vec<[f64; 2]>,
+pub(super) struct Outline {
+    pub(super) nodes: Range<usize>,
+    pub(super) elements: Range<usize>,
+    pub(super) rotations: Vec<Weights>,
+    pub(super) corners: Vec<[f64; 2]>,
 }
 
 impl Base {
@@ -63,94 +57,26 @@ impl Base {
         }
     }
 
-    /// The base of these faces: each mat of faces that touch is a foundation.
-    fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
-        let mats = mats(faces)?;
-        let nodes = mats.concat().concat();
-        let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
-        let surface = Faces::new(&nodes, &corners)?;
-        let mut foundations = Vec::with_capacity(mats.len());
-        let mut first = 0;
-        for mat in &mats {
-            let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let rotations = FaceNode::mean_rotations(&nodes[own.clone()]);
-            let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
-            first = own.end;
-            let corners = hull(nodes[own.clone()].iter());
-            foundations.push(Outline { nodes: own, elements: 0..0, rotations, corners });
-        }
-        let layout = patch.layout();
-        let mut rows = vec![Terms::new(); layout.len()];
-        for e in 0..patch.len() {
-            let [down, along, across] = layout.places(e);
-            let weights = surface.mean_weights(e, patch)?;
-            let mut owners = weights.iter().filter_map(|(node, _)| {
-                foundations.iter().position(|mat| mat.nodes.contains(node))
-            });
-            let owner = owners.next().unwrap_or(0);
-            let one = owners.all(|other| other == owner);
-            take(&mut foundations[owner].elements, e, one)?;
-            for (node, weight) in weights {
-                accumulate(&mut rows[down], &nodes[node].vertical, -weight);
-                accumulate(&mut rows[along], &nodes[node].horizontal, weight);
-                accumulate(&mut rows[across], &nodes[node].across, weight);
-            }
-        }
-        if foundations.iter().any(|mat| mat.elements.is_empty()) {
-            return Err(Error::Size { quantity: UNDER, found: 0, needed: 1 });
-        }
-        Ok(Self::from_rows(rows, foundations, nodes, patch))
-    }
-
-    fn from_rows(
-        rows: Vec<Terms>,
-        foundations: Vec<Outline>,
+    /// A base of these foundations, by the (node, weight) of the mean over each element.
+    pub(super) fn from_weights(
         nodes: Vec<FaceNode>,
-        patch: &Patch,
+        foundations: Vec<Outline>,
+        weights: Vec<Vec<(usize, f64)>>,
+        elements: &Patch,
     ) -> Self {
-        let middles = (0..patch.len()).map(|e| patch.middle(e)).collect();
-        let (layout, areas) = (patch.layout(), patch.areas().to_vec());
-        Self { rows: Rows::Sparse(rows), foundations, layout, areas, middles, nodes }
-    }
-
-    /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
-    /// and at the last node.
-    fn on_line(nodes: Vec<FaceNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
-        check_order(&nodes)?;
-        let mut foundations = Vec::with_capacity(ends.len() + 1);
-        let mut element = 0;
-        for own in foundation_nodes(nodes.len(), ends)? {
-            let last = own.end - 1;
-            let end = nodes.get(own.end).map_or(elements.len(), |next| {
-                let middle = 0.5 * (nodes[last].x + next.x);
-                elements.partition_point(|element| element.center() < middle)
-            });
-            let footing = Outline {
-                elements: element..end,
-                rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
-                nodes: own,
-                corners: Vec::new(),
-            };
-            if end <= element {
-                return Err(Error::Size { quantity: UNDER, found: 0, needed: 1 });
-            }
-            foundations.push(footing);
-            element = end;
-        }
         let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
-        for footing in &foundations {
-            let own = &nodes[footing.nodes.clone()];
-            for e in footing.elements.clone() {
-                let [down, along] = layout.places(e);
-                check_overlap(own, &elements[e])?;
-                for (node, weight) in mean_weights(own, &elements[e]) {
-                    accumulate(&mut rows[down], &own[node].vertical, -weight);
-                    accumulate(&mut rows[along], &own[node].horizontal, weight);
+        for (e, weights) in weights.into_iter().enumerate() {
+            for (node, weight) in weights {
+                let FaceNode { horizontal, vertical, across, .. } = &nodes[node];
+                let terms = [(vertical, -weight), (horizontal, weight), (across, weight)];
+                for (component, (terms, weight)) in terms[..layout.components()].iter().enumerate()
+                {
+                    accumulate(&mut rows[layout.place(component, e)], terms, *weight);
                 }
             }
         }
-        Ok(Self::from_rows(rows, foundations, nodes, elements))
+        Self { rows: Rows::Sparse(rows), foundations, elements: elements.clone(), nodes }
     }
 
     /// This base in the coordinates that are stepped.
@@ -182,7 +108,8 @@ impl Base {
 
     /// The foundations that reach beyond the ground's elements by more than their longest side there, along which axis
     /// in plan, and how far (m).
-    pub(crate) fn uncovered(&self, ground: &Patch) -> Vec<(usize, Option<char>, f64)> {
+    pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
+        let ground = &self.elements;
         let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
             let sides = own.map(|e| (ground.middle(e)[axis], ground.sides(e)[axis]));
             let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
@@ -202,24 +129,24 @@ impl Base {
         .collect()
     }
 
+    /// The contact elements.
+    pub(crate) fn elements(&self) -> &Patch {
+        &self.elements
+    }
+
     /// Areas A of the elements, m²; in the plane their lengths.
     pub(crate) fn areas(&self) -> &[f64] {
-        &self.areas
+        self.elements.areas()
     }
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        self.layout
-    }
-
-    /// Middle of an element `[x, y]`, m.
-    pub(crate) fn middle(&self, element: usize) -> [f64; 2] {
-        self.middles[element]
+        self.elements.layout()
     }
 
     /// Area that goes with contact component `i`.
     pub(crate) fn area(&self, i: usize) -> f64 {
-        self.areas[self.layout.origin(i)[1]]
+        self.areas()[self.layout().origin(i)[1]]
     }
 
     /// out ← B u.
@@ -229,9 +156,10 @@ impl Base {
 
     /// Mean `[right, up, away]` of contact displacements over the whole base; nothing moves away in the plane.
     pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
-        let [down, along, across] = self.layout.split(displacement);
-        let area: f64 = self.areas.iter().sum();
-        let mean = |values: &[f64]| dot(values, &self.areas) / area;
+        let [down, along, across] = self.layout().split(displacement);
+        let areas = self.areas();
+        let area: f64 = areas.iter().sum();
+        let mean = |values: &[f64]| dot(values, areas) / area;
         [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
     }
 
@@ -287,25 +215,10 @@ impl Base {
     }
 }
 
-const UNDER: &str = "list of contact elements under a foundation";
-
-/// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
-fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
-    let value = e as f64;
-    let needed = "elements under one mat each";
-    require("number of a contact element under two mats", value, one, needed)?;
-    if elements.start == elements.end {
-        elements.start = e;
-    } else if elements.end != e {
-        let quantity = "number of a contact element apart from the others of its mat";
-        return Err(Error::Input {
-            quantity,
-            value,
-            needed: "elements of a mat one after another",
-        });
-    }
-    elements.end = e + 1;
-    Ok(())
+/// Refuses a foundation without elements.
+pub(super) fn check_covered(foundations: &[Outline]) -> Result<()> {
+    let quantity = "list of contact elements under a foundation";
+    foundations.iter().try_for_each(|own| at_least(quantity, own.elements.len(), 1))
 }
 
 #[cfg(test)]

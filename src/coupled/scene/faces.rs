@@ -1,7 +1,11 @@
-//! Faces of a base in plan, and the mean of its displacement over a contact element.
+//! A base in plan: its faces, and the mean of its displacement over a contact element.
 
+use std::ops::Range;
+
+use super::base::{Base, Outline, check_covered};
+use super::transformation::Weights;
 use crate::bem::plan::faces::{Face, side};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, require};
 use crate::geometry::Patch;
 use crate::structure::FaceNode;
 
@@ -15,8 +19,60 @@ const NO_AREA: f64 = 1e-12;
 
 type Point = [f64; 2];
 
+impl Base {
+    /// The base of these faces: each mat of faces that touch is a foundation.
+    pub(super) fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
+        let mats = mats(faces)?;
+        let nodes = mats.concat().concat();
+        let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
+        let surface = Faces::new(&nodes, &corners)?;
+        let mut foundations = Vec::with_capacity(mats.len());
+        let mut first = 0;
+        for mat in &mats {
+            let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
+            let rotations = FaceNode::mean_rotations(&nodes[own.clone()]);
+            let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
+            first = own.end;
+            let corners = hull(nodes[own.clone()].iter());
+            foundations.push(Outline { nodes: own, elements: 0..0, rotations, corners });
+        }
+        let mut weights = Vec::with_capacity(patch.len());
+        for e in 0..patch.len() {
+            let own = surface.mean_weights(e, patch)?;
+            let mut owners = own.iter().filter_map(|(node, _)| {
+                foundations.iter().position(|mat| mat.nodes.contains(node))
+            });
+            let owner = owners.next().unwrap_or(0);
+            let one = owners.all(|other| other == owner);
+            take(&mut foundations[owner].elements, e, one)?;
+            weights.push(own);
+        }
+        check_covered(&foundations)?;
+        Ok(Self::from_weights(nodes, foundations, weights, patch))
+    }
+}
+
+/// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
+fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
+    let value = e as f64;
+    let needed = "elements under one mat each";
+    require("number of a contact element under two mats", value, one, needed)?;
+    if elements.start == elements.end {
+        elements.start = e;
+    } else if elements.end != e {
+        let quantity = "number of a contact element apart from the others of its mat";
+        return Err(Error::Input {
+            quantity,
+            value,
+            needed: "elements of a mat one after another",
+        });
+    }
+    elements.end = e + 1;
+    Ok(())
+}
+
 /// All faces, in triangles and quadrilaterals.
-pub(super) struct Faces<'a> {
+struct Faces<'a> {
     nodes: &'a [FaceNode],
     /// Corners of each, in order.
     pieces: Vec<Vec<usize>>,
@@ -24,7 +80,7 @@ pub(super) struct Faces<'a> {
 
 impl<'a> Faces<'a> {
     /// Faces with these numbers of corners, whose `nodes` follow one another.
-    pub(super) fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
+    fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
         let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
         for (number, &count) in faces.iter().enumerate() {
             let own: Vec<usize> = (first..first + count).collect();
@@ -53,7 +109,7 @@ impl<'a> Faces<'a> {
 
     /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points. A point outside all faces continues the
     /// displacement of the nearest one; one that is farther off than half a side is an error.
-    pub(super) fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
+    fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
         let ([x, y], sides) = (patch.middle(element), patch.sides(element));
         let reach = 0.5 * sides[0].max(sides[1]);
         let mut weights = Vec::with_capacity(16);
@@ -96,7 +152,7 @@ impl<'a> Faces<'a> {
 }
 
 /// The faces of each mat, by their corners: those that touch are of one.
-pub(super) fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
+fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
     let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
     let checked = faces.iter().map(corners).enumerate();
     let checked: Result<Vec<_>> =

@@ -1,12 +1,49 @@
 //! A base in the plane: a line of nodes, the mean of its displacement over a contact element, and its chord.
 
-use super::transformation::{Terms, accumulate};
+use super::base::{Base, Outline, check_covered};
+use super::transformation::{Terms, Weights, accumulate};
 use crate::bem::ContactElement;
 use crate::error::{Result, require};
-use crate::structure::FaceNode;
+use crate::geometry::Patch;
+use crate::structure::{FaceNode, foundation_nodes};
+
+impl Base {
+    /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
+    /// and at the last node.
+    pub(super) fn on_line(nodes: Vec<FaceNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
+        check_order(&nodes)?;
+        let mut foundations = Vec::with_capacity(ends.len() + 1);
+        let mut element = 0;
+        for own in foundation_nodes(nodes.len(), ends)? {
+            let last = own.end - 1;
+            let end = nodes.get(own.end).map_or(elements.len(), |next| {
+                let middle = 0.5 * (nodes[last].x + next.x);
+                elements.partition_point(|element| element.center() < middle)
+            });
+            foundations.push(Outline {
+                elements: element..end,
+                rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
+                nodes: own,
+                corners: Vec::new(),
+            });
+            element = end;
+        }
+        check_covered(&foundations)?;
+        let mut weights = Vec::with_capacity(elements.len());
+        for Outline { nodes: own, elements: range, .. } in &foundations {
+            for element in &elements[range.clone()] {
+                check_overlap(&nodes[own.clone()], element)?;
+                let found = mean_weights(&nodes[own.clone()], element);
+                weights
+                    .push(found.into_iter().map(|(k, weight)| (own.start + k, weight)).collect());
+            }
+        }
+        Ok(Self::from_weights(nodes, foundations, weights, elements))
+    }
+}
 
 /// Refuses nodes out of order.
-pub(super) fn check_order(nodes: &[FaceNode]) -> Result<()> {
+fn check_order(nodes: &[FaceNode]) -> Result<()> {
     nodes.windows(2).try_for_each(|pair| {
         let (before, x) = (pair[0].x, pair[1].x);
         let needed = "to the right of the node before it";
@@ -15,7 +52,7 @@ pub(super) fn check_order(nodes: &[FaceNode]) -> Result<()> {
 }
 
 /// Refuses an element that is not wholly under the foundation with these nodes.
-pub(super) fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
+fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
     for value in [first - element.left, element.right - last] {
@@ -28,7 +65,7 @@ pub(super) fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Res
 }
 
 /// Rise of the last node over the first, per distance.
-pub(super) fn chord_rotation(nodes: &[FaceNode]) -> Terms {
+fn chord_rotation(nodes: &[FaceNode]) -> Terms {
     let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
     let mut terms = Terms::new();
     accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
@@ -37,7 +74,7 @@ pub(super) fn chord_rotation(nodes: &[FaceNode]) -> Terms {
 }
 
 /// (node, weight) of the mean over `element` of the piecewise linear interpolation.
-pub(super) fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
+fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
     let mut weights = Vec::new();
     for (k, pair) in nodes.windows(2).enumerate() {
         let (x0, x1) = (pair[0].x, pair[1].x);

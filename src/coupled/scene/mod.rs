@@ -13,9 +13,10 @@ use super::build::equilibrium::StaticState;
 use super::build::parts::Parts;
 use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
+use super::state::Context;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
-use crate::geometry::{ContactLayout, Patch};
+use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
@@ -34,10 +35,7 @@ pub(crate) struct Scene {
     pub(crate) conserves_energy: bool,
     pub(crate) model: Model,
     pub(crate) base: Base,
-    pub(crate) elements: Patch,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
-    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
-    pub(crate) safety_friction: Vec<f64>,
     /// Limits that runs are held against.
     pub(crate) serviceability: Serviceability,
     pub(crate) static_state: StaticState,
@@ -51,11 +49,10 @@ pub(crate) struct Scene {
     pub(crate) soil: Arc<Thinned>,
     /// Free field at t = 0, from which it is measured, 2Q.
     pub(crate) start_motion: Vec<f64>,
-    pub(crate) probes: Vec<Probe>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// Point `[x, y]` of the base moment.
-    pub(crate) moment_center: [f64; 2],
+    /// What results of its states need.
+    pub(crate) context: Arc<Context>,
 }
 
 /// A probe in the coordinates that are stepped.
@@ -95,12 +92,22 @@ impl Scene {
             let up = model.influence.of(UP, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
+        let (elements, origin) = (&parts.elements, parts.moment_center);
+        let shapes = base.foundations().zip(base.outlines());
+        let footings =
+            shapes.map(|((_, own), outline)| Footing::new(elements, own, outline, origin));
+        let probe_rows = given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
+        let context = Context {
+            probes: std::mem::take(&mut given.probes),
+            elements: elements.clone(),
+            friction: std::mem::take(&mut given.safety_friction),
+            footings: footings.collect(),
+        };
         Self {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
             laws: std::mem::take(&mut given.laws),
-            safety_friction: std::mem::take(&mut given.safety_friction),
             serviceability: given.serviceability,
             static_state,
             loads: loads.collect(),
@@ -108,10 +115,8 @@ impl Scene {
             joined,
             soil: parts.soil.clone(),
             start_motion: std::mem::take(&mut parts.start_motion),
-            probe_rows: given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
-            probes: std::mem::take(&mut given.probes),
-            moment_center: parts.moment_center,
-            elements: parts.elements.clone(),
+            probe_rows,
+            context: Arc::new(context),
             model,
             base,
         }
@@ -119,7 +124,7 @@ impl Scene {
 
     /// Number of contact elements Q.
     pub(crate) fn count(&self) -> usize {
-        self.elements.len()
+        self.base.elements().len()
     }
 
     /// Order of the numbers of a contact vector.

@@ -11,13 +11,12 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::{Forcing, Increment};
+use super::{Forcing, Increment, StepData};
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::Operators;
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::coupled::state::State;
 use crate::error::StepError;
 use crate::linalg::matrix::Diagonals;
 use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
@@ -51,7 +50,7 @@ impl LinearStep {
 
     /// Right-hand side of the equation of motion: loads, inertia and damping of a structure that is
     /// carried along by y, and its stiffness forces so far.
-    pub(super) fn predict(&mut self, scene: &Scene, state: &State, forcing: &Forcing) {
+    pub(super) fn predict(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         let (c, model) = (&scene.coefficients, &scene.model);
         let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
         let carried = &forcing.carried;
@@ -74,21 +73,20 @@ impl LinearStep {
     /// The increment of a linear structure, with what follows from it.
     pub(super) fn solve(
         &mut self,
-        scene: &Scene,
-        state: &State,
-        forcing: &Forcing,
+        data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
+        let StepData { scene, state, forcing, .. } = data;
         let (scheme, motion) = (&scene.coefficients, &state.motion);
         let Some(matrices) = scene.model.diagonals() else {
-            self.predict(scene, state, forcing);
+            self.predict(data);
             increment.displacement.copy_from_slice(&self.known);
-            self.solve_contact(scene, state, forcing, increment)?;
-            increment.follow(scene, state, forcing);
+            self.solve_contact(data, increment)?;
+            increment.follow(data);
             return Ok(());
         };
         free(scheme, matrices, self.operators.reciprocals(), motion, forcing, increment);
-        self.solve_tractions(scene, state, forcing, increment)?;
+        self.solve_tractions(data, increment)?;
         let Self { operators, contact, vector, .. } = self;
         vector.fill(0.0);
         scene.base.add_forces(1.0, &contact.traction, vector);
@@ -100,14 +98,12 @@ impl LinearStep {
     /// Takes the right-hand side in the increment's displacement and leaves the increment there.
     pub(super) fn solve_contact(
         &mut self,
-        scene: &Scene,
-        state: &State,
-        forcing: &Forcing,
+        data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         self.operators.solve(&mut increment.displacement);
-        increment.reach(state);
-        self.solve_tractions(scene, state, forcing, increment)?;
+        increment.reach(data.state);
+        self.solve_tractions(data, increment)?;
         let (columns, traction) = (&self.operators.columns, &self.contact.traction);
         transposed_multiply_add(columns, -1.0, traction, &mut increment.displacement);
         Ok(())
@@ -116,11 +112,10 @@ impl LinearStep {
     /// Contact tractions for the displacement that the step would end with without their change.
     fn solve_tractions(
         &mut self,
-        scene: &Scene,
-        state: &State,
-        forcing: &Forcing,
+        data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
+        let StepData { scene, state, forcing, .. } = data;
         let Self { operators, contact, search, free_jump, means, .. } = self;
         scene.base.means(&increment.end, means);
         let mut length_scale = 0.0_f64;

@@ -120,9 +120,18 @@ impl Forcing {
     }
 }
 
+/// What a step after `state` is solved from.
+#[derive(Clone, Copy)]
+pub(crate) struct StepData<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) structure: &'a dyn Structure,
+    pub(crate) state: &'a State,
+    pub(crate) forcing: &'a Forcing,
+}
+
 // Changes of one step.
 
-/// The answer to a [`Forcing`](forcing::Forcing); nothing of it is committed yet.
+/// The answer to a [`Forcing`]; nothing of it is committed yet.
 pub(crate) struct Increment {
     /// Δu relative to the free field's translation, in stepped coordinates.
     pub(crate) displacement: Vec<f64>,
@@ -189,7 +198,7 @@ impl Increment {
     }
 
     /// Displacement, velocity and acceleration at the end, and the total Δu.
-    pub(super) fn follow(&mut self, scene: &Scene, state: &State, forcing: &Forcing) {
+    pub(super) fn follow(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         self.reach(state);
         let increments = self.displacement.iter().zip(&forcing.carried);
         self.total.iter_mut().zip(increments).for_each(|(total, (du, y))| *total = du + y);

@@ -1,16 +1,15 @@
 //! Newton's method around the whole step of a nonlinear structure, contact inside.
 
 use super::linear::LinearStep;
-use super::{Forcing, Increment};
+use super::{Increment, StepData};
 use crate::contact::{ContactSearch, ContactSolver, SearchMethod};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::coupled::state::State;
 use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
-use crate::structure::{Structure, Tangent};
+use crate::structure::Tangent;
 
 /// Iterations of a step.
 const ITERATIONS: usize = 40;
@@ -28,15 +27,6 @@ const STAGE_ITERATIONS: usize = 8;
 const MOST_ITERATIONS: usize = 2000;
 /// Shortest stage, as a fraction of the out-of-balance force that it began with.
 const SHORTEST_STAGE: f64 = 1e-6;
-
-/// What a step is solved from.
-#[derive(Clone, Copy)]
-pub(super) struct StepData<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) structure: &'a dyn Structure,
-    pub(super) state: &'a State,
-    pub(super) forcing: &'a Forcing,
-}
 
 /// Scratch of the iteration.
 pub(super) struct Newton {
@@ -182,7 +172,7 @@ impl Newton {
         left: f64,
         increment: &mut Increment,
     ) -> Result<f64, StepError> {
-        let StepData { scene, structure, state, forcing } = data;
+        let StepData { scene, structure, .. } = data;
         self.iterations += 1;
         let weight = scene.coefficients.displacement[0];
         self.tangent
@@ -209,7 +199,7 @@ impl Newton {
             let open = self.open.iter();
             increment.displacement.iter_mut().zip(open).for_each(|(du, open)| *du += left * open);
         }
-        linear.solve_contact(scene, state, forcing, increment)?;
+        linear.solve_contact(data, increment)?;
         self.trials += increment.trials;
         self.method = self.method.max(increment.method);
         let tangent = &linear.operators.tangent;
@@ -284,23 +274,19 @@ impl Solver {
         (&mut self.linear.operators, &mut self.linear.contact)
     }
 
-    /// Finds the increment of the step after `state`.
+    /// Finds the increment of the step.
     pub(crate) fn solve(
         &mut self,
-        scene: &Scene,
-        structure: &dyn Structure,
-        state: &State,
-        forcing: &Forcing,
+        data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let Self { linear, newton } = self;
         if let Some(newton) = newton {
-            linear.predict(scene, state, forcing);
-            let data = StepData { scene, structure, state, forcing };
+            linear.predict(data);
             newton.solve(linear, data, increment)?;
-            increment.follow(scene, state, forcing);
+            increment.follow(data);
         } else {
-            linear.solve(scene, state, forcing, increment)?;
+            linear.solve(data, increment)?;
         }
         check(&increment.displacement)
     }
