@@ -8,7 +8,7 @@
 //! strain takes it. The strip is softer, because its parts share their soil, and radiates more, above all in rocking.
 //! Plane strain makes square mats rock too little.
 
-use basemat::bem::layered::{StripContact, rigid_strip_impedances};
+use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{Grading, Strip};
 use basemat::prelude::*;
@@ -27,8 +27,8 @@ fn main() -> basemat::Result<()> {
     // 16 cells along a side; the outermost reach a tenth of a cell beyond the edge.
     let mat = Plan::rectangle(-HALF..HALF, -HALF..HALF, 16)?;
     let mats = impedances_in_plan(&profile, &mat, &frequencies, StripContact::Bonded)?;
-    let elements = Strip::new(-HALF..HALF, 24, Grading::Cosine)?.elements();
-    let strips = rigid_strip_impedances(&profile, &elements, &frequencies, StripContact::Bonded)?;
+    let ground = ElasticGround::new(soil, Strip::new(-HALF..HALF, 24, Grading::Cosine)?)?;
+    let strips = ground.impedances(&frequencies, StripContact::Bonded)?;
 
     println!(
         "   f (Hz)  motion      spring, mat   dashpot, mat   strip/mat: spring  dashpot   damping ratio: mat, strip"

@@ -4,13 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::elastic_source::ElasticSource;
-use super::layered::{
-    Cost, Stages, StripContact, StripImpedance, check_limit, check_tolerance, impedance_watch,
-    rigid_strip_impedances, strip_impedances,
-};
+use super::layered::{Cost, Stages};
 use super::plan::{Plan, gate_sample};
-use super::{Grading, Ground, SharedKernels, Strip, WeightsGround};
-use crate::error::{Error, Observer, Result, positive};
+use super::{Grading, Ground, SharedKernels, Strip, WeightsGround, WeightsSource};
+use crate::error::{Observer, Result, positive, require};
 use crate::geometry::{ContactElement, SPACE, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
@@ -25,8 +22,8 @@ use crate::structure::Structure;
 /// from the closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
 ///
 /// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
-/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`](super::layered::LayeredKernel)). The number of stages follows
-/// [`Stages::for_profile`] and is reported by [`Ground::history_choice`].
+/// mobility (Radau IIA), with the same tractions. The number of stages follows [`Stages::for_profile`] and is reported
+/// by [`Ground::history_choice`].
 ///
 /// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
 /// free field is that of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion
@@ -160,30 +157,58 @@ impl ElasticGround {
         self.changed(|source| source.stages = Some(stages))
     }
 
-    /// With the `tolerance` of [`LayeredKernel::with_tolerance`](super::layered::LayeredKernel::with_tolerance). The closed form is exact.
+    /// With the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace domain; 1e-10 unless
+    /// called. Coefficients are then good to about its power 2/3 at the last lag of a block, and better before. The
+    /// closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
-        let tolerance = check_tolerance(tolerance)?;
+        let fits = (1e-13..=1e-4).contains(&tolerance);
+        require("tolerance of a layered ground", tolerance, fits, "from 1e-13 to 1e-4")?;
         Ok(self.changed(|source| source.tolerance = tolerance))
     }
 
-    /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
-    /// them: [`LayeredKernel::with_file`](super::layered::LayeredKernel::with_file). The closed form needs none.
+    /// With step coefficients from the file `path`, and those that it lacks written to it. The closed form needs none.
+    ///
+    /// They are the same to the last bit. A file of another profile, mesh, step, accuracy, machine or
+    /// format is made anew; one that is damaged, or no such file at all, is refused and left as it is.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::bem::{ElasticGround, Strip};
+    /// use basemat::soil::SoilProfile;
+    /// let path = std::env::temp_dir().join("basemat-doctest.kernel");
+    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
+    /// ground.with_kernel_file(&path).weights(0.01)?.prepare(100)?;
+    /// // Four distances, three components, 128 lags, and six words around them.
+    /// assert_eq!(std::fs::metadata(&path).unwrap().len(), 8 * (4 * 3 * 128 + 6));
+    /// # std::fs::remove_file(path).unwrap();
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// Coefficients may then also fail with [`LayeredError::File`](crate::LayeredError::File) and
+    /// [`Error::Write`](crate::Error::Write).
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         self.changed(|source| source.file = Some(path.into()))
     }
 
-    /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
-    /// [`LayeredKernel::with_time_limit`](super::layered::LayeredKernel::with_time_limit).
+    /// With at most so many `seconds` of a processor for step coefficients, by [`cost`](Self::cost) and not by
+    /// the clock, so that the limit is the same everywhere; 600 unless called, and no limit if it is
+    /// infinite.
+    ///
+    /// Beyond it, coefficients fail with [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) before anything
+    /// is computed.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
     pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
-        let limit = check_limit(seconds)?;
-        Ok(self.changed(|source| source.limit = limit))
+        let fits = seconds >= 0.0;
+        require("time limit of a layered ground", seconds, fits, "not negative")?;
+        Ok(self.changed(|source| source.limit = seconds))
     }
 
     /// With other options of its history, or another method alone; only the closed form has exponentials.
@@ -209,6 +234,42 @@ impl ElasticGround {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
+    /// Step coefficients for steps of `time_step` seconds, none computed yet: those that the ground's history sums,
+    /// of its contact elements or of the cells of its plan, without shared kernels.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::bem::{ElasticGround, Strip};
+    /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let profile = SoilProfile::on_rigid_base()
+    ///     .with_layer(soil, 6.0)?
+    ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
+    /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
+    /// let weights = ground.weights(0.01)?;
+    /// let [mut normal, mut tangential, mut coupling] = [[0.0; 20]; 3];
+    /// weights.coefficients(0, 1, [&mut normal, &mut tangential, &mut coupling])?;
+    /// assert!(normal[0] > 0.0 && coupling[0].abs() < 1e-12 * normal[0]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// In layered ground [`prepare`](ConvolutionWeights::prepare) computes the blocks of lags up to the one that it is
+    /// given, after a check of passivity: the least eigenvalue of Herm[(1−z) Ĝ(z)] on |z| = 0.99. With an observer,
+    /// parts are samples of the mobility, as many as are expected.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that exists in the frequency domain
+    /// only. `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
+    /// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed;
+    /// [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) beyond the [limit](Self::with_time_limit);
+    /// [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
+    /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
+    /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
+    pub fn weights(&self, time_step: f64) -> Result<Arc<dyn ConvolutionWeights>> {
+        self.source.kernel(self.elements(), time_step)
+    }
+
     /// Cost of the step coefficients for `steps` steps of `time_step` seconds, before the first of them, to a
     /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
@@ -227,7 +288,10 @@ impl ElasticGround {
     /// ```
     ///
     /// # Errors
-    /// As for [`LayeredKernel::cost`](super::layered::LayeredKernel::cost); [`Error::Input`](crate::Error::Input) for a bad time step.
+    /// [`Error::Input`](crate::Error::Input) for a bad time step;
+    /// [`LayeredError::TooFine`](crate::LayeredError::TooFine) and
+    /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they could not be computed at
+    /// all; for bad damping laws as [`weights`](Self::weights).
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
         // Convolutions take lags by powers of two.
@@ -237,64 +301,6 @@ impl ElasticGround {
         }
         let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
         self.source.layered(self.elements(), time_step, stages)?.cost(lags)
-    }
-
-    /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):
-    /// [`rigid_strip_impedances`].
-    ///
-    /// ```
-    /// use basemat::Soil;
-    /// use basemat::bem::layered::StripContact;
-    /// use basemat::bem::{ElasticGround, Strip};
-    /// use basemat::soil::SoilProfile;
-    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-    /// let strip = Strip::graded(-3.0..3.0, 16)?;
-    /// let found = ElasticGround::new(soil, &strip)?.impedances(&[2.0, 8.0], StripContact::Bonded)?;
-    /// // Vertical dashpots come near that of plane waves, ρ c₁ per area.
-    /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
-    /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
-    ///
-    /// let layer = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
-    /// let found = ElasticGround::new(layer, strip)?.impedances(&[1.0, 9.0], StripContact::Bonded)?;
-    /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
-    /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
-    /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As for [`rigid_strip_impedances`].
-    pub fn impedances(
-        &self,
-        frequencies: &[f64],
-        contact: StripContact,
-    ) -> Result<Vec<StripImpedance>> {
-        rigid_strip_impedances(self.profile(), self.strips()?, frequencies, contact)
-    }
-
-    /// [`ElasticGround::impedances`] with an observer; parts are points of the Laplace plane, eight to a frequency.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`rigid_strip_impedances`].
-    pub fn impedances_observed(
-        &self,
-        frequencies: &[f64],
-        contact: StripContact,
-        observer: &mut Observer<'_>,
-    ) -> Result<Vec<StripImpedance>> {
-        let mut watch = impedance_watch(frequencies, observer);
-        strip_impedances(self.profile(), self.strips()?, frequencies, contact, &mut watch)
-    }
-
-    /// The elements, if they are strips.
-    fn strips(&self) -> Result<&[ContactElement]> {
-        match self.source.plan {
-            None => Ok(self.elements()),
-            Some(_) => Err(Error::Scene {
-                quantity: "ground in plan",
-                needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
-            }),
-        }
     }
 
     /// The profile.

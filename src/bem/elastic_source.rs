@@ -3,13 +3,18 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::layered::{LIMIT, LayeredKernel, Stages, TOLERANCE, static_compliance};
+use super::layered::{Stages, StripWeights, static_compliance};
 use super::plan::{self, LatticeKernel, Plan};
 use super::{PatchKernel, StaticKernel, WeightsSource};
 use crate::error::Result;
 use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 use crate::soil::{Base, SoilProfile};
+
+/// Default tolerance of the wavenumber integrals.
+const TOLERANCE: f64 = 1e-10;
+/// Default limit on processor time, s.
+const LIMIT: f64 = 600.0;
 
 /// A profile and how accurately it is stepped.
 #[derive(Debug, Clone)]
@@ -52,9 +57,9 @@ impl ElasticSource {
         elements: &[ContactElement],
         time_step: f64,
         stages: Stages,
-    ) -> Result<LayeredKernel> {
+    ) -> Result<StripWeights> {
         let (profile, file) = (self.profile.clone(), self.file.clone());
-        LayeredKernel::made(profile, elements.to_vec(), stages, self.sizes(time_step), file)
+        StripWeights::under_strips(profile, elements, stages, self.sizes(time_step), file)
     }
 
     fn sizes(&self, time_step: f64) -> [f64; 3] {

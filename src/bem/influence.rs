@@ -20,23 +20,13 @@
 
 use super::strip::Overlap;
 use crate::error::{Result, positive, require, same_length};
+use crate::fundamental::Surface;
 use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::rayleigh::{Rayleigh, TERMS, late_coefficients};
 use crate::geometry::ContactElement;
 use crate::history::KINDS;
 use crate::linalg::gauss;
 use crate::soil::Soil;
-
-/// Mean displacement of a receiver element per unit traction on a source element, m/Pa.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Influence {
-    /// z displacement due to z traction.
-    pub zz: f64,
-    /// x displacement due to x traction.
-    pub xx: f64,
-    /// z displacement due to x traction; minus the x displacement due to z traction.
-    pub zx: f64,
-}
 
 /// Step influence coefficients for one soil and one time step.
 ///
@@ -112,8 +102,8 @@ impl InfluenceKernel {
         Ok(PairInfluence { kernel: self, overlap, moments })
     }
 
-    /// The coefficients of one lag: at lag n ≥ 1, displacements at the end of the n-th step when
-    /// the traction acts during the first.
+    /// The coefficients of one lag, m/Pa: at lag n ≥ 1, mean displacements of the receiver at the end of the n-th
+    /// step when a unit traction acts on the source during the first.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad element or lag 0.
@@ -122,7 +112,7 @@ impl InfluenceKernel {
         receiver: ContactElement,
         source: ContactElement,
         lag: usize,
-    ) -> Result<Influence> {
+    ) -> Result<Surface> {
         require("lag", lag as f64, lag > 0, "at least 1")?;
         Ok(self.pair(receiver, source)?.at(lag))
     }
@@ -139,7 +129,7 @@ pub(super) struct PairInfluence<'a> {
 
 impl PairInfluence<'_> {
     /// The coefficients of one lag, from 1 on; zero before the pressure wave arrives.
-    fn at(&self, lag: usize) -> Influence {
+    fn at(&self, lag: usize) -> Surface {
         let (step, far) = (self.kernel.step, self.overlap.farthest());
         let (begin, end) = ((lag - 1) as f64 * step, lag as f64 * step);
         if begin >= LATE * self.kernel.branches.arrival * far {
@@ -187,7 +177,7 @@ impl PairInfluence<'_> {
     }
 
     /// Σ `c_k` `M_k` ∫ t^(−2k−1) dt, every factor without cancellation.
-    fn late(&self, begin: f64, end: f64) -> Influence {
+    fn late(&self, begin: f64, end: f64) -> Surface {
         let kernel = self.kernel;
         let [zz, xx] = &kernel.late;
         let ratio = (begin / end).powi(2);
@@ -210,16 +200,16 @@ impl PairInfluence<'_> {
             power *= ratio;
         }
         let unit = kernel.unit();
-        Influence { zz: sum[0] * unit, xx: sum[1] * unit, zx: 0.0 }
+        Surface { zz: sum[0] * unit, xx: sum[1] * unit, zx: 0.0 }
     }
 
-    fn early(&self, begin: f64, end: f64) -> Influence {
+    fn early(&self, begin: f64, end: f64) -> Surface {
         let (branches, overlap) = (&self.kernel.branches, &self.overlap);
         let (near, far) = (overlap.nearest(), overlap.farthest());
         let latest = if near > 0.0 { end / near } else { f64::INFINITY };
         let earliest = (begin / far).max(branches.first);
         if latest <= earliest {
-            return Influence::default();
+            return Surface::default();
         }
         let mut breaks = [f64::INFINITY; 18];
         breaks[0] = earliest;
@@ -256,7 +246,7 @@ impl PairInfluence<'_> {
             }
         }
         let unit = 1.0 / (std::f64::consts::PI * self.kernel.modulus * overlap.length);
-        Influence { zz: even[0] * unit, xx: even[1] * unit, zx: odd[0] * unit }
+        Surface { zz: even[0] * unit, xx: even[1] * unit, zx: odd[0] * unit }
     }
 }
 

@@ -26,7 +26,7 @@ mod strip;
 mod weights_ground;
 
 pub use elastic_ground::ElasticGround;
-pub use influence::{Influence, InfluenceKernel};
+pub use influence::InfluenceKernel;
 pub use shared::SharedKernels;
 pub use spring::SpringGround;
 pub use static_kernel::PatchKernel;

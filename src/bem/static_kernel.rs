@@ -1,8 +1,9 @@
 //! Static influence coefficients of boundary elements, alone and in patches, on an elastic half-plane.
 
+use super::InfluenceKernel;
 use super::strip::Overlap;
-use super::{Influence, InfluenceKernel};
 use crate::error::{Result, positive, same_length};
+use crate::fundamental::Surface;
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, KINDS, LateWeights, PairClasses, SharedSpectra};
 use crate::linalg::gauss;
@@ -49,7 +50,7 @@ impl StaticKernel {
         &self,
         receiver: ContactElement,
         source: ContactElement,
-    ) -> Result<Influence> {
+    ) -> Result<Surface> {
         let overlap = Overlap::new(receiver, source)?;
         let (mut even, mut odd) = (0.0, 0.0);
         for i in 1..overlap.nodes.len() {
@@ -59,7 +60,7 @@ impl StaticKernel {
             odd += 0.5 * (high - low) * (overlap.odd[i - 1] + overlap.odd[i]);
         }
         let diagonal = self.logarithm * even / overlap.length;
-        Ok(Influence { zz: diagonal, xx: diagonal, zx: self.jump * odd / overlap.length })
+        Ok(Surface { zz: diagonal, xx: diagonal, zx: self.jump * odd / overlap.length })
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the means of all pairs of elements.
@@ -73,7 +74,7 @@ impl StaticKernel {
             })
             .collect::<Result<Vec<_>>>()?;
         classes.scatter(matrix, |[receiver, source], pair| {
-            let Influence { zz, xx, zx } = means[receiver * elements.len() + source];
+            let Surface { zz, xx, zx } = means[receiver * elements.len() + source];
             [zz, xx, zx * pair.sign]
         });
         Ok(())

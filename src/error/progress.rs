@@ -37,20 +37,18 @@ impl fmt::Display for Progress {
 /// ```
 /// use std::ops::ControlFlow::{Break, Continue};
 ///
-/// use basemat::bem::layered::LayeredKernel;
-/// use basemat::bem::Strip;
-/// use basemat::history::ConvolutionWeights;
+/// use basemat::bem::{ElasticGround, Strip};
 /// use basemat::soil::SoilProfile;
 /// use basemat::{Error, Progress, Soil};
 ///
 /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
 /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
-/// let kernel = LayeredKernel::new(profile, Strip::uniform(-5.0..5.0, 4)?.elements(), 0.01)?;
-/// let stopped = kernel.prepare_observed(500, &mut |progress: Progress| {
+/// let weights = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?.weights(0.01)?;
+/// let stopped = weights.prepare_observed(500, &mut |progress: Progress| {
 ///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }
 /// });
 /// assert!(matches!(stopped, Err(Error::Stopped(progress)) if progress.done < progress.total));
-/// kernel.prepare_observed(500, &mut |progress| {
+/// weights.prepare_observed(500, &mut |progress| {
 ///     println!("{progress}");
 ///     Continue(())
 /// })?;

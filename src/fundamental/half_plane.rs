@@ -11,7 +11,7 @@
 //! |---|---|
 //! | y, K | τ², 1 − 2y |
 //! | `S_a`, `S_b` | √(y−a²), √(y−1) |
-//! | P, `y_R` | Rayleigh polynomial and root, see [`Rayleigh`] |
+//! | P, `y_R` | Rayleigh polynomial and root, see `Rayleigh` |
 //! | F, Q, W | ∫₀^τ f dη, ∫_τ^∞ f/η dη, ∫_τ^∞ f/η² dη |
 //! | J | x²F/2 + x t Q − t²W/2, the twice-integrated answer to H(t) |
 

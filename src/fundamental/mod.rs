@@ -13,7 +13,7 @@ pub(crate) mod rayleigh;
 #[cfg(feature = "full-plane")]
 pub use full_plane::FullPlane;
 pub use half_plane::{HalfPlane, Surface};
-pub use rayleigh::Rayleigh;
+pub(crate) use rayleigh::Rayleigh;
 
 use crate::error::Result;
 use crate::soil::Soil;

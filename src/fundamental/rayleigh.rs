@@ -25,7 +25,7 @@ use crate::soil::Soil;
 /// The quadratic factor is kept by its coefficients, which are smooth in Poisson's ratio where
 /// its roots collide (ν = 0.26308…) and precise where one of them tends to a² like ν⁴ (ν → 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rayleigh {
+pub(crate) struct Rayleigh {
     /// a² = (`c_S`/`c_P`)².
     pub(crate) a2: f64,
     /// 1 − a².

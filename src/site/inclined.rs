@@ -4,8 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::sampled::Sampled;
 use super::slowness::{Medium, surface_motion, surface_motion_across};
-use super::transform::SiteMotion;
-use super::transform::{Contour, Place};
+use super::transform::{Contour, Place, SiteMotion};
 use crate::error::{LayeredError, Result, finite, not_negative, positive};
 use crate::linalg::Complex;
 use crate::motion::{

@@ -8,8 +8,7 @@
 //! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2.
 
 use super::sampled::Sampled;
-use super::transform::SiteMotion;
-use super::transform::{Contour, Place};
+use super::transform::{Contour, Place, SiteMotion};
 use crate::error::{Result, not_negative};
 use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};

@@ -12,7 +12,7 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
 use crate::error::{Error, Result, finite, memory, positive, require, same_length};
-use crate::linalg::Complex;
+use crate::linalg::{Complex, largest};
 
 /// ηT: what wraps around is e^(−24).
 const WINDOW: f64 = 24.0;
@@ -249,10 +249,6 @@ impl SiteMotion {
         self.after = largest(&self.samples[count..]);
         self.samples.truncate(count);
     }
-}
-
-fn largest(samples: &[f64]) -> f64 {
-    samples.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
 /// Sizes relative to the peak.

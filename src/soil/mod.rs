@@ -1,9 +1,9 @@
 //! Soil: elastic constants, damping laws and profiles of horizontal layers, in plane strain.
 
+#[cfg(feature = "serde")]
+mod damping_form;
 mod maxwell;
 mod profile;
-#[cfg(feature = "serde")]
-mod profile_form;
 mod relaxation;
 mod strain_curves;
 

@@ -10,23 +10,29 @@ use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SoilLayer {
     /// Elastic constants; moduli are those at which the damping law is 1.
     pub soil: Soil,
     /// Thickness, m.
     pub thickness: f64,
     /// Damping law.
+    #[cfg_attr(feature = "serde", serde(with = "super::damping_form"))]
     pub damping: Arc<dyn Relaxation>,
 }
 
 /// The ground under the last layer.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Base {
     /// A half-plane that waves leave through.
     HalfPlane {
         /// Elastic constants of the layer.
         soil: Soil,
         /// Damping law of the layer.
+        #[cfg_attr(feature = "serde", serde(with = "super::damping_form"))]
         damping: Arc<dyn Relaxation>,
     },
     /// A base that does not move and reflects everything.
@@ -52,9 +58,16 @@ pub enum Base {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "SoilProfileForm"))]
 pub struct SoilProfile {
     layers: Vec<SoilLayer>,
     base: Base,
+}
+
+validated! {
+    SoilProfile as SoilProfileForm { layers: Vec<SoilLayer>, base: Base }
+    => SoilProfile::new(layers, base)
 }
 
 /// Re(μ/s)/|μ/s| that counts as zero.

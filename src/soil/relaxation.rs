@@ -206,7 +206,7 @@ impl Relaxation for Kjartansson {
 
 /// μ₀(1 + 2iξ sgn ω): the frequency domain's usual damping. Not analytic in s, so not causal:
 /// grounds that march in time return an error ([`GeneralizedMaxwell`](super::GeneralizedMaxwell) is
-/// close to it and causal); [impedances](crate::bem::layered::rigid_strip_impedances) take it.
+/// close to it and causal); [impedances](crate::bem::ElasticGround::impedances) take it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "HystereticForm"))]

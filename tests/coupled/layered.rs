@@ -3,10 +3,10 @@
 //! SCENE: sliding and uplifting blocks on layers, one or two foundations, saved, resumed and swept.
 //! REFERENCE: the half-plane's closed form and uninterrupted runs, both to the last bit; limits.
 
-use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::SimulationBuilder;
-use basemat::history::{ConvolutionWeights, HistoryMethod};
+use basemat::history::HistoryMethod;
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -14,7 +14,7 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::sweep::Sweep;
 use basemat::{Error, LayeredError, Simulation, Soil, StepError};
 
-use basemat_problems::profiles::constant_q;
+use basemat_problems::profiles::{constant_q, two_stages};
 use basemat_problems::sampled_block::{distance, sample, under_pulse};
 use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};
 
@@ -208,9 +208,9 @@ fn thick_layers_tend_to_the_half_plane() {
             .with_damping(GeneralizedMaxwell::constant_q(0.0, [0.1, 1.0], 1.0).unwrap())
     };
     let (step, lags) = (0.1, 60);
-    let elements = Strip::graded(-1.0..1.0, 4).unwrap().elements();
+    let strip = Strip::graded(-1.0..1.0, 4).unwrap();
     let series = |profile: SoilProfile| {
-        let kernel = LayeredKernel::new(profile, elements.clone(), step).unwrap();
+        let kernel = two_stages(profile, &strip).weights(step).unwrap();
         let mut lists = [vec![0.0; lags], vec![0.0; lags], vec![0.0; lags]];
         let [zz, xx, zx] = &mut lists;
         kernel.coefficients(1, 1, [zz, xx, zx]).unwrap();

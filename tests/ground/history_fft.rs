@@ -27,21 +27,15 @@ fn noise(step: usize, traction: &mut [f64]) {
     }
 }
 
-/// How a relaxed history may be made: by pairs, by wavenumbers, as it chooses, with other leaves.
-fn makes(kernel: &Arc<dyn ConvolutionWeights>) -> [RelaxedFftHistory; 5] {
+/// How a relaxed history may be made: by pairs, by wavenumbers, as it chooses.
+fn makes(kernel: &Arc<dyn ConvolutionWeights>) -> [RelaxedFftHistory; 3] {
     let new = || RelaxedFftHistory::new(Arc::clone(kernel));
-    [
-        new(),
-        new().with_surface_transform(false),
-        new().with_surface_transform(true),
-        new().with_surface_transform(false).with_leaf(8),
-        new().with_surface_transform(true).with_leaf(128),
-    ]
+    [new(), new().with_surface_transform(false), new().with_surface_transform(true)]
 }
 
 /// Largest difference from the direct sum over a march, relative to the largest value, for each
 /// way to make the history.
-fn difference(kernel: &Arc<dyn ConvolutionWeights>, steps: usize, reserved: usize) -> [f64; 5] {
+fn difference(kernel: &Arc<dyn ConvolutionWeights>, steps: usize, reserved: usize) -> [f64; 3] {
     let size = 2 * kernel.classes().elements().len();
     let mut direct = DirectHistory::new(Arc::clone(kernel));
     let mut all = makes(kernel);
@@ -50,7 +44,7 @@ fn difference(kernel: &Arc<dyn ConvolutionWeights>, steps: usize, reserved: usiz
         relaxed.reserve(reserved).unwrap();
     }
     let (mut a, mut b) = (vec![f64::NAN; size], vec![f64::NAN; size]);
-    let (mut largest, mut worst) = (0.0_f64, [0.0_f64; 5]);
+    let (mut largest, mut worst) = (0.0_f64, [0.0_f64; 3]);
     let mut traction = vec![0.0; size];
     for step in 0..steps {
         direct.evaluate(&mut a).unwrap();
@@ -238,15 +232,13 @@ proptest! {
         time_step in 1e-4..2e-2,
         reserved in 0_usize..600,
         along_surface in any::<bool>(),
-        leaf in 1_usize..100,
         tractions in prop::collection::vec(prop::collection::vec(-1e6..1e6, 10), 1..500),
     ) {
         let grading = if cosine { Grading::Cosine } else { Grading::Uniform };
         let kernel = kernel(strip(-2.0..3.0, count, grading), time_step);
         let mut direct = DirectHistory::new(Arc::clone(&kernel));
         let mut relaxed = RelaxedFftHistory::new(kernel)
-            .with_surface_transform(along_surface)
-            .with_leaf(leaf);
+            .with_surface_transform(along_surface);
         relaxed.reserve(reserved).unwrap();
         let (mut a, mut b) = (vec![0.0; 2 * count], vec![f64::NAN; 2 * count]);
         let (mut largest, mut worst) = (0.0_f64, 0.0_f64);

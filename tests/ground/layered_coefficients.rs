@@ -3,18 +3,17 @@
 //! REFERENCE: a table of another program, the closed form of the half-plane, a finer tolerance.
 
 use basemat::Soil;
-use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::layered::Stages;
 use basemat::bem::{Grading, InfluenceKernel, Strip};
-use basemat::history::ConvolutionWeights;
 use basemat::soil::SoilProfile;
 
-use basemat_problems::profiles::{gmb, p1};
+use basemat_problems::profiles::{gmb, p1, two_stages};
 
 /// `G_r2_P1_gmb_Q3_dt0.2.csv`: another program, two stages, lags 1 … 64.
 #[test]
 fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let strip = Strip::uniform(-1.0..1.0, 3).unwrap();
-    let kernel = LayeredKernel::new(p1(gmb(5), gmb(1)), strip.elements(), 0.2).unwrap();
+    let kernel = two_stages(p1(gmb(5), gmb(1)), &strip).weights(0.2).unwrap();
     let count = kernel.classes().count();
     let values: Vec<[Vec<f64>; 3]> = (0..count)
         .map(|class| {
@@ -57,7 +56,7 @@ fn homogeneous_ground_tends_to_the_closed_form() {
     let closed = InfluenceKernel::new(soil, dt).unwrap();
     for stages in [Stages::Two, Stages::Three] {
         let profile = SoilProfile::on_half_plane(soil);
-        let kernel = LayeredKernel::new(profile, strip.elements(), dt).unwrap().with_stages(stages);
+        let kernel = two_stages(profile, &strip).with_stages(stages).weights(dt).unwrap();
         let mut errors = [0.0_f64; 3];
         for class in 0..kernel.classes().count() {
             let [source, receiver] = kernel.classes().representative(class).unwrap();
@@ -86,7 +85,7 @@ fn homogeneous_ground_tends_to_the_closed_form() {
 #[test]
 fn bits_of_a_lag_depend_on_nothing_else() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
-    let make = || LayeredKernel::new(p1(gmb(5), gmb(1)), strip.elements(), 0.3).unwrap();
+    let make = || two_stages(p1(gmb(5), gmb(1)), &strip).weights(0.3).unwrap();
     let (one, two) = (make(), make());
     two.prepare(1000).unwrap();
     let mut whole = [vec![0.0; 600], vec![0.0; 600], vec![0.0; 600]];
@@ -110,8 +109,8 @@ fn tolerance_governs_the_latest_lags() {
     let strip = Strip::new(-1.0..1.0, 4, Grading::Cosine).unwrap();
     let lags = 1024;
     let values = |tolerance: f64| {
-        let kernel = LayeredKernel::new(p1(gmb(5), gmb(1)), strip.elements(), 0.1).unwrap();
-        let kernel = kernel.with_tolerance(tolerance).unwrap();
+        let ground = two_stages(p1(gmb(5), gmb(1)), &strip).with_tolerance(tolerance).unwrap();
+        let kernel = ground.weights(0.1).unwrap();
         let list = || vec![0.0; lags];
         let mut whole = [list(), list(), list()];
         let [zz, xx, zx] = &mut whole;

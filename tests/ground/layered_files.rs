@@ -4,17 +4,16 @@
 
 use std::path::{Path, PathBuf};
 
-use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::layered::Stages;
 use basemat::bem::plan::Plan;
-use basemat::bem::{ContactElement, ElasticGround, Ground, SharedKernels, Strip};
-use basemat::history::ConvolutionWeights;
+use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBlock;
 use basemat::{Complex, Error, KernelFileError, LayeredError, Simulation, Soil};
 
-use basemat_problems::profiles::{gmb, p1, p3};
+use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
 /// A file of this test's own, removed at the end.
 struct Temporary(PathBuf);
@@ -32,18 +31,21 @@ impl Drop for Temporary {
     }
 }
 
-fn elements() -> Vec<ContactElement> {
-    Strip::uniform(-1.0..1.0, 2).unwrap().elements()
+fn strip() -> Strip {
+    Strip::uniform(-1.0..1.0, 2).unwrap()
 }
 
-fn kernel() -> LayeredKernel {
-    LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.2).unwrap()
+fn ground() -> ElasticGround {
+    two_stages(p1(gmb(5), gmb(1)), &strip())
 }
+
+const TIME_STEP: f64 = 0.2;
 
 const LAGS: usize = 200;
 
 /// Bits of all coefficients after a preparation for them.
-fn bits(kernel: &LayeredKernel) -> Result<Vec<u64>, Error> {
+fn bits(ground: &ElasticGround, time_step: f64) -> Result<Vec<u64>, Error> {
+    let kernel = ground.weights(time_step)?;
     kernel.prepare(LAGS)?;
     let mut bits = vec![];
     for class in 0..kernel.classes().count() {
@@ -56,7 +58,7 @@ fn bits(kernel: &LayeredKernel) -> Result<Vec<u64>, Error> {
 }
 
 fn with(path: &Path) -> Result<Vec<u64>, Error> {
-    bits(&kernel().with_file(path))
+    bits(&ground().with_kernel_file(path), TIME_STEP)
 }
 
 /// Coefficients of a ground in plan: the same from a file, of which only its own cells take them.
@@ -125,10 +127,16 @@ fn rewritten(original: &[u8], checksum: bool, change: impl Fn(&mut [u64])) -> Ve
 #[test]
 fn a_file_gives_the_same_bits_and_is_used() {
     let file = Temporary::new("same");
-    let wanted = bits(&kernel()).unwrap();
+    let prepare = |lags: usize| {
+        ground().with_kernel_file(&file.0).weights(TIME_STEP).unwrap().prepare(lags).unwrap();
+    };
+    let wanted = bits(&ground(), TIME_STEP).unwrap();
     assert_eq!(with(&file.0).unwrap(), wanted);
     let original = std::fs::read(&file.0).unwrap();
-    assert_eq!(original.len(), 8 * (kernel().classes().count() * 3 * 256 + 6));
+    assert_eq!(
+        original.len(),
+        8 * (ground().weights(TIME_STEP).unwrap().classes().count() * 3 * 256 + 6)
+    );
     assert_eq!(with(&file.0).unwrap(), wanted);
     assert_eq!(std::fs::read(&file.0).unwrap(), original);
     // A number changed with its checksum: it is the file that is read.
@@ -138,11 +146,11 @@ fn a_file_gives_the_same_bits_and_is_used() {
     assert_eq!((found[0], &found[1..]), (2.5_f64.to_bits(), &wanted[1..]));
     // A shorter file is extended, a longer one kept.
     std::fs::remove_file(&file.0).unwrap();
-    kernel().with_file(&file.0).prepare(1).unwrap();
+    prepare(1);
     let short = std::fs::read(&file.0).unwrap();
     assert_eq!(with(&file.0).unwrap(), wanted);
     assert_eq!(std::fs::read(&file.0).unwrap(), original);
-    kernel().with_file(&file.0).prepare(1).unwrap();
+    prepare(1);
     assert_eq!(std::fs::read(&file.0).unwrap(), original);
     assert!(short.len() < original.len());
 }
@@ -161,24 +169,25 @@ impl Relaxation for Own {
 #[test]
 fn files_of_other_kernels_are_made_anew() {
     let file = Temporary::new("other");
-    let make = |profile: SoilProfile| LayeredKernel::new(profile, elements(), 0.2).unwrap();
-    let longer = Strip::uniform(-1.0..1.1, 2).unwrap().elements();
-    let kernels: [&dyn Fn() -> LayeredKernel; 9] = [
-        &kernel,
-        &|| make(p1(gmb(5), gmb(5))),
-        &|| make(p3(gmb(5))),
-        &|| make(p3(Own(0.1))),
-        &|| make(p3(Own(0.100_000_000_001))),
-        &|| LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.200_000_01).unwrap(),
-        &|| LayeredKernel::new(p1(gmb(5), gmb(1)), longer.clone(), 0.2).unwrap(),
-        &|| kernel().with_stages(Stages::Three),
-        &|| kernel().with_tolerance(2e-10).unwrap(),
+    let make = |profile: SoilProfile| two_stages(profile, &strip());
+    let longer = Strip::uniform(-1.0..1.1, 2).unwrap();
+    let kernels: [(&dyn Fn() -> ElasticGround, f64); 9] = [
+        (&ground, TIME_STEP),
+        (&|| make(p1(gmb(5), gmb(5))), TIME_STEP),
+        (&|| make(p3(gmb(5))), TIME_STEP),
+        (&|| make(p3(Own(0.1))), TIME_STEP),
+        (&|| make(p3(Own(0.100_000_000_001))), TIME_STEP),
+        (&ground, 0.200_000_01),
+        (&|| two_stages(p1(gmb(5), gmb(1)), &longer), TIME_STEP),
+        (&|| ground().with_stages(Stages::Three), TIME_STEP),
+        (&|| ground().with_tolerance(2e-10).unwrap(), TIME_STEP),
     ];
     let mut seen = std::collections::HashSet::new();
-    for make in kernels {
-        assert_eq!(bits(&make().with_file(&file.0)).unwrap(), bits(&make()).unwrap());
+    for (make, time_step) in kernels {
+        let wanted = bits(&make(), time_step).unwrap();
+        assert_eq!(bits(&make().with_kernel_file(&file.0), time_step).unwrap(), wanted);
         let written = std::fs::read(&file.0).unwrap();
-        assert_eq!(bits(&make().with_file(&file.0)).unwrap(), bits(&make()).unwrap());
+        assert_eq!(bits(&make().with_kernel_file(&file.0), time_step).unwrap(), wanted);
         assert!(std::fs::read(&file.0).unwrap() == written);
         assert!(seen.insert(written));
     }
@@ -186,7 +195,7 @@ fn files_of_other_kernels_are_made_anew() {
     let original = std::fs::read(&file.0).unwrap();
     for format in [0, 1, 3, u64::MAX] {
         std::fs::write(&file.0, rewritten(&original, true, |words| words[1] = format)).unwrap();
-        kernels[8]().with_file(&file.0).prepare(LAGS).unwrap();
+        bits(&kernels[8].0().with_kernel_file(&file.0), TIME_STEP).unwrap();
         assert_eq!(std::fs::read(&file.0).unwrap(), original);
     }
 }

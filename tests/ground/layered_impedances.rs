@@ -2,7 +2,7 @@
 //! SCENE: damped half-plane, layer on rock, layer on a rigid base; bonded and relaxed.
 //! REFERENCE: tables of other programs, statics and the cut-off frequency of a layer.
 
-use basemat::bem::layered::{StripContact, rigid_strip_impedances};
+use basemat::bem::layered::StripContact;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Elastic, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Soil};
@@ -11,10 +11,11 @@ use basemat_problems::profiles::{p1, p3};
 
 /// Bonded hh, vv, rr, hr and relaxed hh, vv, rr.
 fn all(profile: &SoilProfile, count: usize, omega: f64) -> [Complex; 7] {
-    let elements = Strip::new(-1.0..1.0, count, Grading::Cosine).unwrap().elements();
+    let strip = Strip::new(-1.0..1.0, count, Grading::Cosine).unwrap();
+    let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let at = |contact| {
         let frequency = omega / std::f64::consts::TAU;
-        rigid_strip_impedances(profile, &elements, &[frequency], contact).unwrap()[0]
+        ground.impedances(&[frequency], contact).unwrap()[0]
     };
     let (bonded, relaxed) = (at(StripContact::Bonded), at(StripContact::Relaxed));
     [
@@ -190,9 +191,9 @@ fn undamped_ground_is_extrapolated() {
 #[test]
 fn bad_frequencies_and_resonances_are_refused() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
-    let elements = Strip::uniform(-1.0..1.0, 4).unwrap().elements();
+    let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
     let at = |profile: &SoilProfile, frequency: f64| {
-        rigid_strip_impedances(profile, &elements, &[frequency], StripContact::Bonded)
+        ElasticGround::new(profile.clone(), &strip)?.impedances(&[frequency], StripContact::Bonded)
     };
     // An undamped layer 2 m thick begins to guide waves at 1/8 Hz.
     let layer = SoilProfile::on_rigid_base().with_layer(soil, 2.0).unwrap();

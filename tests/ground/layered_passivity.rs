@@ -4,18 +4,18 @@
 //! REFERENCE: zero work.
 
 use basemat::Soil;
-use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::layered::Stages;
 use basemat::bem::{Grading, Strip};
 use basemat::history::ConvolutionWeights;
 use basemat::soil::{Elastic, SoilProfile};
 
 use basemat_problems::dense::solve;
-use basemat_problems::profiles::{gmb, p1, p3};
+use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
 const STEPS: usize = 256;
 
 /// Work-form coefficients of all lags, 2Q × 2Q each.
-fn matrices(kernel: &LayeredKernel) -> Vec<Vec<f64>> {
+fn matrices(kernel: &dyn ConvolutionWeights) -> Vec<Vec<f64>> {
     let classes = kernel.classes();
     let count = classes.elements().len();
     let lists: Vec<[Vec<f64>; 3]> = (0..classes.count())
@@ -105,9 +105,8 @@ fn an_adversary_extracts_no_energy() {
         {
             for ratio in [0.02, 0.1, 0.5, 2.0, 10.0, 50.0] {
                 let strip = Strip::new(-1.0..1.0, 5, grading).unwrap();
-                let kernel =
-                    LayeredKernel::new(profile.clone(), strip.elements(), ratio * 0.4).unwrap();
-                let least = least_work(&matrices(&kernel.with_stages(stages)));
+                let ground = two_stages(profile.clone(), &strip).with_stages(stages);
+                let least = least_work(&matrices(&*ground.weights(ratio * 0.4).unwrap()));
                 if least < 1e-4 {
                     println!("{name}, {grading:?}, {stages:?}, {ratio}: {least:e}");
                 }

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow::{Break, Continue};
 use std::sync::Arc;
 
-use basemat::bem::layered::{LayeredKernel, StripContact};
+use basemat::bem::layered::StripContact;
 use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
@@ -15,7 +15,7 @@ use basemat::soil::{Elastic, SoilProfile};
 use basemat::structure::RigidBlock;
 use basemat::{Error, Observer, Progress, Result, Simulation, Soil};
 
-use basemat_problems::profiles::{gmb, p1, p3};
+use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
 /// Runs `call` to its end, and stopped early and late before: `Stopped` each time, and what is wanted after all.
 fn watched<T: PartialEq + std::fmt::Debug>(
@@ -46,7 +46,7 @@ fn watched<T: PartialEq + std::fmt::Debug>(
     }
 }
 
-fn bits(kernel: &LayeredKernel, lags: usize) -> Vec<u64> {
+fn bits(kernel: &dyn ConvolutionWeights, lags: usize) -> Vec<u64> {
     let mut bits = vec![];
     for class in 0..kernel.classes().count() {
         let mut lists = [(); 3].map(|()| vec![0.0; lags]);
@@ -59,21 +59,21 @@ fn bits(kernel: &LayeredKernel, lags: usize) -> Vec<u64> {
 
 #[test]
 fn step_coefficients_are_watched_and_stopped() {
-    let elements = Strip::uniform(-1.0..1.0, 2).unwrap().elements();
-    let make = || LayeredKernel::new(p1(gmb(5), gmb(1)), elements.clone(), 0.2).unwrap();
-    let wanted = bits(&make(), 500);
+    let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
+    let make = || two_stages(p1(gmb(5), gmb(1)), &strip).weights(0.2).unwrap();
+    let wanted = bits(&*make(), 500);
     // A kernel anew each time, and one that is stopped again and again.
     watched(
         |observer| {
             let kernel = make();
             kernel.prepare_observed(500, observer)?;
-            Ok(bits(&kernel, 500))
+            Ok(bits(&*kernel, 500))
         },
         Some(&wanted),
     );
     let kernel = make();
     watched(|observer| kernel.prepare_observed(500, observer), None);
-    assert_eq!(bits(&kernel, 500), wanted);
+    assert_eq!(bits(&*kernel, 500), wanted);
     // Stopped while it had to begin, then asked for without an observer.
     let kernel = make();
     for stop in [1, 30, 60, 200] {
@@ -84,7 +84,7 @@ fn step_coefficients_are_watched_and_stopped() {
         });
         assert!(matches!(found, Err(Error::Stopped(_))));
     }
-    assert_eq!(bits(&kernel, 500), wanted);
+    assert_eq!(bits(&*kernel, 500), wanted);
     // All is there.
     watched(|observer| kernel.prepare_observed(500, observer), None);
 }

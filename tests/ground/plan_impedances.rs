@@ -4,9 +4,9 @@
 
 use std::f64::consts::TAU;
 
-use basemat::bem::layered::{StripContact, rigid_strip_impedances};
+use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, PlanImpedance, impedances_in_plan};
-use basemat::bem::{Grading, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Hysteretic, SoilProfile};
 use basemat::{Complex, Soil};
 
@@ -211,9 +211,10 @@ fn discs_match_a_spectral_solution() {
 fn long_mats_are_strips() {
     let frequencies = [0.5 / TAU, 1.0 / TAU];
     let profile = half_space(1.0 / 3.0);
-    let elements = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap().elements();
+    let strip = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap();
+    let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let contact = StripContact::Bonded;
-    let strips = rigid_strip_impedances(&profile, &elements, &frequencies, contact).unwrap();
+    let strips = ground.impedances(&frequencies, contact).unwrap();
     // Across the strip is along y here.
     let [long, short] = [10.0, 8.0].map(|half| {
         let plan = Plan::rectangle(-half..half, -1.0..1.0, 6).unwrap();
@@ -241,9 +242,10 @@ fn long_mats_are_strips() {
 #[test]
 fn plane_strain_misleads_on_square_mats() {
     let (profile, frequency) = (half_space(1.0 / 3.0), 0.5 / TAU);
-    let elements = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap().elements();
+    let strip = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap();
+    let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let contact = StripContact::Bonded;
-    let strip = rigid_strip_impedances(&profile, &elements, &[frequency], contact).unwrap()[0];
+    let strip = ground.impedances(&[frequency], contact).unwrap()[0];
     let mat = at(&profile, &Plan::rectangle(-1.0..1.0, -1.0..1.0, 16).unwrap(), 0.5, contact);
     for (axis, strip, ratios) in [
         (0, strip.horizontal, [0.57, 1.40]),

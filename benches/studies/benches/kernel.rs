@@ -1,8 +1,8 @@
 //! Kernel evaluations: closed forms, step coefficients early and late, layered ground, the full plane.
 
 use basemat::Soil;
-use basemat::bem::layered::LayeredKernel;
-use basemat::bem::{InfluenceKernel, PatchKernel, Strip};
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -85,12 +85,13 @@ fn layered(criterion: &mut Criterion) {
         .and_then(|profile| profile.with_damping(damping(0.05)).with_layer(soil(300.0), 8.0))
         .expect("a valid profile")
         .with_damping(damping(0.03));
-    let elements = Strip::graded(-3.0..3.0, 12).expect("a valid strip").elements();
+    let strip = Strip::graded(-3.0..3.0, 12).expect("a valid strip");
+    let ground = ElasticGround::new(profile, strip).expect("a ground").with_stages(Stages::Two);
     let mut group = criterion.benchmark_group("setup of layered ground, 500 steps");
     group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
     group.bench_function("two layers, 12 elements", |b| {
         b.iter_batched(
-            || LayeredKernel::new(profile.clone(), elements.clone(), 0.005).expect("a kernel"),
+            || ground.weights(0.005).expect("weights"),
             |kernel| kernel.prepare(black_box(STEPS)),
             BatchSize::LargeInput,
         );

@@ -8,9 +8,8 @@
 //!
 //! Processor time of all threads; coefficients alone, without the histories' transforms of them.
 
-use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Grading, Strip};
-use basemat::history::ConvolutionWeights;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Result, Soil};
 use cpu_time::ProcessTime;
@@ -136,7 +135,7 @@ pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
     for Case { name, profile, elements, grading, stages, time_step, steps } in cases()? {
         let steps = if options.short { 100 } else { steps };
         let strip = Strip::new(-3.0..3.0, elements, grading)?;
-        let ground = ElasticGround::new(profile.clone(), strip)?.with_stages(stages);
+        let ground = ElasticGround::new(profile, strip)?.with_stages(stages);
         let begin = ProcessTime::try_now()?;
         let cost = ground.cost(time_step, steps)?;
         let asked = begin.try_elapsed()?.as_secs_f64();
@@ -149,8 +148,7 @@ pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
             );
             continue;
         }
-        let strip = Strip::new(-3.0..3.0, elements, grading)?;
-        let kernel = LayeredKernel::new(profile, strip.elements(), time_step)?.with_stages(stages);
+        let kernel = ground.weights(time_step)?;
         let begin = ProcessTime::try_now()?;
         kernel.prepare(steps.next_power_of_two())?;
         let taken = begin.try_elapsed()?.as_secs_f64();

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use basemat::bem::layered::{StripContact, rigid_strip_impedances};
+use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{Grading, Strip};
 use basemat::coupled::{Refinement, refine};
@@ -84,8 +84,8 @@ fn stiffness(short: bool) -> Result<String, AnyError> {
     let profile = SoilProfile::from(soil);
     let unit = soil.shear_wave_speed() / (TAU * HALF);
     let frequencies = FREQUENCIES.map(|a0| a0 * unit);
-    let elements = Strip::new(-HALF..HALF, 32, Grading::Cosine)?.elements();
-    let strips = rigid_strip_impedances(&profile, &elements, &frequencies, StripContact::Bonded)?;
+    let ground = ElasticGround::new(soil, Strip::new(-HALF..HALF, 32, Grading::Cosine)?)?;
+    let strips = ground.impedances(&frequencies, StripContact::Bonded)?;
     let mut text = "| L : B | motion | static spring over Pais and Kausel | ωb/c | spring, strip/mat | dashpot, strip/mat | damping ratio of the mat, % | of the strip, % |\n|---|---|---|---|---|---|---|---|\n".to_owned();
     for (aspect, cells, _) in MATS.into_iter().take(if short { 1 } else { MATS.len() }) {
         let cells = if short { 6 } else { cells };

@@ -8,7 +8,7 @@
 //! | cost | cost of step coefficients, beforehand |
 //! | passivity | the gate that step coefficients pass |
 //! | kept | blocks of step coefficients in memory and in a file |
-//! | weights, kernel | step coefficients as a history takes them, of any ground and of strips |
+//! | weights | step coefficients as a history takes them |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
 mod coefficients;
@@ -19,7 +19,6 @@ mod form_factors;
 mod halving;
 mod impedance;
 mod kept;
-mod kernel;
 mod passivity;
 mod runge_kutta;
 mod static_compliance;
@@ -35,16 +34,14 @@ pub use cost::Cost;
 pub(super) use cost::{MOST_HALVING, Outlook, Priced};
 pub(super) use form_factors::{DEGREES, POINTS, legendre};
 pub(super) use halving::{FLOOR, SHARE, by_halves, last_coefficients, median};
-pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
-pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedances};
-pub use kernel::LayeredKernel;
-pub(super) use kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
+pub use impedance::{StripContact, StripImpedance};
+pub(super) use impedance::{impedance_watch, points, stiffnesses};
 pub(super) use passivity::POINTS as GATE_POINTS;
 #[cfg(test)]
 pub(super) use passivity::margin;
 pub use runge_kutta::Stages;
 pub(super) use runge_kutta::on_circle;
-pub use static_compliance::static_compliance;
+pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{REACH, on_grid, surface_series};
 pub(super) use wavenumber::{Compliances, deep, surface_outlook, unresolved};
-pub(super) use weights::QuadratureWeights;
+pub(super) use weights::{QuadratureWeights, StripWeights};

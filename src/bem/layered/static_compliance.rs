@@ -33,7 +33,7 @@ const DATUM: f64 = 10.0;
 /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length,
 /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law without long-term
 /// stiffness; as for [`PairClasses::new`].
-pub fn static_compliance(
+pub(in crate::bem) fn static_compliance(
     profile: &SoilProfile,
     elements: &[ContactElement],
     matrix: &mut [f64],

@@ -7,11 +7,14 @@ use super::coefficients::{Block, Quadrature, Samples};
 use super::cost::{Cost, Outlook, Priced};
 use super::kept::{KeptBlocks, copy_lags, last_block, threads};
 use super::passivity;
-use crate::error::{Observer, Result, Watch, in_bounds, memory};
-use crate::geometry::SERIES;
+use super::runge_kutta::Stages;
+use super::wavenumber::Wavenumbers;
+use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
+use crate::geometry::{ContactElement, SERIES};
 use crate::history::{
     ConvolutionWeights, KINDS as STRIP_KINDS, OTHER_KINDS, PairClasses, SharedSpectra,
 };
+use crate::soil::SoilProfile;
 
 /// [`ConvolutionWeights`] by Runge–Kutta convolution quadrature, under strips or in plan.
 #[derive(Debug)]
@@ -22,10 +25,37 @@ pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     sample: Option<PairClasses>,
     /// Numbers that tell the mesh from others.
     mesh: Vec<f64>,
-    pub(super) kept: KeptBlocks,
+    kept: KeptBlocks,
     spectra: SharedSpectra,
     /// Most processor time that weights may take, s.
-    pub(super) limit: f64,
+    limit: f64,
+}
+
+/// Weights of a layered ground under strips.
+pub(in crate::bem) type StripWeights = QuadratureWeights<Wavenumbers, STRIP_KINDS>;
+
+impl StripWeights {
+    /// Weights of `profile` under `elements` for the sizes time step, tolerance and limit on processor time.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that exists in the frequency domain
+    /// only; as for [`PairClasses::new`].
+    pub(in crate::bem) fn under_strips(
+        profile: SoilProfile,
+        elements: &[ContactElement],
+        stages: Stages,
+        [time_step, tolerance, limit]: [f64; 3],
+        file: Option<PathBuf>,
+    ) -> Result<Self> {
+        positive("time step", time_step)?;
+        profile.check()?;
+        profile.check_causal()?;
+        let classes = PairClasses::new(elements.to_vec())?;
+        let quadrature = Quadrature::new(profile, &classes, stages, time_step, tolerance);
+        let mesh = elements.iter().flat_map(|element| [element.left, element.right]).collect();
+        Ok(Self::new(quadrature, classes, None, mesh, limit, file))
+    }
 }
 
 impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::error::{PlanError, Result};
+use crate::linalg::Partition;
 
 /// Distance that counts as touching, of a face's own size.
 const TOUCHING: f64 = 1e-9;
@@ -89,23 +90,17 @@ impl Face {
 
     /// Number of the mat that each face belongs to: faces that touch are of one mat.
     pub(crate) fn mats(faces: &[Self]) -> Vec<usize> {
-        let mut mats = vec![usize::MAX; faces.len()];
-        let mut count = 0;
-        for first in 0..faces.len() {
-            if mats[first] != usize::MAX {
-                continue;
+        let mut joined = Partition::new(faces.len());
+        for (place, face) in faces.iter().enumerate() {
+            for other in (0..place).filter(|other| face.touches(&faces[*other])) {
+                joined.join(place, other);
             }
-            mats[first] = count;
-            let mut stack = vec![first];
-            while let Some(face) = stack.pop() {
-                for other in 0..faces.len() {
-                    if mats[other] == usize::MAX && faces[face].touches(&faces[other]) {
-                        mats[other] = count;
-                        stack.push(other);
-                    }
-                }
+        }
+        let mut mats = vec![0; faces.len()];
+        for (number, mat) in joined.sets().into_iter().enumerate() {
+            for face in mat {
+                mats[face] = number;
             }
-            count += 1;
         }
         mats
     }
@@ -166,29 +161,18 @@ pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -
 /// in the order in which they come. Cells that touch, corners too, are of one mat.
 pub(super) fn mat_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let places: HashMap<_, _> = cells.iter().enumerate().map(|(k, cell)| (*cell, k)).collect();
-    let mut mats = vec![usize::MAX; cells.len()];
-    for first in 0..cells.len() {
-        if mats[first] != usize::MAX {
-            continue;
-        }
-        mats[first] = first;
-        let mut stack = vec![cells[first]];
-        while let Some([i, j]) = stack.pop() {
-            for step in 0..9 {
-                let around = [(i + step % 3).checked_sub(1), (j + step / 3).checked_sub(1)];
-                let [Some(column), Some(row)] = around else { continue };
-                if let Some(&cell) = places.get(&[column, row])
-                    && mats[cell] == usize::MAX
-                {
-                    mats[cell] = first;
-                    stack.push([column, row]);
-                }
+    let mut mats = Partition::new(cells.len());
+    for (cell, [i, j]) in cells.iter().enumerate() {
+        for step in 0..9 {
+            let around = [(i + step % 3).checked_sub(1), (j + step / 3).checked_sub(1)];
+            let [Some(column), Some(row)] = around else { continue };
+            if let Some(&other) = places.get(&[column, row]) {
+                mats.join(cell, other);
             }
         }
     }
-    let mut order: Vec<usize> = (0..cells.len()).collect();
-    order.sort_by_key(|cell| mats[*cell]);
-    order.into_iter().map(|cell| cells[cell]).collect()
+    // Mats by their first cells, and the cells of each in the order given.
+    mats.sets().concat().into_iter().map(|cell| cells[cell]).collect()
 }
 
 #[cfg(test)]

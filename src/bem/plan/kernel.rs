@@ -45,7 +45,7 @@ pub(in crate::bem) fn static_compliance(
     Ok(())
 }
 
-/// Step coefficients of the [layered ground](crate::bem::layered::LayeredKernel) under cells, of six kinds.
+/// Step coefficients of a layered ground under cells, of six kinds.
 pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES>;
 
 impl LatticeKernel {

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::level::{Class, Tables};
+use super::level::{Class, LEAF, Tables};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
@@ -21,15 +21,13 @@ pub(super) struct Coefficients {
     pub(super) couples_far: bool,
     /// Number of lags over which the coupling is summed directly.
     pub(super) coupling_direct: usize,
-    /// Steps of a leaf.
-    leaf: usize,
     /// Empty until they are needed.
     pub(super) near: Arc<Tables>,
 }
 
 impl Coefficients {
-    /// For leaves of `leaf` steps; a coupling that reaches no further than `direct` is summed.
-    pub(super) fn new(kernel: &dyn ConvolutionWeights, leaf: usize, direct: usize) -> Result<Self> {
+    /// A coupling that reaches no further than `direct` is summed.
+    pub(super) fn new(kernel: &dyn ConvolutionWeights, direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
         let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
         let reaches = (0..classes.count())
@@ -37,22 +35,20 @@ impl Coefficients {
             .collect::<Result<Vec<_>>>()?;
         let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
         let couples_far = coupling_reach > direct;
-        let coupling_direct = if couples_far { leaf - 1 } else { coupling_reach };
+        let coupling_direct = if couples_far { LEAF - 1 } else { coupling_reach };
         let near = Arc::default();
-        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, leaf, near })
+        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, near })
     }
 
     /// Values of d that the tables are made of.
     pub(super) fn length(&self) -> usize {
-        self.leaf.max(self.coupling_direct + 1)
+        LEAF.max(self.coupling_direct + 1)
     }
 
     /// Adds the next class to `tables`; `values` may go on beyond [`Coefficients::length`].
     pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
         let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
-        for ((table, values), end) in
-            tables.iter_mut().zip(values).zip([self.leaf, self.leaf, reach + 1])
-        {
+        for ((table, values), end) in tables.iter_mut().zip(values).zip([LEAF, LEAF, reach + 1]) {
             table.push(values[..end].to_vec());
         }
     }
@@ -113,10 +109,6 @@ impl WithSimd for Scatter<'_> {
 }
 
 // Blocks of inputs and outputs, over pairs of elements or over wavenumbers.
-
-/// Steps that are summed directly before the smallest block is transformed. Measured with 10 and
-/// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
-pub(crate) const LEAF: usize = 32;
 
 /// Parts in which the making of spectra is watched.
 pub(super) const PARTS: usize = 100;

@@ -8,6 +8,9 @@ use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
+/// Steps that are summed directly before the smallest block is transformed. Measured with 10 and
+/// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
+pub(crate) const LEAF: usize = 32;
 /// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
 
@@ -306,9 +309,9 @@ impl Ring {
         self.0 < usize::MAX
     }
 
-    /// Number of the level for the block that ends before `now`, a multiple of `leaf`.
-    pub(super) fn level(self, now: usize, leaf: usize, levels: usize) -> usize {
-        let number = (now / leaf).trailing_zeros() as usize;
+    /// Number of the level for the block that ends before `now`, a multiple of a leaf.
+    pub(super) fn level(self, now: usize, levels: usize) -> usize {
+        let number = (now / LEAF).trailing_zeros() as usize;
         if self.is_bounded() { number.min(levels - 1) } else { number }
     }
 

@@ -17,8 +17,9 @@ use self::waves::Waves;
 use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory, check_inputs};
 use super::last_lag::LastLag;
 use crate::error::{CheckpointError, Error, Observer, Result, Watch, same_length};
+pub(crate) use crate::history::relaxed_fft::coefficients::Blocks;
 use crate::history::relaxed_fft::coefficients::PARTS;
-pub(crate) use crate::history::relaxed_fft::coefficients::{Blocks, LEAF};
+pub(crate) use crate::history::relaxed_fft::level::LEAF;
 pub(crate) use crate::history::relaxed_fft::plan_spectra::waves_in_plan;
 pub use crate::history::relaxed_fft::wave_level::SharedSpectra;
 
@@ -77,7 +78,6 @@ pub struct RelaxedFftHistory {
     blocks: Option<Box<dyn Blocks>>,
     /// Whether to transform along the surface: `None` where it pays.
     along_surface: Option<bool>,
-    leaf: Option<usize>,
     steps: usize,
     /// Whether the last input still has to be worked in.
     pending: bool,
@@ -114,7 +114,6 @@ impl RelaxedFftHistory {
             kernel,
             blocks: None,
             along_surface: None,
-            leaf: None,
             steps: 0,
             pending: false,
             padded,
@@ -131,14 +130,6 @@ impl RelaxedFftHistory {
     #[must_use]
     pub fn with_surface_transform(mut self, wanted: bool) -> Self {
         self.along_surface = Some(wanted);
-        self
-    }
-
-    /// Sets leaves of `steps` (rounded up to a power of two, from 4 to 1024) instead of the length that was measured to
-    /// be best. To be called before the first step.
-    #[must_use]
-    pub fn with_leaf(mut self, steps: usize) -> Self {
-        self.leaf = Some(steps.clamp(4, 1024).next_power_of_two());
         self
     }
 
@@ -164,11 +155,11 @@ impl RelaxedFftHistory {
         let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
             blocks
         } else {
-            let (leaf, classes) = (self.leaf.unwrap_or(LEAF), kernel.classes());
+            let classes = kernel.classes();
             let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
             match Lattice::of(classes).filter(|_| wanted || classes.plan().is_some()) {
-                Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
-                None => Box::new(Pairs::new(kernel, leaf)?),
+                Some(lattice) => Box::new(Waves::new(lattice, kernel)?),
+                None => Box::new(Pairs::new(kernel)?),
             }
         };
         let blocks = self.blocks.insert(blocks);
@@ -334,8 +325,8 @@ pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<B
     let classes = kernel.classes();
     let lattice = Lattice::of(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
     let mut blocks: Box<dyn Blocks> = match lattice {
-        Some(lattice) => Box::new(Waves::new(lattice, kernel, LEAF)?),
-        None => Box::new(Pairs::bounded(kernel, LEAF)?),
+        Some(lattice) => Box::new(Waves::new(lattice, kernel)?),
+        None => Box::new(Pairs::bounded(kernel)?),
     };
     blocks.bound(kernel, reach, &mut Watch::nobody())?;
     Ok(blocks)

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::coefficients::{Blocks, Coefficients, LEAF, PARTS, Scatter};
-use super::level::{Block, Class, Level, Part, Ring, Tables, Work, widened};
+use super::coefficients::{Blocks, Coefficients, PARTS, Scatter};
+use super::level::{Block, Class, LEAF, Level, Part, Ring, Tables, Work, widened};
 use super::wave_level::{Levels, SharedSpectra};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
@@ -24,7 +24,6 @@ const LINE_OF_NUMBERS: usize = 8;
 pub(super) struct Pairs {
     coefficients: Coefficients,
     /// Steps that are summed directly.
-    leaf: usize,
     levels: Vec<Arc<Level>>,
     planner: RealFftPlanner<f64>,
     work: Work,
@@ -38,19 +37,18 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// Blocks of `kernel`, empty.
-    pub(super) fn new(kernel: &dyn ConvolutionWeights, leaf: usize) -> Result<Self> {
-        Self::with_coupling(kernel, leaf, DIRECT_COUPLING)
+    pub(super) fn new(kernel: &dyn ConvolutionWeights) -> Result<Self> {
+        Self::with_coupling(kernel, DIRECT_COUPLING)
     }
 
     /// Blocks for rows whose places are used again: nothing may reach beyond a leaf but blocks.
-    pub(super) fn bounded(kernel: &dyn ConvolutionWeights, leaf: usize) -> Result<Self> {
-        Self::with_coupling(kernel, leaf, 0)
+    pub(super) fn bounded(kernel: &dyn ConvolutionWeights) -> Result<Self> {
+        Self::with_coupling(kernel, 0)
     }
 
-    fn with_coupling(kernel: &dyn ConvolutionWeights, leaf: usize, direct: usize) -> Result<Self> {
+    fn with_coupling(kernel: &dyn ConvolutionWeights, direct: usize) -> Result<Self> {
         Ok(Self {
-            coefficients: Coefficients::new(kernel, leaf, direct)?,
-            leaf,
+            coefficients: Coefficients::new(kernel, direct)?,
             levels: Vec::new(),
             planner: RealFftPlanner::new(),
             work: Work::default(),
@@ -69,7 +67,7 @@ impl Pairs {
     /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
     fn couples(&self, size: usize) -> bool {
         let coefficients = &self.coefficients;
-        coefficients.couples_far && (size == self.leaf || size / 2 < coefficients.coupling_reach)
+        coefficients.couples_far && (size == LEAF || size / 2 < coefficients.coupling_reach)
     }
 
     /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf unless
@@ -84,14 +82,14 @@ impl Pairs {
         let (count, classes) = (self.elements(), self.coefficients.classes.count());
         let mut levels = Vec::new();
         for number in first..end {
-            let mut level = Level::new(self.leaf << number, &mut self.planner);
+            let mut level = Level::new(LEAF << number, &mut self.planner);
             let couples = self.couples(level.size);
             level.reserve(classes, couples);
             self.work.grow(&level, if couples { 2 * count } else { count });
             levels.push((level, couples));
         }
         let mut tables = near.is_none().then(Tables::default);
-        let far = if levels.is_empty() { 0 } else { self.leaf << end };
+        let far = if levels.is_empty() { 0 } else { LEAF << end };
         let length = if tables.is_some() { far.max(self.coefficients.length()) } else { far };
         if length > 0 {
             let mut values: Class = [(); KINDS].map(|()| vec![0.0; length]);
@@ -125,8 +123,7 @@ impl Pairs {
         let count = self.elements();
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
         kernel.prepare(lags.max(self.coefficients.length()))?;
-        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
-        let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
+        let spectra = kernel.spectra().filter(|s| s.are_of(kernel.classes().elements()));
         let mut shared = spectra.map(SharedSpectra::pairs);
         let near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
         let mut own = Levels { levels: self.levels.clone(), near };
@@ -160,12 +157,12 @@ impl Blocks for Pairs {
         steps: usize,
         watch: &mut Watch,
     ) -> Result<()> {
-        let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
+        let capacity = steps.div_ceil(LEAF).next_power_of_two() * LEAF;
         if capacity <= self.capacity {
             return Ok(());
         }
         let count = self.elements();
-        let wanted = (capacity / self.leaf).ilog2() as usize;
+        let wanted = (capacity / LEAF).ilog2() as usize;
         self.take_levels(kernel, wanted, capacity, watch)?;
         // Inputs reach past the end of the capacity only by a coupling that is summed directly.
         let needed = capacity + self.coefficients.coupling_direct;
@@ -181,7 +178,7 @@ impl Blocks for Pairs {
         reach: usize,
         watch: &mut Watch,
     ) -> Result<()> {
-        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1, 2 * reach, watch)?;
+        self.take_levels(kernel, (reach / LEAF).ilog2() as usize + 1, 2 * reach, watch)?;
         self.ring = Ring(2 * reach);
         self.stride = (2 * reach).next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
         self.rows = vec![0.0; 2 * self.elements() * self.stride];
@@ -192,18 +189,18 @@ impl Blocks for Pairs {
     fn work_in(&mut self, now: usize) {
         let Some(last) = now.checked_sub(1) else { return };
         let coefficients = &self.coefficients;
-        let ahead = self.leaf - 1 - last % self.leaf;
+        let ahead = LEAF - 1 - last % LEAF;
         let coupled = if coefficients.couples_far { ahead } else { coefficients.coupling_direct };
         let (ring, rows, stride) = (self.ring, &mut self.rows[..], self.stride);
         vectorized(Scatter { coefficients, rows, stride, now: ring.place(last), ahead, coupled });
-        if !now.is_multiple_of(self.leaf) {
+        if !now.is_multiple_of(LEAF) {
             return;
         }
         if let Some(stale) = ring.stale(now) {
             let rows = self.rows.chunks_exact_mut(self.stride);
             rows.for_each(|row| row[stale.clone()].fill(0.0));
         }
-        let number = ring.level(now, self.leaf, self.levels.len());
+        let number = ring.level(now, self.levels.len());
         let Some(level) = self.levels.get(number) else { return };
         let couples = self.couples(level.size);
         let far = self.levels.iter().rfind(|level| self.couples(level.size));

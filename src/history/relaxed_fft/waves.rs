@@ -7,10 +7,10 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::coefficients::{Blocks, LEAF, PARTS};
+use super::coefficients::{Blocks, PARTS};
 use super::lattice::Lattice;
 use super::leaf::{PlanLeaf, StripLeaf};
-use super::level::{Part, Ring, widened};
+use super::level::{LEAF, Part, Ring, widened};
 use super::wave_level::{COUPLING, Levels, Near, SharedSpectra, WaveLevel};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
@@ -26,7 +26,6 @@ const PADDING: usize = 4;
 pub(super) struct Waves {
     lattice: Lattice,
     /// Steps that are summed directly.
-    leaf: usize,
     /// Last d at which any coupling is not zero; the largest number if it never ends.
     reach: usize,
     near: Arc<Near>,
@@ -50,16 +49,11 @@ pub(super) struct Waves {
 
 impl Waves {
     /// Blocks of elements on `lattice`, empty.
-    pub(super) fn new(
-        lattice: Lattice,
-        kernel: &dyn ConvolutionWeights,
-        leaf: usize,
-    ) -> Result<Self> {
+    pub(super) fn new(lattice: Lattice, kernel: &dyn ConvolutionWeights) -> Result<Self> {
         let size = width(&lattice);
         Ok(Self {
             reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
             lattice,
-            leaf,
             near: Arc::default(),
             levels: Vec::new(),
             planner: FftPlanner::new(),
@@ -68,8 +62,8 @@ impl Waves {
             ring: Ring::ENDLESS,
             capacity: 0,
             end: None,
-            inputs: vec![0.0; leaf * size],
-            far: vec![0.0; leaf * size],
+            inputs: vec![0.0; LEAF * size],
+            far: vec![0.0; LEAF * size],
             sum: vec![0.0; size],
             blocks: Vec::new(),
             scratch: Vec::new(),
@@ -78,7 +72,7 @@ impl Waves {
 
     /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
     fn couples(&self, size: usize) -> bool {
-        self.reach > 0 && (size == self.leaf || size / 2 < self.reach)
+        self.reach > 0 && (size == LEAF || size / 2 < self.reach)
     }
 
     /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf
@@ -93,7 +87,7 @@ impl Waves {
         let (waves, kinds) = (self.lattice.waves(), self.lattice.kinds());
         let mut levels: Vec<_> = (first..end)
             .map(|number| {
-                let size = self.leaf << number;
+                let size = LEAF << number;
                 let couples = self.couples(size);
                 let kinds = (0..kinds).map(|kind| kind != COUPLING || couples);
                 WaveLevel::new(size, waves, kinds, &mut self.planner)
@@ -113,7 +107,7 @@ impl Waves {
         watch: &mut Watch,
     ) -> Result<Near> {
         let (waves, kinds) = (self.lattice.waves().own, self.lattice.kinds());
-        let near = wanted.then_some(self.leaf);
+        let near = wanted.then_some(LEAF);
         // Coefficients wait in the place of the largest spectra that are made of them.
         let largest: Vec<_> =
             (0..kinds).map(|kind| levels.iter().rposition(|level| level.has(kind))).collect();
@@ -157,7 +151,7 @@ impl Waves {
     fn turn(&mut self, now: usize) {
         let (waves, ring) = (self.lattice.waves().all, self.ring);
         let size = width(&self.lattice);
-        let before = ring.before(now, self.leaf);
+        let before = ring.before(now, LEAF);
         let stale = ring.stale(now);
         for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
             if let Some(stale) = &stale {
@@ -169,7 +163,7 @@ impl Waves {
                 *value = Complex::new(input[re], input[re + waves]);
             }
         }
-        let number = ring.level(now, self.leaf, self.levels.len());
+        let number = ring.level(now, self.levels.len());
         let part = if self.levels[number].has(COUPLING) { Part::All } else { Part::Even };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
         levels[number].apply(rows, *stride, (ring, now), part, blocks, scratch);
@@ -182,7 +176,7 @@ impl Waves {
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
             let re = 2 * waves * (row / waves) + row % waves;
             let far = self.far.chunks_exact_mut(size);
-            for (value, far) in values[begin..begin + self.leaf].iter().zip(far) {
+            for (value, far) in values[begin..begin + LEAF].iter().zip(far) {
                 (far[re], far[re + waves]) = (value.re, value.im);
             }
         }
@@ -203,10 +197,10 @@ impl Waves {
         watch: &mut Watch,
     ) -> Result<()> {
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
-        let lags = self.leaf << wanted;
+        let lags = LEAF << wanted;
         kernel.prepare(lags.min(self.end.unwrap_or(lags)))?;
         // Where memory ends, spectra are not those of all lags.
-        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF && self.end.is_none());
+        let spectra = kernel.spectra().filter(|_| self.end.is_none());
         let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
         let mut shared = spectra.map(SharedSpectra::waves);
         let near = (self.capacity > 0).then(|| Arc::clone(&self.near));
@@ -251,13 +245,13 @@ impl Blocks for Waves {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
-        let leaves = steps.div_ceil(self.leaf).max(1);
+        let leaves = steps.div_ceil(LEAF).max(1);
         let largest = leaves.next_power_of_two();
         // The first request is met exactly; later ones double the memory.
-        let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
+        let capacity = LEAF * if self.capacity == 0 { leaves } else { largest };
         let wanted = largest.ilog2() as usize;
         self.take_levels(kernel, wanted, watch)?;
-        if capacity > self.leaf {
+        if capacity > LEAF {
             self.widen(capacity + PADDING);
         }
         self.capacity = capacity;
@@ -271,21 +265,21 @@ impl Blocks for Waves {
         watch: &mut Watch,
     ) -> Result<()> {
         self.end = Some(reach);
-        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1, watch)?;
+        self.take_levels(kernel, (reach / LEAF).ilog2() as usize + 1, watch)?;
         self.widen(2 * reach + PADDING);
         (self.ring, self.capacity) = (Ring(2 * reach), usize::MAX);
         Ok(())
     }
 
     fn work_in(&mut self, now: usize) {
-        if now.is_multiple_of(self.leaf) {
+        if now.is_multiple_of(LEAF) {
             self.turn(now);
         }
     }
 
     fn write(&mut self, now: usize, traction: &[f64]) {
         let (waves, size) = (self.lattice.waves().all, width(&self.lattice));
-        let input = &mut self.inputs[now % self.leaf * size..][..size];
+        let input = &mut self.inputs[now % LEAF * size..][..size];
         let components = traction.chunks_exact(traction.len() / self.lattice.components());
         for (component, (values, part)) in
             components.zip(input.chunks_exact_mut(2 * waves)).enumerate()
@@ -300,8 +294,8 @@ impl Blocks for Waves {
 
     fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>) {
         let (waves, size) = (self.lattice.waves().all, self.width());
-        if step >= worked_in - worked_in % self.leaf {
-            let begin = step % self.leaf * size;
+        if step >= worked_in - worked_in % LEAF {
+            let begin = step % LEAF * size;
             values.extend_from_slice(&self.inputs[begin..begin + size]);
         } else {
             let place = self.ring.place(step);
@@ -324,7 +318,7 @@ impl Blocks for Waves {
     }
 
     fn write_input(&mut self, now: usize, input: &[f64]) {
-        self.inputs[now % self.leaf * input.len()..][..input.len()].copy_from_slice(input);
+        self.inputs[now % LEAF * input.len()..][..input.len()].copy_from_slice(input);
     }
 
     fn clear(&mut self) {
@@ -336,7 +330,7 @@ impl Blocks for Waves {
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
         let (waves, size) = (self.lattice.waves(), width(&self.lattice));
         let components = self.lattice.components();
-        let place = now % self.leaf;
+        let place = now % LEAF;
         self.sum.copy_from_slice(&self.far[place * size..(place + 1) * size]);
         let (sum, inputs) = (&mut self.sum[..], &self.inputs[..place * size]);
         if let [normal, tangential, coupling] = &self.near[..] {

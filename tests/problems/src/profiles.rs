@@ -1,6 +1,8 @@
 //! Profiles of the tables (P1, a layer on rock; P3, the same layer on a rigid base) and of inclined waves.
 
 use basemat::Soil;
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::soil::{Elastic, GeneralizedMaxwell, Hysteretic, Relaxation, SoilProfile};
 
 /// Long-term modulus, moduli and frequencies of the law of `gmb.json` for 5 % or 1 %.
@@ -19,6 +21,11 @@ pub fn gmb_numbers(percent: u32) -> (f64, Vec<f64>, Vec<f64>) {
 pub fn gmb(percent: u32) -> GeneralizedMaxwell {
     let (long_term, moduli, frequencies) = gmb_numbers(percent);
     GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()
+}
+
+/// A ground whose step coefficients are those of two stages.
+pub fn two_stages(profile: SoilProfile, strip: &Strip) -> ElasticGround {
+    ElasticGround::new(profile, strip).unwrap().with_stages(Stages::Two)
 }
 
 fn layer() -> Soil {
