@@ -60,8 +60,8 @@ impl PlaneWave {
     /// positive. Beyond the critical angle, sin θ = c₂/c₁, the two components are out of phase.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and at the critical angle of 45° for a soil with a
-    /// Poisson's ratio of zero, where all amplitudes are 0/0.
+    /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and at the critical angle of 45° for a soil
+    /// with a Poisson's ratio of zero, where all amplitudes are 0/0.
     pub fn sv(soil: Soil, angle: f64) -> Result<Self> {
         let speed = soil.shear_wave_speed();
         let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
@@ -139,11 +139,11 @@ impl PlaneWave {
     /// base that the wave reaches first; the vertical motion follows.
     ///
     /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal one
-    /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not come
-    /// back). It is measured from t = 0, when it moves already; its velocity then, which
+    /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not
+    /// come back). It is measured from t = 0, when it moves already; its velocity then, which
     /// [`FreeField::velocity`](super::FreeField::velocity) tells, is a jolt at the start of a run. Quiet time before
-    /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at rest:
-    /// see [`Baseline`](super::Baseline).
+    /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at
+    /// rest: see [`Baseline`](super::Baseline).
     ///
     /// ```
     /// use basemat::{Soil, motion::{Baseline, FreeField, PlaneWave, el_centro_1940}};
@@ -199,7 +199,8 @@ impl PlaneWave {
     /// [`PlaneWave::field_from_horizontal`]; [`TravellingWave::with_azimuth`] turns it.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for waves that do not move the ground across, and an origin that is not finite.
+    /// [`Error::Input`](crate::Error::Input) for waves that do not move the ground across, and an origin that is not
+    /// finite.
     pub fn field_from_across(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "component of the wave across its direction";
         check_prescribed(quantity, self.across, self.horizontal.abs() + self.vertical.abs())?;

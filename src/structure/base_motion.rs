@@ -5,17 +5,18 @@ use crate::error::{Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 
 impl DofCombination {
-    /// Displacement to the right relative to the middle of the base: what an observer on the base sees. The base's slip
-    /// is taken out, its rotation is not.
+    /// Displacement to the right relative to the middle of the base: what an observer on the base sees. The base's
+    /// slip is taken out, its rotation is not.
     ///
     /// The base is that of `structure`, from its first contact node to its last; the row must be one
     /// of its degrees of freedom. In a group that is a member, before
     /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes, [`Error::Input`](crate::Error::Input) for
-    /// contact nodes at one place, [`Error::Scene`](crate::Error::Scene) in plan: a row does not tell x from y, so a displacement of
-    /// [`DofCombination::of_base`] is to be taken from it.
+    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
+    /// [`Error::Input`](crate::Error::Input) for contact nodes at one place, [`Error::Scene`](crate::Error::Scene)
+    /// in plan: a row does not tell x from y, so a displacement of [`DofCombination::of_base`] is to be taken from
+    /// it.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         let [translation, _, _] = in_the_plane(structure, 0.0)?;
         Ok(self.clone() - translation)
@@ -43,9 +44,9 @@ impl DofCombination {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes, [`Error::Input`](crate::Error::Input) for a
-    /// height that is not finite or contact nodes at one place, [`Error::Scene`](crate::Error::Scene) in plan, as for
-    /// [`DofCombination::relative_to_base`].
+    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
+    /// [`Error::Input`](crate::Error::Input) for a height that is not finite or contact nodes at one place,
+    /// [`Error::Scene`](crate::Error::Scene) in plan, as for [`DofCombination::relative_to_base`].
     pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
         let [carried, _, _] = in_the_plane(structure, height)?;
         Ok(self.clone() - carried)
@@ -72,8 +73,9 @@ impl DofCombination {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`](crate::Error::Input)
-    /// for a place that is not finite, or contact nodes at one place or in plan on one line.
+    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes, or three corners in
+    /// plan; [`Error::Input`](crate::Error::Input) for a place that is not finite, or contact nodes at one place or
+    /// in plan on one line.
     pub fn of_base(structure: &dyn Structure, place: [f64; 3]) -> Result<[Self; 3]> {
         let [x, y, height] = place;
         finite("height above the base", height)?;
