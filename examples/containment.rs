@@ -41,8 +41,9 @@ const CASES: [(&str, Option<f64>, f64); 5] = [
 fn structure() -> Result<FemModel> {
     let solid = |young, density: f64| Material::new(young * PSF, 1.0 / 3.0, density * SLUG);
     // As in the paper, without incompatible modes.
-    let rectangles = |height, rows, material| {
-        Layer::new(height, rows, material).with_formulation(QuadFormulation::Full)
+    let rectangles = |height, rows, material| Layer {
+        formulation: QuadFormulation::Full,
+        ..Layer::new(height, rows, material)
     };
     let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
     let foundation = rectangles(layer, 1, solid(106_560_369.0, 3.043_48)?);

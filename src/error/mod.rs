@@ -5,27 +5,23 @@
 //! is therefore written `r#source`, which `thiserror` does not take for one.
 
 mod case;
-#[cfg(feature = "io")]
-mod input_file;
-mod layered;
+mod file;
+mod ground;
 pub(crate) mod memory;
 mod part;
-mod plan;
 mod progress;
-mod record;
 mod requirement;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
+pub use file::RecordError;
 #[cfg(feature = "io")]
-pub use input_file::{MatrixFileError, MeshFileError};
-pub use layered::{KernelFileError, LayeredError, SiteError};
+pub use file::{MatrixFileError, MeshFileError};
+pub use ground::{KernelFileError, LayeredError, PlanError, SiteError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub use part::{LawError, ReducedError};
-pub use plan::PlanError;
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
-pub use record::RecordError;
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, write_file,

@@ -9,62 +9,17 @@ use crate::linalg::Triplets;
 /// Matrix of the elements that is assembled.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Quantity {
+    /// Without the geometric stiffness.
     Stiffness,
     GeometricStiffness,
     Mass(MassKind),
+    /// Without Rayleigh's.
     Damping,
 }
 
-/// Adds `factor` times the stiffness of all elements, without geometric stiffness, to `matrix`.
-///
-/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub(crate) fn assemble_stiffness(
-    mesh: &Mesh,
-    numbering: &Numbering,
-    factor: f64,
-    matrix: &mut Triplets,
-) {
-    assemble(mesh, numbering, Quantity::Stiffness, factor, |_| true, matrix);
-}
-
-/// Adds `factor` times the geometric stiffness of all elements to `matrix`.
-///
-/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub(crate) fn assemble_geometric_stiffness(
-    mesh: &Mesh,
-    numbering: &Numbering,
-    factor: f64,
-    matrix: &mut Triplets,
-) {
-    assemble(mesh, numbering, Quantity::GeometricStiffness, factor, |_| true, matrix);
-}
-
-/// Adds `factor` times the mass of all elements to `matrix`.
-///
-/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub(crate) fn assemble_mass(
-    mesh: &Mesh,
-    numbering: &Numbering,
-    kind: MassKind,
-    factor: f64,
-    matrix: &mut Triplets,
-) {
-    assemble(mesh, numbering, Quantity::Mass(kind), factor, |_| true, matrix);
-}
-
-/// Adds `factor` times the damping of all elements (not Rayleigh's) to `matrix`.
-///
-/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub(crate) fn assemble_damping(
-    mesh: &Mesh,
-    numbering: &Numbering,
-    factor: f64,
-    matrix: &mut Triplets,
-) {
-    assemble(mesh, numbering, Quantity::Damping, factor, |_| true, matrix);
-}
-
 /// Adds `factor` times a matrix of the elements that `keep` picks by their coordinates.
+///
+/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
 pub(crate) fn assemble(
     mesh: &Mesh,
     numbering: &Numbering,
@@ -135,7 +90,7 @@ impl Numbering {
         for element in mesh.elements() {
             for &node in element.nodes() {
                 for &direction in element.directions() {
-                    used[node][slot(direction)] = true;
+                    used[node][direction as usize] = true;
                 }
             }
         }
@@ -157,7 +112,7 @@ impl Numbering {
 
     /// Index of the degree of freedom of `node` in `direction`, if there is one.
     pub(crate) fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
-        self.numbers.get(node)?[slot(direction)]
+        self.numbers.get(node)?[direction as usize]
     }
 
     /// Indices of the degrees of freedom of `element`, in the order of its matrices; replaces `indices`.
@@ -168,13 +123,5 @@ impl Numbering {
                 indices.push(self.dof(node, direction).unwrap_or(usize::MAX));
             }
         }
-    }
-}
-
-fn slot(direction: Direction) -> usize {
-    match direction {
-        Direction::X => 0,
-        Direction::Y => 1,
-        Direction::Rotation => 2,
     }
 }

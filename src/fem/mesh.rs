@@ -278,15 +278,9 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Layer with the default formulation of the quadrilaterals (incompatible modes).
+    /// Layer with the default formulation of the quadrilaterals (incompatible modes); for another one set the field.
     pub fn new(height: f64, rows: usize, material: Material) -> Self {
         Self { height, rows, material, formulation: QuadFormulation::default() }
-    }
-
-    /// Sets the formulation of the layer's quadrilaterals.
-    #[must_use]
-    pub fn with_formulation(self, formulation: QuadFormulation) -> Self {
-        Self { formulation, ..self }
     }
 }
 

@@ -54,7 +54,7 @@ pub struct Quad4 {
 
 /// Displacement-to-strain columns `[ε_xx, ε_yy, γ_xy]` of a unit displacement in x and in y of a
 /// function with slopes (∂/∂x, ∂/∂y).
-fn strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
+pub(super) fn strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
     [[dx, 0.0, dy], [0.0, dy, dx]]
 }
 
@@ -64,35 +64,26 @@ impl Quad4 {
         Self { nodes, material, formulation }
     }
 
-    /// ∫ Sᵀ D S over the points, S holding the strains of N patterns; row-major N × N.
-    fn integrate<const N: usize>(
+    fn integrated<const N: usize>(
         &self,
-        points: &[[f64; 2]],
+        points: [[f64; 2]; N],
         weight: f64,
         coordinates: &[[f64; 2]],
-        patterns: impl Fn([f64; 2], &Jacobian) -> [[f64; 3]; N],
-    ) -> [[f64; N]; N] {
-        let elasticity = self.material.elasticity();
-        let mut matrix = [[0.0; N]; N];
-        for &point in points {
+    ) -> [[f64; 8]; 8] {
+        let points = points.into_iter().map(|point| (point, weight));
+        integrate(&self.material, points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
-            let strain = patterns(point, &jacobian);
-            let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
-            let area = weight * jacobian.determinant;
-            for i in 0..N {
-                for j in 0..N {
-                    matrix[i][j] += area * dot(&strain[i], &stress[j]);
-                }
-            }
-        }
-        matrix
+            (node_strains(point, &jacobian), jacobian.determinant)
+        })
     }
 
     fn with_bending_modes(&self, coordinates: &[[f64; 2]]) -> [[f64; 8]; 8] {
         let centre = Jacobian::at([0.0; 2], coordinates);
-        let mut full = self.integrate(&gauss_points(), 1.0, coordinates, |point, jacobian| {
+        let points = gauss_points().into_iter().map(|point| (point, 1.0));
+        let mut full = integrate(&self.material, points, |point| {
+            let jacobian = Jacobian::at(point, coordinates);
             let mut strain = [[0.0; 3]; 12];
-            strain[..8].copy_from_slice(&node_strains(point, jacobian));
+            strain[..8].copy_from_slice(&node_strains(point, &jacobian));
             // Slopes of 1 − ξ² and 1 − η² through the centre's Jacobian, scaled so that their
             // integral over the element vanishes: a constant stress does no work on them.
             let scale = -2.0 * centre.determinant / jacobian.determinant;
@@ -100,7 +91,7 @@ impl Quad4 {
             let bend_eta = strains(centre.global([0.0, scale * point[1]]));
             strain[8..10].copy_from_slice(&bend_xi);
             strain[10..].copy_from_slice(&bend_eta);
-            strain
+            (strain, jacobian.determinant)
         });
         // The internal modes are condensed out one after another.
         for pivot in (8..12).rev() {
@@ -116,8 +107,27 @@ impl Quad4 {
     }
 }
 
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+/// ∫ Sᵀ D S over points with their weights, S the strains of N patterns at a point, which come with the determinant of
+/// its Jacobian.
+pub(super) fn integrate<const N: usize>(
+    material: &Material,
+    points: impl Iterator<Item = ([f64; 2], f64)>,
+    strains: impl Fn([f64; 2]) -> ([[f64; 3]; N], f64),
+) -> [[f64; N]; N] {
+    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let elasticity = material.elasticity();
+    let mut matrix = [[0.0; N]; N];
+    for (point, weight) in points {
+        let (strain, determinant) = strains(point);
+        let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
+        let area = weight * determinant;
+        for i in 0..N {
+            for j in 0..N {
+                matrix[i][j] += area * dot(&strain[i], &stress[j]);
+            }
+        }
+    }
+    matrix
 }
 
 /// Strains of unit displacements of the nodes, x and y in turn.
@@ -141,17 +151,13 @@ impl Element for Quad4 {
 
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
         let block = match self.formulation {
-            QuadFormulation::Full => {
-                self.integrate(&gauss_points(), 1.0, coordinates, node_strains)
-            }
-            QuadFormulation::OnePoint => {
-                self.integrate(&[[0.0; 2]], 4.0, coordinates, node_strains)
-            }
+            QuadFormulation::Full => self.integrated(gauss_points(), 1.0, coordinates),
+            QuadFormulation::OnePoint => self.integrated([[0.0; 2]], 4.0, coordinates),
             QuadFormulation::IncompatibleModes => self.with_bending_modes(coordinates),
             QuadFormulation::Hourglass { percent } => {
                 let share = f64::from(percent) / 100.0;
-                let full = self.integrate(&gauss_points(), 1.0, coordinates, node_strains);
-                let mut mixed = self.integrate(&[[0.0; 2]], 4.0, coordinates, node_strains);
+                let full = self.integrated(gauss_points(), 1.0, coordinates);
+                let mut mixed = self.integrated([[0.0; 2]], 4.0, coordinates);
                 for (mixed, full) in mixed.iter_mut().flatten().zip(full.as_flattened()) {
                     *mixed += share * (full - *mixed);
                 }
@@ -216,14 +222,7 @@ pub(super) struct Jacobian {
 
 impl Jacobian {
     pub(super) fn at(point: [f64; 2], coordinates: &[[f64; 2]]) -> Self {
-        let mut j = [[0.0; 2]; 2];
-        for (slope, node) in natural_slopes(point).iter().zip(coordinates) {
-            for axis in 0..2 {
-                j[axis][0] += slope[0] * node[axis];
-                j[axis][1] += slope[1] * node[axis];
-            }
-        }
-        let determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+        let (j, determinant) = derivatives(&natural_slopes(point), coordinates);
         let inverse = [
             [j[1][1] / determinant, -j[1][0] / determinant],
             [-j[0][1] / determinant, j[0][0] / determinant],
@@ -240,6 +239,18 @@ impl Jacobian {
     pub(super) fn slopes(&self, point: [f64; 2]) -> [[f64; 2]; 4] {
         natural_slopes(point).map(|slope| self.global(slope))
     }
+}
+
+/// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions, and its determinant.
+pub(super) fn derivatives(natural: &[[f64; 2]], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 2], f64) {
+    let mut j = [[0.0; 2]; 2];
+    for (slope, node) in natural.iter().zip(coordinates) {
+        for axis in 0..2 {
+            j[axis][0] += slope[0] * node[axis];
+            j[axis][1] += slope[1] * node[axis];
+        }
+    }
+    (j, j[0][0] * j[1][1] - j[0][1] * j[1][0])
 }
 
 fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {

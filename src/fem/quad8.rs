@@ -1,6 +1,7 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
 use super::element::{Element, MassKind, Material, add_square};
+use super::quad4::{derivatives, integrate, strains};
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 use crate::linalg::gauss;
@@ -105,14 +106,7 @@ fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
 /// Slopes (∂/∂x, ∂/∂y) at a point, and the determinant of ∂(x, y)/∂(ξ, η).
 fn slopes(point: [f64; 2], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 8], f64) {
     let natural = natural_slopes(point);
-    let mut j = [[0.0; 2]; 2];
-    for (slope, node) in natural.iter().zip(coordinates) {
-        for axis in 0..2 {
-            j[axis][0] += slope[0] * node[axis];
-            j[axis][1] += slope[1] * node[axis];
-        }
-    }
-    let determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    let (j, determinant) = derivatives(&natural, coordinates);
     let global = natural.map(|[xi, eta]| {
         [(j[1][1] * xi - j[1][0] * eta) / determinant, (j[0][0] * eta - j[0][1] * xi) / determinant]
     });
@@ -143,22 +137,12 @@ impl Element for Quad8 {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
-        let elasticity = self.material.elasticity();
-        let mut block = [[0.0; 16]; 16];
-        for (point, weight) in gauss::square(self.integration.order()) {
+        let points = gauss::square(self.integration.order());
+        let block = integrate(&self.material, points, |point| {
             let (slopes, determinant) = slopes(point, coordinates);
-            let strain: [[f64; 3]; 16] = std::array::from_fn(|i| {
-                let [dx, dy] = slopes[i / 2];
-                if i % 2 == 0 { [dx, 0.0, dy] } else { [0.0, dy, dx] }
-            });
-            let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
-            for i in 0..16 {
-                for j in 0..16 {
-                    block[i][j] += weight * determinant * dot(&strain[i], &stress[j]);
-                }
-            }
-        }
+            let strains = slopes.map(strains);
+            (std::array::from_fn::<_, 16, _>(|i| strains[i / 2][i % 2]), determinant)
+        });
         add_square(matrix, &block);
     }
 

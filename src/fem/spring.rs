@@ -21,11 +21,7 @@ use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spring {
-    nodes: [usize; 2],
-    directions: Vec<Direction>,
-    coefficient: f64,
-}
+pub struct Spring(Pair);
 
 impl Spring {
     /// Spring that sees the relative motion of two nodes in one `direction`; `coefficient` in N/m (N m/rad for
@@ -34,8 +30,8 @@ impl Spring {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
-        let coefficient = positive("coefficient of the spring", coefficient)?;
-        Ok(Self { nodes, directions: vec![direction], coefficient })
+        positive("coefficient of the spring", coefficient)?;
+        Ok(Self(Pair { nodes, direction: Some(direction), coefficient }))
     }
 
     /// Spring that sees the change of distance between two nodes; `coefficient` in N/m (N m/rad for rotations) per
@@ -44,22 +40,22 @@ impl Spring {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
-        let coefficient = positive("coefficient of the spring", coefficient)?;
-        Ok(Self { nodes, directions: vec![Direction::X, Direction::Y], coefficient })
+        positive("coefficient of the spring", coefficient)?;
+        Ok(Self(Pair { nodes, direction: None, coefficient }))
     }
 }
 
 impl Element for Spring {
     fn nodes(&self) -> &[usize] {
-        &self.nodes
+        &self.0.nodes
     }
 
     fn directions(&self) -> &[Direction] {
-        &self.directions
+        self.0.directions()
     }
 
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
-        pair(&self.directions, self.coefficient, coordinates, matrix);
+        self.0.add(coordinates, matrix);
     }
 
     /// Adds nothing.
@@ -67,24 +63,37 @@ impl Element for Spring {
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial spring coincide.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
-        if self.directions.len() == 1 {
-            return Ok(());
-        }
-        Line::check("length of the axial spring", coordinates)
+        self.0.check("length of the axial spring", coordinates)
     }
 }
 
-/// Adds the matrix of a spring or dashpot: one direction, or along the line when there are two.
-pub(super) fn pair(
-    directions: &[Direction],
+/// Two nodes and what acts between them.
+#[derive(Debug, Clone, PartialEq)]
+struct Pair {
+    nodes: [usize; 2],
+    /// The one direction in which it acts; else along the line between the nodes.
+    direction: Option<Direction>,
     coefficient: f64,
-    coordinates: &[[f64; 2]],
-    matrix: &mut [f64],
-) {
-    if directions.len() == 1 {
-        add_square(matrix, &[[coefficient, -coefficient], [-coefficient, coefficient]]);
-    } else if let Some(line) = Line::between(coordinates) {
-        line.add_axial(coefficient, matrix);
+}
+
+impl Pair {
+    fn directions(&self) -> &[Direction] {
+        self.direction.as_ref().map_or(TRANSLATIONS, std::slice::from_ref)
+    }
+
+    /// Adds its matrix.
+    fn add(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+        let c = self.coefficient;
+        if self.direction.is_some() {
+            add_square(matrix, &[[c, -c], [-c, c]]);
+        } else if let Some(line) = Line::between(coordinates) {
+            line.add_axial(c, matrix);
+        }
+    }
+
+    /// Refuses nodes at one place, between which there is no line.
+    fn check(&self, length: &'static str, coordinates: &[[f64; 2]]) -> Result<()> {
+        self.direction.map_or_else(|| Line::check(length, coordinates), |_| Ok(()))
     }
 }
 
@@ -104,11 +113,7 @@ pub(super) fn pair(
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Dashpot {
-    nodes: [usize; 2],
-    directions: Vec<Direction>,
-    coefficient: f64,
-}
+pub struct Dashpot(Pair);
 
 impl Dashpot {
     /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for
@@ -117,8 +122,8 @@ impl Dashpot {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
-        let coefficient = positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self { nodes, directions: vec![direction], coefficient })
+        positive("coefficient of the dashpot", coefficient)?;
+        Ok(Self(Pair { nodes, direction: Some(direction), coefficient }))
     }
 
     /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per
@@ -127,18 +132,18 @@ impl Dashpot {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
-        let coefficient = positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self { nodes, directions: vec![Direction::X, Direction::Y], coefficient })
+        positive("coefficient of the dashpot", coefficient)?;
+        Ok(Self(Pair { nodes, direction: None, coefficient }))
     }
 }
 
 impl Element for Dashpot {
     fn nodes(&self) -> &[usize] {
-        &self.nodes
+        &self.0.nodes
     }
 
     fn directions(&self) -> &[Direction] {
-        &self.directions
+        self.0.directions()
     }
 
     /// Adds nothing.
@@ -148,15 +153,12 @@ impl Element for Dashpot {
     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
-        pair(&self.directions, self.coefficient, coordinates, matrix);
+        self.0.add(coordinates, matrix);
     }
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial dashpot coincide.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
-        if self.directions.len() == 1 {
-            return Ok(());
-        }
-        Line::check("length of the axial dashpot", coordinates)
+        self.0.check("length of the axial dashpot", coordinates)
     }
 }
 

@@ -117,7 +117,9 @@ fn write(matrix: &SparseMatrix, sink: &mut dyn Write) -> std::io::Result<()> {
 
 const ROWS: &str = "rows of the matrix";
 
-/// Number and fault of a line that cannot be read.
+/// Contents of a line, or its fault.
+type Fallible<T> = std::result::Result<T, MatrixFileError>;
+/// Contents of lines, or number and fault of the one that cannot be read.
 type Reason<T> = std::result::Result<T, (usize, MatrixFileError)>;
 
 /// The first line.
@@ -127,49 +129,31 @@ struct Header {
 }
 
 /// The lines of the file.
-struct Lines<'a> {
-    source: bounded_line::Lines<&'a mut dyn Read>,
-    /// The present line, without white space at its ends.
-    text: String,
-}
+type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
-impl Lines<'_> {
-    /// Reads the next line; false at the end of the file.
-    fn advance(&mut self) -> Reason<bool> {
-        let there = self.source.advance()?;
-        self.text.clear();
-        self.text.push_str(self.source.text().trim_ascii());
-        Ok(there)
-    }
-
-    /// The next line that is neither empty nor a comment; false at the end of the file.
-    fn advance_to_data(&mut self) -> Reason<bool> {
-        while self.advance()? {
-            if !self.text.is_empty() && !self.text.starts_with('%') {
-                return Ok(true);
-            }
+/// The next line that is neither empty nor a comment; none at the end of the file.
+fn data(lines: &mut Lines) -> Reason<Option<String>> {
+    while let Some(line) = lines.next()? {
+        if !line.is_empty() && !line.starts_with('%') {
+            return Ok(Some(line));
         }
-        Ok(false)
     }
-
-    fn refuse(&self, reason: MatrixFileError) -> (usize, MatrixFileError) {
-        (self.source.number, reason)
-    }
+    Ok(None)
 }
 
-pub(super) fn read(source: &mut dyn Read) -> Reason<Triplets> {
-    let mut lines = Lines { source: bounded_line::Lines::new(source), text: String::new() };
-    if !lines.advance()? {
-        return Err((0, MatrixFileError::Empty));
-    }
-    let header = header(&lines.text).map_err(|reason| lines.refuse(reason))?;
-    if !lines.advance_to_data()? {
-        return Err(lines.refuse(MatrixFileError::Fields { found: 0, needed: sizes(&header) }));
-    }
-    let size = fields(&lines.text, sizes(&header))
-        .and_then(|fields| {
-            fields.into_iter().map(whole_number).collect::<std::result::Result<Vec<_>, _>>()
-        })
+/// The next such line, or `missing`.
+fn needed_data(lines: &mut Lines, missing: MatrixFileError) -> Reason<String> {
+    data(lines)?.ok_or_else(|| lines.refuse(missing))
+}
+
+fn read(source: &mut dyn Read) -> Reason<Triplets> {
+    let mut lines = Lines::new(source);
+    let Some(first) = lines.next()? else { return Err((0, MatrixFileError::Empty)) };
+    let header = header(&first).map_err(|reason| lines.refuse(reason))?;
+    let needed = if header.coordinate { 3 } else { 2 };
+    let line = needed_data(&mut lines, MatrixFileError::Fields { found: 0, needed })?;
+    let size = fields(&line, needed)
+        .and_then(|fields| fields.into_iter().map(whole_number).collect::<Fallible<Vec<_>>>())
         .map_err(|reason| lines.refuse(reason))?;
     let (rows, columns) = (size[0], size[1]);
     if rows != columns {
@@ -191,12 +175,7 @@ pub(super) fn read(source: &mut dyn Read) -> Reason<Triplets> {
     Ok(matrix)
 }
 
-/// Numbers in the size line.
-fn sizes(header: &Header) -> usize {
-    if header.coordinate { 3 } else { 2 }
-}
-
-fn header(line: &str) -> std::result::Result<Header, MatrixFileError> {
+fn header(line: &str) -> Fallible<Header> {
     let cut = || line.chars().take(80).collect::<String>();
     let words: Vec<String> = line.split_whitespace().map(str::to_ascii_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -224,7 +203,7 @@ fn header(line: &str) -> std::result::Result<Header, MatrixFileError> {
 }
 
 /// Exactly `needed` fields.
-fn fields(line: &str, needed: usize) -> std::result::Result<Vec<&str>, MatrixFileError> {
+fn fields(line: &str, needed: usize) -> Fallible<Vec<&str>> {
     let fields: Vec<&str> = line.split_ascii_whitespace().collect();
     let found = fields.len();
     if found == needed { Ok(fields) } else { Err(MatrixFileError::Fields { found, needed }) }
@@ -234,16 +213,16 @@ fn not_a_number(field: &str) -> MatrixFileError {
     MatrixFileError::NotANumber { text: excerpt(field) }
 }
 
-fn whole_number(field: &str) -> std::result::Result<usize, MatrixFileError> {
+fn whole_number(field: &str) -> Fallible<usize> {
     field.parse().map_err(|_| not_a_number(field))
 }
 
-fn number(field: &str) -> std::result::Result<f64, MatrixFileError> {
+fn number(field: &str) -> Fallible<f64> {
     finite(field).ok_or_else(|| not_a_number(field))
 }
 
 /// An index from 1, as one from 0.
-fn index(field: &str, order: usize) -> std::result::Result<usize, MatrixFileError> {
+fn index(field: &str, order: usize) -> Fallible<usize> {
     let index = whole_number(field)?;
     if (1..=order).contains(&index) {
         Ok(index - 1)
@@ -260,15 +239,13 @@ fn coordinates(
     matrix: &mut Triplets,
 ) -> Reason<()> {
     let order = matrix.order();
-    let entry = |line: &str| -> std::result::Result<(usize, usize, f64), MatrixFileError> {
+    let entry = |line: &str| -> Fallible<(usize, usize, f64)> {
         let fields = fields(line, 3)?;
         Ok((index(fields[0], order)?, index(fields[1], order)?, number(fields[2])?))
     };
     for found in 0..needed {
-        if !lines.advance_to_data()? {
-            return Err(lines.refuse(MatrixFileError::Entries { found, needed }));
-        }
-        let (row, column, value) = entry(&lines.text).map_err(|reason| lines.refuse(reason))?;
+        let line = needed_data(lines, MatrixFileError::Entries { found, needed })?;
+        let (row, column, value) = entry(&line).map_err(|reason| lines.refuse(reason))?;
         if header.symmetric && row < column {
             return Err(
                 lines.refuse(MatrixFileError::AboveDiagonal { row: row + 1, column: column + 1 })
@@ -289,10 +266,8 @@ fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()
     let mut found = 0;
     for column in 0..order {
         for row in if header.symmetric { column } else { 0 }..order {
-            if !lines.advance_to_data()? {
-                return Err(lines.refuse(MatrixFileError::Entries { found, needed }));
-            }
-            let value = fields(&lines.text, 1)
+            let line = needed_data(lines, MatrixFileError::Entries { found, needed })?;
+            let value = fields(&line, 1)
                 .and_then(|fields| number(fields[0]))
                 .map_err(|reason| lines.refuse(reason))?;
             found += 1;
@@ -310,8 +285,8 @@ fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()
 
 /// Refuses more entries than the size line announced.
 fn end(lines: &mut Lines, needed: usize) -> Reason<()> {
-    if lines.advance_to_data()? {
-        return Err(lines.refuse(MatrixFileError::Entries { found: needed + 1, needed }));
+    match data(lines)? {
+        Some(_) => Err(lines.refuse(MatrixFileError::Entries { found: needed + 1, needed })),
+        None => Ok(()),
     }
-    Ok(())
 }

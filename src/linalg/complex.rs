@@ -69,7 +69,7 @@ where
 /// let s = Complex::new(3.0, 4.0);
 /// assert_eq!(s.abs(), 5.0);
 /// assert_eq!(s.sqrt(), Complex::new(2.0, 1.0));
-/// assert_eq!(s * s.conj(), Complex::real(25.0));
+/// assert_eq!(Complex::new(0.0, 2.0).inverse(), Complex::new(0.0, -0.5));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -111,7 +111,7 @@ impl Complex {
 
     /// Complex conjugate.
     #[must_use]
-    pub const fn conj(self) -> Self {
+    pub(crate) const fn conj(self) -> Self {
         Self::new(self.re, -self.im)
     }
 

@@ -125,12 +125,8 @@ impl Baseline {
 }
 
 fn check_degree(degree: usize, least: usize, needed: &'static str) -> Result<()> {
-    if (least..=8).contains(&degree) {
-        Ok(())
-    } else {
-        let quantity = "degree of the baseline polynomial";
-        Err(Error::Input { quantity, value: degree as f64, needed })
-    }
+    let is_known = (least..=8).contains(&degree);
+    require("degree of the baseline polynomial", degree as f64, is_known, needed).map(drop)
 }
 
 impl Fit {

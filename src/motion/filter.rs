@@ -51,10 +51,13 @@ impl Record {
         let length = padded.len().next_power_of_two();
         let step = 1.0 / (length as f64 * self.time_step());
         let exponent = f64::from(2 * order);
-        let filtered = transformed(padded.accelerations(), length, |k, _, value| {
+        let mut coefficients = spectrum(padded.accelerations(), length)?;
+        for (k, value) in coefficients.iter_mut().enumerate() {
             // At zero the ratio is infinite, and the gain zero.
-            value / (1.0 + (corner / (k as f64 * step)).powf(exponent))
-        })?;
+            *value /= 1.0 + (corner / (k as f64 * step)).powf(exponent);
+        }
+        let mut filtered = signal(coefficients, length)?;
+        filtered.truncate(padded.len());
         Self::new(self.time_step(), filtered)
     }
 
@@ -94,34 +97,34 @@ impl Record {
     }
 }
 
-/// `signal`, with zeros up to `length`, after `change` of every coefficient of its Fourier
-/// transform (index, last index, value); cut to the length it had.
-pub(super) fn transformed(
-    samples: &[f64],
-    length: usize,
-    change: impl Fn(usize, usize, Complex<f64>) -> Complex<f64>,
-) -> Result<Vec<f64>> {
-    let mut planner = RealFftPlanner::<f64>::new();
-    let forward = planner.plan_fft_forward(length);
-    let inverse = planner.plan_fft_inverse(length);
+/// Fourier coefficients of samples with zeros up to `length`.
+fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
+    let forward = RealFftPlanner::<f64>::new().plan_fft_forward(length);
     let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
     signal[..samples.len()].copy_from_slice(samples);
-    let failed = |_| Error::Input {
-        quantity: "number of samples of a Fourier transform",
-        value: samples.len() as f64,
-        needed: "one that can be transformed",
-    };
-    forward.process(&mut signal, &mut spectrum).map_err(failed)?;
-    let last = spectrum.len() - 1;
-    for (k, value) in spectrum.iter_mut().enumerate() {
-        *value = change(k, last, *value);
-    }
-    // Of a real signal.
+    forward.process(&mut signal, &mut spectrum).map_err(|_| untransformed(length))?;
+    Ok(spectrum)
+}
+
+/// The real signal of this length that has these coefficients.
+fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
+    let inverse = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
+    let mut signal = inverse.make_output_vec();
     spectrum[0].im = 0.0;
-    spectrum[last].im = 0.0;
-    inverse.process(&mut spectrum, &mut signal).map_err(failed)?;
+    if let Some(last) = spectrum.last_mut() {
+        last.im = 0.0;
+    }
+    inverse.process(&mut spectrum, &mut signal).map_err(|_| untransformed(length))?;
     let scale = 1.0 / length as f64;
-    Ok(signal[..samples.len()].iter().map(|value| value * scale).collect())
+    for value in &mut signal {
+        *value *= scale;
+    }
+    Ok(signal)
+}
+
+fn untransformed(length: usize) -> Error {
+    let quantity = "number of samples of a Fourier transform";
+    Error::Input { quantity, value: length as f64, needed: "one that can be transformed" }
 }
 
 // Hilbert transform of samples, over all time: neither periodic nor cut.
@@ -180,38 +183,16 @@ pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
     let least = around + samples.len() - 1;
     let distances = count + samples.len() - 1;
     let length = distances.next_power_of_two();
-    let mut planner = RealFftPlanner::<f64>::new();
-    let forward = planner.plan_fft_forward(length);
-    let inverse = planner.plan_fft_inverse(length);
-    let failed = |_| Error::Input {
-        quantity: "number of samples of a Hilbert transform",
-        value: samples.len() as f64,
-        needed: "one that can be transformed",
+    let weight = |index: usize| {
+        let is_odd = index.abs_diff(least) % 2 == 1;
+        if is_odd { 2.0 / (PI * (index as f64 - least as f64)) } else { 0.0 }
     };
-    let transform = |fill: &dyn Fn(&mut [f64])| -> Result<Vec<Complex<f64>>> {
-        let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
-        fill(&mut signal);
-        forward.process(&mut signal, &mut spectrum).map_err(failed)?;
-        Ok(spectrum)
-    };
-    let kernel = transform(&|signal| {
-        for (index, value) in signal[..distances].iter_mut().enumerate() {
-            if index.abs_diff(least) % 2 == 1 {
-                *value = 2.0 / (PI * (index as f64 - least as f64));
-            }
-        }
-    })?;
-    let mut spectrum = transform(&|signal| signal[..samples.len()].copy_from_slice(samples))?;
-    for (value, factor) in spectrum.iter_mut().zip(&kernel) {
-        *value *= factor / length as f64;
+    let kernel = spectrum(&(0..distances).map(weight).collect::<Vec<_>>(), length)?;
+    let mut product = spectrum(samples, length)?;
+    for (value, factor) in product.iter_mut().zip(&kernel) {
+        *value *= factor;
     }
-    let mut signal = inverse.make_output_vec();
-    // Of a real signal.
-    spectrum[0].im = 0.0;
-    if let Some(last) = spectrum.last_mut() {
-        last.im = 0.0;
-    }
-    inverse.process(&mut spectrum, &mut signal).map_err(failed)?;
+    let signal = signal(product, length)?;
     // The first outputs are those that come round.
     Ok(signal[samples.len() - 1..][..count].to_vec())
 }

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use super::filter::hilbert;
 use super::{FreeField, Record};
-use crate::error::{Error, Result};
+use crate::error::{Result, require};
 use crate::linalg::Complex;
 
 /// Largest velocity at the end of a record, relative to its peak, that passes for rest.
@@ -71,13 +71,9 @@ struct Late {
 impl Late {
     fn new(record: &Record) -> Result<Self> {
         let end = record.at(record.duration()).velocity;
-        if end.abs() > REST * record.peaks().velocity {
-            return Err(Error::Input {
-                quantity: "velocity at the end of the record",
-                value: end,
-                needed: "at most 1 % of its peak for components out of phase (see Baseline)",
-            });
-        }
+        let is_at_rest = end.abs() <= REST * record.peaks().velocity;
+        let needed = "at most 1 % of its peak for components out of phase (see Baseline)";
+        require("velocity at the end of the record", end, is_at_rest, needed)?;
         Self::of(record.time_step(), record.velocities())
     }
 

@@ -22,7 +22,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::out_of_phase::OutOfPhase;
 use super::{Record, TravellingWave, Triaxial, VerticalIncidence};
-use crate::error::{Error, Result};
+use crate::error::{Result, require};
 use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
 use crate::soil::Soil;
@@ -60,8 +60,8 @@ impl PlaneWave {
     /// positive. Beyond the critical angle, sin θ = c₂/c₁, the two components are out of phase.
     ///
     /// # Errors
-    /// [`Error::Input`] unless |`angle`| < π/2, and at the critical angle of 45° for a soil with a
-    /// Poisson's ratio of zero, where all amplitudes are 0/0.
+    /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and at the critical angle of 45° for a soil
+    /// with a Poisson's ratio of zero, where all amplitudes are 0/0.
     pub fn sv(soil: Soil, angle: f64) -> Result<Self> {
         let speed = soil.shear_wave_speed();
         let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
@@ -78,7 +78,7 @@ impl PlaneWave {
     /// only, in phase at all angles.
     ///
     /// # Errors
-    /// [`Error::Input`] unless |`angle`| < π/2.
+    /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
     pub fn sh(soil: Soil, angle: f64) -> Result<Self> {
         let slowness = check_angle(angle)?.sin() / soil.shear_wave_speed();
         let [horizontal, vertical] = [Complex::default(); 2];
@@ -88,7 +88,7 @@ impl PlaneWave {
     /// P wave from below, as for [`PlaneWave::sv`].
     ///
     /// # Errors
-    /// [`Error::Input`] unless |`angle`| < π/2.
+    /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
     pub fn p(soil: Soil, angle: f64) -> Result<Self> {
         let (speed, shear) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
         let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
@@ -139,11 +139,11 @@ impl PlaneWave {
     /// base that the wave reaches first; the vertical motion follows.
     ///
     /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal one
-    /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not come
-    /// back). It is measured from t = 0, when it moves already; its velocity then, which
+    /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not
+    /// come back). It is measured from t = 0, when it moves already; its velocity then, which
     /// [`FreeField::velocity`](super::FreeField::velocity) tells, is a jolt at the start of a run. Quiet time before
-    /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at rest:
-    /// see [`Baseline`](super::Baseline).
+    /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at
+    /// rest: see [`Baseline`](super::Baseline).
     ///
     /// ```
     /// use basemat::{Soil, motion::{Baseline, FreeField, PlaneWave, el_centro_1940}};
@@ -157,46 +157,41 @@ impl PlaneWave {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] if the horizontal component is less than a tenth of the vertical one (SV
+    /// [`Error::Input`](crate::Error::Input) if the horizontal component is less than a tenth of the vertical one (SV
     /// near 45°, P near the vertical), or if it is out of phase and the record's last velocity above
     /// 1 % of its peak.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
-        let ratio = ratio(
-            "horizontal component of the wave over the other one",
-            self.vertical,
-            self.horizontal,
-        )?;
-        if ratio.im != 0.0 {
-            let field = OutOfPhase::new(record, false, ratio)?;
-            return TravellingWave::new(field, self.apparent_velocity(), origin);
-        }
-        let vertical = record.scaled(ratio.re)?;
-        let field =
-            VerticalIncidence { horizontal: Some(record.clone()), vertical: Some(vertical) };
-        TravellingWave::new(field, self.apparent_velocity(), origin)
+        let quantity = "horizontal component of the wave over the other one";
+        self.field(record, origin, false, ratio(quantity, self.vertical, self.horizontal)?)
     }
 
     /// The free field in which `record` is the vertical motion at `origin`, as for
     /// [`PlaneWave::field_from_horizontal`].
     ///
     /// # Errors
-    /// [`Error::Input`] if the vertical component is less than a tenth of the horizontal one (SV
+    /// [`Error::Input`](crate::Error::Input) if the vertical component is less than a tenth of the horizontal one (SV
     /// near the vertical and the critical angle, P near grazing for ν = 0), and as for
     /// [`PlaneWave::field_from_horizontal`].
     pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
-        let ratio = ratio(
-            "vertical component of the wave over the other one",
-            self.horizontal,
-            self.vertical,
-        )?;
+        let quantity = "vertical component of the wave over the other one";
+        self.field(record, origin, true, ratio(quantity, self.horizontal, self.vertical)?)
+    }
+
+    /// The free field of a record and of the component that is `ratio` times it.
+    fn field(
+        &self,
+        record: &Record,
+        origin: f64,
+        is_vertical: bool,
+        ratio: Complex,
+    ) -> Result<TravellingWave> {
         if ratio.im != 0.0 {
-            let field = OutOfPhase::new(record, true, ratio)?;
+            let field = OutOfPhase::new(record, is_vertical, ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
-        let field = VerticalIncidence {
-            horizontal: Some(record.scaled(ratio.re)?),
-            vertical: Some(record.clone()),
-        };
+        let (given, other) = (Some(record.clone()), Some(record.scaled(ratio.re)?));
+        let [horizontal, vertical] = if is_vertical { [other, given] } else { [given, other] };
+        let field = VerticalIncidence { horizontal, vertical };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
@@ -204,7 +199,8 @@ impl PlaneWave {
     /// [`PlaneWave::field_from_horizontal`]; [`TravellingWave::with_azimuth`] turns it.
     ///
     /// # Errors
-    /// [`Error::Input`] for waves that do not move the ground across, and an origin that is not finite.
+    /// [`Error::Input`](crate::Error::Input) for waves that do not move the ground across, and an origin that is not
+    /// finite.
     pub fn field_from_across(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "component of the wave across its direction";
         check_prescribed(quantity, self.across, self.horizontal.abs() + self.vertical.abs())?;
@@ -215,11 +211,8 @@ impl PlaneWave {
 
 /// `angle`, if it is one of incidence from below.
 fn check_angle(angle: f64) -> Result<f64> {
-    if angle.abs() < FRAC_PI_2 {
-        return Ok(angle);
-    }
-    let quantity = "angle of incidence";
-    Err(Error::Input { quantity, value: angle, needed: "between -pi/2 and pi/2" })
+    let needed = "between -pi/2 and pi/2";
+    require("angle of incidence", angle, angle.abs() < FRAC_PI_2, needed)
 }
 
 /// p, a, b, g and R of the file's head, for a wave of this speed.
@@ -233,10 +226,8 @@ fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Compl
     let (a, b) = (vertical(soil.pressure_wave_speed()), vertical(soil.shear_wave_speed()));
     let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
     let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
-    if rayleigh.abs() <= VANISHING * soil.shear_wave_speed().powi(-4) {
-        let (quantity, needed) = ("angle of incidence", "not the critical angle");
-        return Err(Error::Input { quantity, value: angle, needed });
-    }
+    let is_regular = rayleigh.abs() > VANISHING * soil.shear_wave_speed().powi(-4);
+    require("angle of incidence", angle, is_regular, "not the critical angle")?;
     Ok((p, a, b, g, rayleigh))
 }
 
@@ -250,8 +241,5 @@ fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Compl
 pub(crate) fn check_prescribed(quantity: &'static str, given: f64, other: f64) -> Result<()> {
     let largest = other.max(given);
     let share = if largest == 0.0 { 0.0 } else { given / largest };
-    if share > SMALLEST {
-        return Ok(());
-    }
-    Err(Error::Input { quantity, value: share, needed: "above 0.1 to be prescribed" })
+    require(quantity, share, share > SMALLEST, "above 0.1 to be prescribed").map(drop)
 }

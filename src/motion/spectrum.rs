@@ -222,43 +222,29 @@ impl Record {
     /// Peak ground acceleration, velocity and displacement (PGA, PGV, PGD): the largest magnitudes during the record,
     /// between samples too.
     pub fn peaks(&self) -> Motion {
+        let between = |slope: fn(Motion, f64) -> [f64; 3], of: fn(Motion) -> f64| {
+            (0..self.len() - 1).flat_map(move |index| {
+                let (start, jerk) = (self.sample(index), self.jerk(index));
+                let [c0, c1, c2] = slope(start, jerk);
+                let turns = quadratic_roots_within(c0, c1, c2, self.time_step());
+                turns.into_iter().flatten().map(move |elapsed| of(start.after(elapsed, jerk)))
+            })
+        };
+        let velocities = between(|start, jerk| [start.acceleration, jerk, 0.0], |at| at.velocity);
+        let displacements = between(
+            |start, jerk| [start.velocity, start.acceleration, jerk / 2.0],
+            |at| at.displacement,
+        );
         Motion {
             acceleration: self.peak_acceleration(),
-            velocity: self.peak_velocity(),
-            displacement: self.peak_displacement(),
+            velocity: largest(self.velocities().iter().copied().chain(velocities)),
+            displacement: largest(self.displacements().iter().copied().chain(displacements)),
         }
     }
 
     /// Largest |a|, m/s².
     pub(super) fn peak_acceleration(&self) -> f64 {
         largest(self.accelerations().iter().copied())
-    }
-
-    /// Largest |v| at any time, m/s.
-    fn peak_velocity(&self) -> f64 {
-        let between = (0..self.len() - 1).flat_map(|index| {
-            let start = self.sample(index);
-            let jerk = self.jerk(index);
-            quadratic_roots_within(start.acceleration, jerk, 0.0, self.time_step())
-                .into_iter()
-                .flatten()
-                .map(move |elapsed| start.after(elapsed, jerk).velocity)
-        });
-        largest(self.velocities().iter().copied().chain(between))
-    }
-
-    /// Largest |u| during the record, m.
-    fn peak_displacement(&self) -> f64 {
-        let between = (0..self.len() - 1).flat_map(|index| {
-            let start = self.sample(index);
-            let jerk = self.jerk(index);
-            let (v, a) = (start.velocity, start.acceleration);
-            quadratic_roots_within(v, a, jerk / 2.0, self.time_step())
-                .into_iter()
-                .flatten()
-                .map(move |elapsed| start.after(elapsed, jerk).displacement)
-        });
-        largest(self.displacements().iter().copied().chain(between))
     }
 
     /// Arias intensity π/(2g) ∫ a² dt, m/s, with standard gravity.

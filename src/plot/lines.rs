@@ -1,12 +1,13 @@
-//! Curves over time or period: quantities, energy, spectra; error against run time.
+//! Curves over time or period: quantities, energy, spectra, the response of a site; error against run time.
 
 use super::axes::{Axis, chart, draw_curve, drawable, range_of};
-use super::drawing::{Area, Drawing, Key, Sample, Stroke};
+use super::drawing::{Area, COLORS, Drawing, Key, Sample, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::coupled::{EnergyBalance, Refinement, Setting};
 use crate::error::{Error, Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
+use crate::site::{EquivalentLinear, LayerResponse};
 use crate::text::column::{of_body, printed};
 use plotters::prelude::*;
 
@@ -131,7 +132,7 @@ fn with_unit(name: &str, unit: &str) -> String {
 }
 
 /// This curve by the extremes of its stretches, peaks and gaps kept.
-pub(super) fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     if points.len() <= 4 * BUCKETS {
         return points.to_vec();
     }
@@ -188,7 +189,7 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
 }
 
 /// Axes that hold the spectra.
-pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]> {
+fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]> {
     let all = || spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
     let (mut first, mut last, mut top) = (f64::INFINITY, 0.0_f64, 0.0_f64);
     for ordinate in all() {
@@ -209,7 +210,7 @@ pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result
 }
 
 /// Draws the spectra, by colours in their order.
-pub(super) fn draw_spectra(
+fn draw_spectra(
     area: &Area<'_>,
     [x, y]: &[Axis; 2],
     spectra: &[(&str, &[SpectralOrdinate])],
@@ -220,6 +221,66 @@ pub(super) fn draw_spectra(
         draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
     }
     Ok(())
+}
+
+// Equivalent-linear response of a site.
+
+/// A quantity of a layer with the shear wave speed there.
+type Value = fn(&LayerResponse, f64) -> f64;
+
+/// Shear wave speeds and strains over depth, which goes down from y = 0, and response spectra beside them: those of the
+/// surface and of the rock, say.
+///
+/// # Errors
+/// As for [`spectra`](spectra()).
+pub fn site_response(
+    title: &str,
+    response: &EquivalentLinear,
+    spectra: &[(&str, &[SpectralOrdinate])],
+) -> Result<Svg> {
+    let speeds: [(&str, Value); 2] = [
+        ("speed at small strain", |own, speed| speed / own.modulus_ratio.sqrt()),
+        ("strain-compatible speed", |_, speed| speed),
+    ];
+    let strains: [(&str, Value); 2] = [
+        ("largest strain", |own, _| 100.0 * own.largest_strain),
+        ("effective strain", |own, _| 100.0 * own.effective_strain),
+    ];
+    // Spectra take the first colours.
+    let strokes = [COLORS[5], COLORS[4], COLORS[3], COLORS[6]].map(Stroke::plain);
+    let steps = |value: Value| -> Vec<(f64, f64)> {
+        let layers = response.layers.iter().zip(response.profile.layers());
+        let step = layers.flat_map(|(own, layer)| {
+            let x = value(own, layer.soil.shear_wave_speed());
+            [(x, -own.depth), (x, -own.depth - layer.thickness)]
+        });
+        step.collect()
+    };
+    let panel =
+        |area: &Area<'_>, name: &str, values: [Value; 2], strokes: &[Stroke]| -> Drawing<()> {
+            let curves = values.map(steps);
+            let all = || curves.iter().flatten();
+            let x = Axis::linear(range_of(all().map(|point| point.0).chain([0.0])), name);
+            let y = Axis::linear(range_of(all().map(|point| point.1).chain([0.0])), "y, m");
+            let mut chart = chart(area, &x, &y, true)?;
+            for (points, stroke) in curves.iter().zip(strokes) {
+                draw_curve(&mut chart, points, *stroke, 2)?;
+            }
+            Ok(())
+        };
+    let axes = axes_of_spectra(spectra)?;
+    let names = speeds.iter().chain(&strains).zip(strokes);
+    let own = names.map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
+    let others = spectra.iter().enumerate();
+    let others = others.map(|(k, (name, _))| (*name, Sample::Line(Stroke::nth(k))));
+    Sheet::new(title, Key::of(own.chain(others))).picture(|area| {
+        let width = area.dim_in_pixel().0;
+        let (left, rest) = area.split_horizontally(width * 3 / 10);
+        let (middle, right) = rest.split_horizontally(width * 3 / 10);
+        panel(&left, "c_S, m/s", speeds.map(|(_, value)| value), &strokes[..2])?;
+        panel(&middle, "strain, %", strains.map(|(_, value)| value), &strokes[2..])?;
+        draw_spectra(&right, &axes, spectra)
+    })
 }
 
 // Error against run time.

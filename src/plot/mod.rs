@@ -12,7 +12,7 @@
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
 //! | where the energy went | [`energy`] |
 //! | response spectra | [`spectra`] |
-//! | wave speeds and strains of a site over depth, and spectra | [`site_response`](site_response()) |
+//! | wave speeds and strains of a site over depth, and spectra | [`site_response`] |
 //! | error against run time | [`refinement`](refinement()) |
 //! | the structure at some instants, in plan in two elevations | [`deformed_shapes`] |
 //! | the structure in motion, with its base and, in plan, its contact from above | [`animation`] (an SVG that browsers play) |
@@ -37,13 +37,13 @@ mod plan;
 #[cfg(feature = "png")]
 mod png;
 mod shown;
-mod site_response;
 mod svg;
 
 pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
 pub use deformed::deformed_shapes;
-pub use lines::{Curve, curves, energy, history, probe_history, refinement, spectra};
+pub use lines::{
+    Curve, curves, energy, history, probe_history, refinement, site_response, spectra,
+};
 pub use plan::contact_plan;
-pub use site_response::site_response;
 pub use svg::Svg;

@@ -1,7 +1,7 @@
 //! Free rocking of a rigid block on a rigid base.
 
 use super::line_load::carlson_rf;
-use crate::error::{Error, Result, positive};
+use crate::error::{Result, positive, require};
 
 /// Rigid rectangular block that rocks about its corners on a rigid base, without sliding.
 ///
@@ -29,7 +29,7 @@ impl RockingBlock {
     /// Block from half its width b and half its height h (m), under `gravity` (m/s²).
     ///
     /// # Errors
-    /// [`Error::Input`] unless all three are finite and above zero.
+    /// [`Error::Input`](crate::Error::Input) unless all three are finite and above zero.
     pub fn new(half_width: f64, half_height: f64, gravity: f64) -> Result<Self> {
         positive("half width of the block", half_width)?;
         positive("half height of the block", half_height)?;
@@ -66,7 +66,7 @@ impl RockingBlock {
     /// release to impact is a quarter of it.
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 < θ₀ < α.
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn period_slender(&self, amplitude: f64) -> Result<f64> {
         let ratio = self.check(amplitude)? / self.slenderness_angle();
         // arcosh(1/(1−r)) = ln((1 + √(r(2−r)))/(1−r)), without cancellation at small r
@@ -81,7 +81,7 @@ impl RockingBlock {
     /// (NIST DLMF 19.11.7), so that small amplitudes keep their digits.
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 < θ₀ < α.
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn period(&self, amplitude: f64) -> Result<f64> {
         let amplitude = self.check(amplitude)?;
         let angle = self.slenderness_angle();
@@ -98,7 +98,7 @@ impl RockingBlock {
     /// p √(2 (cos(α − θ₀) − cos α)), from the energy.
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 < θ₀ < α.
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn impact_rate(&self, amplitude: f64) -> Result<f64> {
         let amplitude = self.check(amplitude)?;
         let half_square =
@@ -110,7 +110,7 @@ impl RockingBlock {
     /// restitution.
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 < θ₀ < α.
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn next_peak(&self, amplitude: f64) -> Result<f64> {
         let amplitude = self.check(amplitude)?;
         let angle = self.slenderness_angle();
@@ -132,7 +132,7 @@ impl RockingBlock {
     /// θ₁/α = 1 − √(1 − η² (1 − (1 − θ₀/α)²)).
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 < θ₀ < α.
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn next_peak_slender(&self, amplitude: f64) -> Result<f64> {
         let angle = self.slenderness_angle();
         let ratio = self.check(amplitude)? / angle;
@@ -152,7 +152,7 @@ impl RockingBlock {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 < θ₀ < α, or if the motion ends in an impact (η ≤ 0).
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α, or if the motion ends in an impact (η ≤ 0).
     pub fn impact_times(&self, amplitude: f64, count: usize) -> Result<Vec<f64>> {
         positive("restitution of the block", self.restitution())?;
         let mut amplitude = amplitude;
@@ -167,13 +167,8 @@ impl RockingBlock {
     }
 
     fn check(&self, amplitude: f64) -> Result<f64> {
-        if amplitude > 0.0 && amplitude < self.slenderness_angle() {
-            return Ok(amplitude);
-        }
-        Err(Error::Input {
-            quantity: "rocking amplitude",
-            value: amplitude,
-            needed: "above zero and below the slenderness angle of the block",
-        })
+        let rocks = amplitude > 0.0 && amplitude < self.slenderness_angle();
+        let needed = "above zero and below the slenderness angle of the block";
+        require("rocking amplitude", amplitude, rocks, needed)
     }
 }

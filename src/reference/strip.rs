@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::Soil;
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Result, finite, positive, require};
 
 /// Rigid flat strip on an elastic half-plane, pressed by an eccentric load, that may lift off.
 ///
@@ -59,7 +59,7 @@ impl NoTensionStrip {
     /// pressure; f < 0: to the left; f = 0: smooth.
     ///
     /// # Errors
-    /// [`Error::Input`] unless B is finite and above zero and f finite.
+    /// [`Error::Input`](crate::Error::Input) unless B is finite and above zero and f finite.
     pub fn new(soil: Soil, half_width: f64, friction: f64) -> Result<Self> {
         positive("half width of the strip", half_width)?;
         finite("friction of the strip", friction)?;
@@ -79,7 +79,7 @@ impl NoTensionStrip {
     /// right edge (2(B+e)/(1/2+γ) at the left).
     ///
     /// # Errors
-    /// [`Error::Input`] unless N is finite and above zero and |e| < B.
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and |e| < B.
     pub fn contact(&self, load: f64, eccentricity: f64) -> Result<StripContact> {
         let (b, g) = (self.half_width, self.exponent);
         self.check(load, eccentricity)?;
@@ -101,7 +101,7 @@ impl NoTensionStrip {
     /// edge that stays down.
     ///
     /// # Errors
-    /// [`Error::Input`] as for [`contact`](Self::contact), or if `x` is not finite.
+    /// [`Error::Input`](crate::Error::Input) as for [`contact`](Self::contact), or if `x` is not finite.
     pub fn pressure(&self, load: f64, eccentricity: f64, x: f64) -> Result<f64> {
         let contact = self.contact(load, eccentricity)?;
         finite("position under the strip", x)?;
@@ -130,7 +130,7 @@ impl NoTensionStrip {
     /// Smooth, with θ₀ = (1−ν)N/(πμB): M/(NB) = θ/(2θ₀) up to θ₀ and 1 − θ₀/(2θ) beyond.
     ///
     /// # Errors
-    /// [`Error::Input`] unless N is finite and above zero and the tilt finite.
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and the tilt finite.
     pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
         let (b, g) = (self.half_width, self.exponent);
         self.check(load, 0.0)?;
@@ -161,14 +161,9 @@ impl NoTensionStrip {
 
     fn check(&self, load: f64, eccentricity: f64) -> Result<()> {
         positive("load on the strip", load)?;
-        if eccentricity.abs() < self.half_width {
-            return Ok(());
-        }
-        Err(Error::Input {
-            quantity: "eccentricity of the load",
-            value: eccentricity,
-            needed: "smaller than the half width of the strip",
-        })
+        let is_inside = eccentricity.abs() < self.half_width;
+        let needed = "smaller than the half width of the strip";
+        require("eccentricity of the load", eccentricity, is_inside, needed).map(drop)
     }
 }
 

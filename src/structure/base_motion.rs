@@ -1,21 +1,22 @@
 //! Motions of a structure's base, and displacements relative to them.
 
 use super::{DofCombination, FaceNode, Structure, check_base_nodes};
-use crate::error::{Error, Result, finite, positive, require};
+use crate::error::{Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 
 impl DofCombination {
-    /// Displacement to the right relative to the middle of the base: what an observer on the base sees. The base's slip
-    /// is taken out, its rotation is not.
+    /// Displacement to the right relative to the middle of the base: what an observer on the base sees. The base's
+    /// slip is taken out, its rotation is not.
     ///
     /// The base is that of `structure`, from its first contact node to its last; the row must be one
     /// of its degrees of freedom. In a group that is a member, before
     /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
     ///
     /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for
-    /// contact nodes at one place, [`Error::Scene`] in plan: a row does not tell x from y, so a displacement of
-    /// [`DofCombination::of_base`] is to be taken from it.
+    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
+    /// [`Error::Input`](crate::Error::Input) for contact nodes at one place, [`Error::Scene`](crate::Error::Scene)
+    /// in plan: a row does not tell x from y, so a displacement of [`DofCombination::of_base`] is to be taken from
+    /// it.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         let [translation, _, _] = in_the_plane(structure, 0.0)?;
         Ok(self.clone() - translation)
@@ -43,9 +44,9 @@ impl DofCombination {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for a
-    /// height that is not finite or contact nodes at one place, [`Error::Scene`] in plan, as for
-    /// [`DofCombination::relative_to_base`].
+    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
+    /// [`Error::Input`](crate::Error::Input) for a height that is not finite or contact nodes at one place,
+    /// [`Error::Scene`](crate::Error::Scene) in plan, as for [`DofCombination::relative_to_base`].
     pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
         let [carried, _, _] = in_the_plane(structure, height)?;
         Ok(self.clone() - carried)
@@ -72,8 +73,9 @@ impl DofCombination {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes, or three corners in plan; [`Error::Input`]
-    /// for a place that is not finite, or contact nodes at one place or in plan on one line.
+    /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes, or three corners in
+    /// plan; [`Error::Input`](crate::Error::Input) for a place that is not finite, or contact nodes at one place or
+    /// in plan on one line.
     pub fn of_base(structure: &dyn Structure, place: [f64; 3]) -> Result<[Self; 3]> {
         let [x, y, height] = place;
         finite("height above the base", height)?;
@@ -98,20 +100,20 @@ impl DofCombination {
 
 /// Rigid motion of a base in the plane above its middle.
 fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombination; 3]> {
-    if structure.contact_faces().is_empty() {
-        return DofCombination::of_base(structure, [0.0, 0.0, height]);
-    }
     let needed = "in plan a row does not tell x from y: subtract a displacement of `DofCombination::of_base`";
-    Err(Error::Scene { quantity: "displacement relative to the base", needed })
+    require_part(
+        "displacement relative to the base",
+        structure.contact_faces().is_empty(),
+        needed,
+    )?;
+    DofCombination::of_base(structure, [0.0, 0.0, height])
 }
 
 /// Displacement to the right of the base's middle, rotation of its chord, and displacement of the middle upwards.
 fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 3]> {
     let nodes = structure.contact_nodes();
-    let [left, .., right] = &nodes[..] else {
-        let (found, needed) = (nodes.len(), 2);
-        return Err(Error::Size { quantity: "contact nodes", found, needed });
-    };
+    at_least("contact nodes", nodes.len(), 2)?;
+    let (left, right) = (&nodes[0], &nodes[nodes.len() - 1]);
     let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
     let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();
     let rotation = per_width * (right.vertical.clone() - left.vertical.clone());

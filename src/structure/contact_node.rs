@@ -140,6 +140,13 @@ impl FaceNode {
         [&self.horizontal, &self.vertical, &self.across]
     }
 
+    /// The same point with its degrees of freedom in other ones.
+    pub(crate) fn map_rows(&mut self, map: impl Fn(&DofCombination) -> DofCombination) {
+        for row in [&mut self.horizontal, &mut self.across, &mut self.vertical] {
+            *row = map(row);
+        }
+    }
+
     /// Number of directions in which it moves: two in the plane.
     pub(crate) fn directions(&self) -> usize {
         if self.across.is_empty() { PLANE } else { SPACE }
@@ -174,12 +181,11 @@ impl From<ContactNode> for FaceNode {
 /// The points by which a structure touches the ground: the nodes of its line, or the corners of all faces.
 pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<FaceNode> {
     let faces = structure.contact_faces();
-    if faces.is_empty() { on_line(structure.contact_nodes()) } else { faces.concat() }
-}
-
-/// Nodes of the plane.
-pub(crate) fn on_line(nodes: Vec<ContactNode>) -> Vec<FaceNode> {
-    nodes.into_iter().map(FaceNode::from).collect()
+    if faces.is_empty() {
+        structure.contact_nodes().into_iter().map(FaceNode::from).collect()
+    } else {
+        faces.concat()
+    }
 }
 
 /// Refuses too few nodes, places and weights that are not finite, and degrees of freedom that there are not.

@@ -97,6 +97,22 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     Ok(found)
 }
 
+/// The part of a matrix in the degrees of freedom that have a place, in those places.
+pub(super) fn restricted(
+    name: &'static str,
+    matrix: &SparseMatrix,
+    order: usize,
+    place: impl Fn(usize) -> Option<usize>,
+) -> Result<SparseMatrix> {
+    let mut part = Triplets::new(order);
+    for (row, column, value) in matrix.entries() {
+        if let (Some(row), Some(column)) = (place(row), place(column)) {
+            part.add(row, column, value);
+        }
+    }
+    SparseMatrix::new(name, &part)
+}
+
 /// Whether a stiffness lets nothing move freely.
 fn holds_itself(stiffness: &Triplets) -> Result<bool> {
     const NAME: &str = "stiffness matrix of a part";

@@ -226,12 +226,12 @@ mod tests {
     use super::*;
     use crate::bem::ContactElement;
     use crate::geometry::PLANE;
-    use crate::structure::{ContactNode, on_line};
+    use crate::structure::ContactNode;
 
     fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
         let count = elements.len();
         let (depths, inside) = (vec![[0.0, 1.0]; count], vec![1.0; count]);
-        let nodes = on_line(nodes);
+        let nodes: Vec<_> = nodes.into_iter().map(FaceNode::from).collect();
         check_base_nodes(&nodes, dofs)?;
         Base::on_line(nodes, &[], &Patch::new(PLANE, elements.to_vec(), depths, inside)?)
     }

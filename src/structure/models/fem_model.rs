@@ -2,10 +2,7 @@
 
 use super::rigid_links::{RigidLinks, describe};
 use crate::error::{Error, Result, at_least, in_bounds, positive, require};
-use crate::fem::{
-    Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
-    assemble_mass, assemble_stiffness,
-};
+use crate::fem::{Direction, MassKind, Mesh, Numbering, Quantity, assemble};
 use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
@@ -123,17 +120,12 @@ impl FemModel {
     /// As for [`FemModel::new`], of every line and all of them in a row; [`Error::Size`] without
     /// lines.
     pub fn on_foundations(mesh: Mesh, lines: &[Vec<usize>]) -> Result<Self> {
-        if let Some(short) = lines.iter().find(|line| line.len() < 2) {
-            let quantity = "contact nodes of a foundation";
-            return Err(Error::Size { quantity, found: short.len(), needed: 2 });
+        let (mut ends, mut nodes) = (Vec::new(), 0);
+        for line in lines {
+            at_least("contact nodes of a foundation", line.len(), 2)?;
+            nodes += line.len();
+            ends.push(nodes - 1);
         }
-        let mut ends: Vec<usize> = lines
-            .iter()
-            .scan(0, |nodes, line| {
-                *nodes += line.len();
-                Some(*nodes - 1)
-            })
-            .collect();
         ends.pop();
         Ok(Self { ends, ..Self::new(mesh, &lines.concat())? })
     }
@@ -271,8 +263,13 @@ impl FemModel {
         }
     }
 
-    /// Adds what `fill` adds in the mesh's degrees of freedom, in those that remain.
-    pub(super) fn condensed(&self, matrix: &mut Triplets, fill: impl Fn(&mut Triplets)) {
+    /// Adds matrices of all elements, each times its factor, in the degrees of freedom that remain.
+    pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(Quantity, f64)]) {
+        let fill = |matrix: &mut Triplets| {
+            for &(quantity, factor) in parts {
+                assemble(&self.mesh, &self.numbering, quantity, factor, |_| true, matrix);
+            }
+        };
         match &self.links {
             None => fill(matrix),
             Some(links) => {
@@ -298,17 +295,12 @@ impl Structure for FemModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.condensed(matrix, |matrix| {
-            assemble_mass(&self.mesh, &self.numbering, self.mass_kind, 1.0, matrix);
-        });
+        self.add(matrix, &[(Quantity::Mass(self.mass_kind), 1.0)]);
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.condensed(matrix, |matrix| {
-            assemble_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
-            assemble_geometric_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
-        });
+        self.add(matrix, &[(Quantity::Stiffness, 1.0), (Quantity::GeometricStiffness, 1.0)]);
         Ok(())
     }
 
@@ -322,16 +314,13 @@ impl Structure for FemModel {
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        let (mass, stiffness) = (self.damping.mass(), self.damping.stiffness());
-        self.condensed(matrix, |matrix| {
-            if mass > 0.0 {
-                assemble_mass(&self.mesh, &self.numbering, self.mass_kind, mass, matrix);
-            }
-            if stiffness > 0.0 {
-                assemble_stiffness(&self.mesh, &self.numbering, stiffness, matrix);
-            }
-            assemble_damping(&self.mesh, &self.numbering, 1.0, matrix);
-        });
+        let mut parts = vec![
+            (Quantity::Mass(self.mass_kind), self.damping.mass()),
+            (Quantity::Stiffness, self.damping.stiffness()),
+            (Quantity::Damping, 1.0),
+        ];
+        parts.retain(|(_, factor)| *factor > 0.0);
+        self.add(matrix, &parts);
         Ok(())
     }
 }

@@ -187,9 +187,7 @@ impl Member {
         let mut faces = self.structure.contact_faces();
         for node in faces.iter_mut().flatten() {
             node.x += self.shift;
-            for row in [&mut node.horizontal, &mut node.across, &mut node.vertical] {
-                *row = self.moved(row);
-            }
+            node.map_rows(|row| self.moved(row));
         }
         faces
     }

@@ -1,8 +1,9 @@
 //! P–Δ of finite-element models: axial forces from the weight, and when they buckle the structure.
 
 use crate::error::{Error, Result, not_negative};
-use crate::fem::{Direction, Quantity, assemble, set_static_state};
+use crate::fem::{Direction, Quantity, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
+use crate::structure::detached::restricted;
 use crate::structure::{FemModel, Structure, Triplets};
 
 const HELD: &str = "stiffness matrix with the contact nodes held";
@@ -137,18 +138,10 @@ impl HeldStructure {
         free.iter().enumerate().for_each(|(k, &dof)| place[dof] = Some(k));
         let part = |quantity| {
             let mut all = Triplets::new(n);
-            model.condensed(&mut all, |matrix| {
-                assemble(&model.mesh, &model.numbering, quantity, 1.0, |_| true, matrix);
-            });
+            model.add(&mut all, &[(quantity, 1.0)]);
             // Through the full matrix, which refuses indices out of range.
             let all = SparseMatrix::new(HELD, &all)?;
-            let mut own = Triplets::new(free.len());
-            for (row, column, value) in all.entries() {
-                if let (Some(row), Some(column)) = (place[row], place[column]) {
-                    own.add(row, column, value);
-                }
-            }
-            SparseMatrix::new(HELD, &own)
+            restricted(HELD, &all, free.len(), |dof| place[dof])
         };
         let (elastic, geometric) =
             (part(Quantity::Stiffness)?, part(Quantity::GeometricStiffness)?);

@@ -4,8 +4,8 @@ use crate::error::{Result, at_least, finite, not_negative, positive, same_length
 use crate::linalg::SparseMatrix;
 use crate::structure::detached::{check_damping, check_mass};
 use crate::structure::{
-    ContactNode, DofCombination, FaceNode, RayleighDamping, Structure, Triplets, check_base_nodes,
-    on_line,
+    ContactNode, DofCombination, FaceNode, RayleighDamping, Structure, Triplets, base_nodes,
+    check_base_nodes,
 };
 
 /// Rigid body with a flat base: degrees of freedom `[u_x, u_y, θ]` at the middle of the base.
@@ -196,9 +196,9 @@ impl MatrixModel {
     /// is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for one with a negative mass, more than
     /// rounding.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
-        check_base_nodes(&on_line(contact.clone()), Self::check(&mass, &stiffness)?)?;
         let damping = Triplets::new(mass.order());
-        Ok(Self { mass, damping, stiffness, contact, faces: Vec::new(), active: false })
+        let faces = Vec::new();
+        Self { mass, damping, stiffness, contact, faces, active: false }.checked()
     }
 
     /// Structure with mass (kg) and stiffness (N/m) that touches a ground in plan with `faces`, as
@@ -223,18 +223,19 @@ impl MatrixModel {
     /// As for [`MatrixModel::new`], of the faces' corners. Whether faces are flat, convex and apart is checked when a
     /// simulation is built.
     pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<FaceNode>>) -> Result<Self> {
-        check_base_nodes(&faces.concat(), Self::check(&mass, &stiffness)?)?;
         let damping = Triplets::new(mass.order());
-        Ok(Self { mass, damping, stiffness, contact: Vec::new(), faces, active: false })
+        let contact = Vec::new();
+        Self { mass, damping, stiffness, contact, faces, active: false }.checked()
     }
 
-    /// Number of degrees of freedom of matrices that are those of a structure.
-    fn check(mass: &Triplets, stiffness: &Triplets) -> Result<usize> {
-        let order = mass.order();
+    /// The model, if its matrices and the points of its base are those of a structure.
+    fn checked(self) -> Result<Self> {
+        let order = self.mass.order();
         at_least("mass matrix", order, 1)?;
-        check_mass(&SparseMatrix::new("mass matrix", mass)?)?;
-        check("stiffness matrix", stiffness, order)?;
-        Ok(order)
+        check_mass(&SparseMatrix::new("mass matrix", &self.mass)?)?;
+        check("stiffness matrix", &self.stiffness, order)?;
+        check_base_nodes(&base_nodes(&self), order)?;
+        Ok(self)
     }
 
     /// The same structure with a damping matrix (N s/m per metre), in place of what it had.

@@ -18,8 +18,6 @@ pub(super) struct RigidLinks {
     dofs: usize,
 }
 
-const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
-
 impl RigidLinks {
     /// Links without any nodes so far.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
@@ -41,7 +39,7 @@ impl RigidLinks {
         for &index in std::iter::once(&leader).chain(followers) {
             in_bounds("node of a rigid link", index, bound)?;
         }
-        if DIRECTIONS.iter().any(|&direction| numbering.dof(leader, direction).is_none()) {
+        if Direction::ALL.into_iter().any(|direction| numbering.dof(leader, direction).is_none()) {
             return Err(fault(
                 "its leader must have all three degrees of freedom, from a beam for example",
             ));
@@ -69,7 +67,7 @@ impl RigidLinks {
         let mut next = 0;
         let mut remaining = vec![None; numbering.dofs()];
         for node in (0..nodes.len()).filter(|&node| self.leader[node].is_none()) {
-            for dof in DIRECTIONS.iter().filter_map(|&d| numbering.dof(node, d)) {
+            for dof in Direction::ALL.into_iter().filter_map(|d| numbering.dof(node, d)) {
                 remaining[dof] = Some(next);
                 next += 1;
             }
@@ -77,7 +75,7 @@ impl RigidLinks {
         self.dofs = next;
         let number = |node, direction| remaining[numbering.dof(node, direction)?];
         for node in 0..nodes.len() {
-            for direction in DIRECTIONS {
+            for direction in Direction::ALL {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
                 let leader = self.leader[node].unwrap_or(node);
                 let arm = [nodes[node][0] - nodes[leader][0], nodes[node][1] - nodes[leader][1]];

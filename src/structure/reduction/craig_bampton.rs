@@ -14,7 +14,7 @@ use crate::error::{
     Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
 };
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{MASSLESS, SYMMETRIC, check_attached, numbers};
+use crate::structure::detached::{MASSLESS, SYMMETRIC, check_attached, numbers, restricted};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 
@@ -132,9 +132,7 @@ impl CraigBampton {
         });
         let mut faces = structure.contact_faces();
         for node in faces.iter_mut().flatten() {
-            for row in [&mut node.horizontal, &mut node.across, &mut node.vertical] {
-                *row = parts.renumbered(row);
-            }
+            node.map_rows(|row| parts.renumbered(row));
         }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
@@ -194,13 +192,8 @@ impl Parts {
 
     /// A_ii.
     fn inner(&self, name: &'static str, matrix: &SparseMatrix) -> Result<SparseMatrix> {
-        let mut inner = Triplets::new(self.interior.len());
-        for (row, column, value) in matrix.entries() {
-            if !self.is_kept[row] && !self.is_kept[column] {
-                inner.add(self.place[row], self.place[column], value);
-            }
-        }
-        SparseMatrix::new(name, &inner)
+        let place = |dof: usize| (!self.is_kept[dof]).then_some(self.place[dof]);
+        restricted(name, matrix, self.interior.len(), place)
     }
 
     /// The rows of Tᵀ, and the squared circular frequencies of the modes.

@@ -102,8 +102,9 @@ impl Containment {
         let solid = |young_psf: f64, density: f64| {
             Material::new(young_psf * PSF, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
         };
-        let layer = |height, rows, material| {
-            Layer::new(height, rows, material).with_formulation(self.formulation)
+        let layer = |height, rows, material| Layer {
+            formulation: self.formulation,
+            ..Layer::new(height, rows, material)
         };
         let foundation = solid(106_560_369.0, self.foundation_density)?;
         let superstructure = solid(106_577_648.0, SUPERSTRUCTURE_DENSITY)?;

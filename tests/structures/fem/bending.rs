@@ -11,7 +11,7 @@ const E: f64 = 1.0e7;
 /// Column of `length` and unit width, fixed at its base.
 fn column(length: f64, [across, along]: [usize; 2], nu: f64, kind: QuadFormulation) -> FemModel {
     let material = Material::new(E, nu, 1.0).unwrap();
-    let layer = Layer::new(length, along, material).with_formulation(kind);
+    let layer = Layer { formulation: kind, ..Layer::new(length, along, material) };
     FemModel::on_base(Mesh::layered_block(-0.5..0.5, across, &[layer]).unwrap()).unwrap()
 }
 

@@ -15,7 +15,7 @@ fn layered_block_runs_from_the_base_upwards() {
     let stiff = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     let layers = [
         Layer::new(1.0, 1, stiff),
-        Layer::new(4.0, 2, soft()).with_formulation(QuadFormulation::OnePoint),
+        Layer { formulation: QuadFormulation::OnePoint, ..Layer::new(4.0, 2, soft()) },
         Layer::new(2.0, 1, stiff),
     ];
     let mesh = Mesh::layered_block(-3.0..3.0, 3, &layers).unwrap();
