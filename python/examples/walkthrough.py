@@ -176,16 +176,16 @@ print(f"static stiffness: vertical {stiffness[2, 2]:.3g} N/m, about x {stiffness
 class Worn:
     """Friction that falls from 0.4 to 0.2 with the sliding distance of an element (m), its state variable."""
 
-    memory = 1
+    state_variables = 1
 
     def limits(self, start: bm.PreviousContact) -> bm.Limits:
         """Limits in this step."""
-        return bm.Limits(friction=0.2 + 0.2 * math.exp(-start.memory[0] / 0.005))
+        return bm.Limits(friction=0.2 + 0.2 * math.exp(-start.state_variables[0] / 0.005))
 
     def commit(self, start, end, mode):
         """Sliding distance so far."""
         way = math.hypot(end.slip - start.slip, end.slip_across - start.slip_across)
-        return [start.memory[0] + (way if mode == "slip" else 0.0)]
+        return [start.state_variables[0] + (way if mode == "slip" else 0.0)]
 
 
 print(f"largest slip: {1e3 * run.largest_slip.value:.1f} mm, worn {1e3 * in_plan(tank, Worn()).largest_slip.value:.1f} mm")
@@ -265,11 +265,11 @@ class Polished:
     """Friction that falls from 0.3 to 0.2 with the sliding distance of an element (m), its state variable."""
 
     modes = ("stick", "slip left", "slip right", "open")
-    memory = 1
+    state_variables = 1
 
     def law(self, start: bm.PreviousContact) -> bm.Coulomb:
         """Coulomb's law with the friction of this step."""
-        return bm.Coulomb(0.2 + 0.1 * float(np.exp(-start.memory[0] / 0.01)))
+        return bm.Coulomb(0.2 + 0.1 * float(np.exp(-start.state_variables[0] / 0.01)))
 
     def conditions(self, mode, start):
         """Conditions of Coulomb's law."""
@@ -281,7 +281,7 @@ class Polished:
 
     def commit(self, start, end, mode):
         """Sliding distance so far."""
-        return [start.memory[0] + (abs(end.slip - start.slip) if "slip" in mode else 0.0)]
+        return [start.state_variables[0] + (abs(end.slip - start.slip) if "slip" in mode else 0.0)]
 
 
 for name, law in {"0.3": bm.Coulomb(0.3), "polished": Polished(), "0.2": bm.Coulomb(0.2)}.items():

@@ -280,7 +280,7 @@ def test_what_a_structures_method_returns_badly_names_the_method(
         ("conditions of the interface law returned", {"conditions": lambda *_: None}),
         ("next_mode of the interface law returned", {"next_mode": lambda *_: 3}),
         ("compliance of the interface law returned", {"compliance": lambda *_: 1.0}),
-        ("memory of the interface law returned", {"memory": -1}),
+        ("state_variables of the interface law returned", {"state_variables": -1}),
     ],
 )
 def test_what_a_laws_method_returns_badly_names_the_method(

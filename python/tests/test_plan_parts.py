@@ -104,14 +104,14 @@ class Limited:
 class Worn(Limited):
     """Friction that falls with the way that an element has slid."""
 
-    memory = 1
+    state_variables = 1
 
     def limits(self, start):
-        return bm.Limits(0.25 * math.exp(-start.memory[0] / 0.01), tension=0.0 if start.has_opened else 2e3)
+        return bm.Limits(0.25 * math.exp(-start.state_variables[0] / 0.01), tension=0.0 if start.has_opened else 2e3)
 
     def commit(self, start, end, mode):
         way = math.hypot(end.slip - start.slip, end.slip_across - start.slip_across)
-        return [start.memory[0] + (way if mode == "slip" else 0.0)]
+        return [start.state_variables[0] + (way if mode == "slip" else 0.0)]
 
 
 def test_own_laws_in_plan(run: bm.Run) -> None:
@@ -128,7 +128,7 @@ def test_limits_of_the_packages_laws() -> None:
     assert bm.Coulomb(0.4, tensile_strength=3e3).limits(start) == bm.Limits(0.4, attraction=3e3, tension=3e3)
     assert bm.Coulomb(0.4).limits(bm.PreviousContact(bm.ContactState(gap=0.1), "open", 0.01)) == bm.Limits(0.4)
     assert bm.Yielding(2e5, 0.3).limits(start) == bm.Limits(0.3, pressure_cap=2e5)
-    glued = bm.PreviousContact(bm.ContactState(pressure=1e4), "stick", 0.01, memory=[1.0])
+    glued = bm.PreviousContact(bm.ContactState(pressure=1e4), "stick", 0.01, state_variables=[1.0])
     assert bm.Cohesive(1e3, 2e3, 0.3).limits(glued).shear_strength == 2e3
     bonded = bm.Bonded().limits(start)
     assert bonded.bonded and pickle.loads(pickle.dumps(bm.Limits(0.4))) == bm.Limits(0.4)

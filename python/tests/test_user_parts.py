@@ -99,7 +99,7 @@ class Weakening:
     """Friction that falls with the way that an element has slid."""
 
     modes = ("stick", "slip left", "slip right", "open")
-    memory = 1
+    state_variables = 1
     fails_in = ""
     fails_at = 0.5
 
@@ -107,7 +107,7 @@ class Weakening:
         self.calls = 0
 
     def law(self, start: bm.PreviousContact) -> bm.Coulomb:
-        return bm.Coulomb(0.15 + 0.25 * np.exp(-start.memory[0] / 0.01))
+        return bm.Coulomb(0.15 + 0.25 * np.exp(-start.state_variables[0] / 0.01))
 
     def called(self, method: str) -> None:
         self.calls += 1
@@ -124,7 +124,7 @@ class Weakening:
 
     def commit(self, start, end, mode):
         self.called("commit")
-        return [start.memory[0] + (abs(end.slip - start.slip) if mode.startswith("slip") else 0.0)]
+        return [start.state_variables[0] + (abs(end.slip - start.slip) if mode.startswith("slip") else 0.0)]
 
 
 def test_a_law_remembers(rocking) -> None:
@@ -178,6 +178,23 @@ def test_a_law_without_memory_that_raises_in_next_mode_commits_nothing(rocking) 
     assert state.gap.max() <= 1e-3
     expected = rocking(interface=bm.Coulomb(0.4)).run(state.step)["base_shear"][1:]
     assert list(expected) == shears
+
+
+@pytest.mark.parametrize("method", ["initial_state_variables", "commit"])
+def test_a_law_says_how_many_numbers_it_commits(method: str, rocking) -> None:
+    class Forgetful(bm.UserLaw):
+        modes = ("stick", "slip left", "slip right", "open")
+        law = bm.Coulomb(0.4)
+
+        def conditions(self, mode, start):
+            return self.law.conditions(mode, start)
+
+        def next_mode(self, mode, start, trial, tolerance):
+            return self.law.next_mode(mode, start, trial, tolerance)
+
+    setattr(Forgetful, method, lambda self, *arguments: [0.0])
+    with pytest.raises(bm.InputError, match=f"has `{method}`, but no `state_variables`"):
+        rocking(interface=Forgetful())
 
 
 def test_functions_may_raise(rocking) -> None:

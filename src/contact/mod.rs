@@ -17,7 +17,8 @@ pub(crate) use search::ModeSearch;
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
-    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, check_list, memory_ends,
+    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, check_list,
+    state_variable_ends,
 };
 use crate::linalg::largest;
 
@@ -122,10 +123,10 @@ pub struct ContactProblem {
     solver: ContactSolver,
     search: ModeSearch,
     modes: Vec<Mode>,
-    /// Where the memory of each element's law ends; empty if no law has any.
-    memory_ends: Vec<usize>,
+    /// Where the state variables of each element's law end; empty if no law has any.
+    state_variable_ends: Vec<usize>,
     /// Memories at the end of a step, until they are committed.
-    memory: Vec<f64>,
+    state_variables: Vec<f64>,
     steps: usize,
 }
 
@@ -147,8 +148,8 @@ pub struct ContactSolution<'a> {
     /// Method that found the modes.
     pub method: SearchMethod,
     laws: &'a [Box<dyn InterfaceLaw>],
-    memory_ends: &'a [usize],
-    memory: &'a mut [f64],
+    state_variable_ends: &'a [usize],
+    state_variables: &'a mut [f64],
     step: usize,
     time: f64,
 }
@@ -165,17 +166,17 @@ short_debug! {
 
 impl ContactSolution<'_> {
     /// Accepts the step: moves `start`, from which it was solved, to the start of the next one, and
-    /// has the laws commit it to their memories. A step that is to be solved anew is not committed.
+    /// has the laws commit it to their state variables. A step that is to be solved anew is not committed.
     ///
     /// # Errors
     /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a law remembers a number
     /// that is not finite; `start` is then as it was.
     pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
-        check_start(start, self.states.len(), self.memory_ends)?;
-        let Self { laws, states, modes, memory, step, time, .. } = self;
-        let remembered = start.remember(laws, states, modes, memory);
+        check_start(start, self.states.len(), self.state_variable_ends)?;
+        let Self { laws, states, modes, state_variables, step, time, .. } = self;
+        let remembered = start.update_state_variables(laws, states, modes, state_variables);
         remembered.map_err(|error| Error::Step { step, time, source: error.into() })?;
-        start.advance(states, modes, memory);
+        start.advance(states, modes, state_variables);
         Ok(())
     }
 }
@@ -199,10 +200,10 @@ impl ContactProblem {
         }
         check_list(&laws, count)?;
         check_finite("Delassus operator", &delassus)?;
-        let memory_ends = memory_ends(&laws, count)?;
+        let state_variable_ends = state_variable_ends(&laws, count)?;
         Ok(Self {
-            memory: vec![0.0; memory_ends.last().copied().unwrap_or(0)],
-            memory_ends,
+            state_variables: vec![0.0; state_variable_ends.last().copied().unwrap_or(0)],
+            state_variable_ends,
             delassus: delassus.into(),
             laws,
             static_traction: vec![0.0; layout.len()],
@@ -237,10 +238,10 @@ impl ContactProblem {
     }
 
     /// The start of the first step, from that of each element ([`PreviousContact::new`]). An element whose
-    /// `memory` is empty gets what its law begins with.
+    /// `state_variables` are empty gets what its law begins with.
     ///
     /// # Errors
-    /// [`Error::Size`] for a list or a memory of another length, [`Error::Input`] for time steps that
+    /// [`Error::Size`] for a list or state variables of another length, [`Error::Input`] for time steps that
     /// are not above zero or not all the same, and for numbers that are not finite;
     /// [`Error::Law`] if these are a law's.
     pub fn start(&self, elements: &[PreviousContact<'_>]) -> Result<PreviousContacts> {
@@ -272,7 +273,7 @@ impl ContactProblem {
         start: &PreviousContacts,
     ) -> Result<ContactSolution<'_>> {
         same_length("free jump", free_jump.len(), self.static_traction.len())?;
-        check_start(start, self.modes.len(), &self.memory_ends)?;
+        check_start(start, self.modes.len(), &self.state_variable_ends)?;
         check_finite("free jump", free_jump)?;
         for (mode, start) in self.modes.iter_mut().zip(start.iter()) {
             check_element(&start)?;
@@ -300,18 +301,22 @@ impl ContactProblem {
             trials,
             method,
             laws: &self.laws,
-            memory_ends: &self.memory_ends,
-            memory: &mut self.memory,
+            state_variable_ends: &self.state_variable_ends,
+            state_variables: &mut self.state_variables,
             step,
             time,
         })
     }
 }
 
-/// Whether a start is that of `count` elements whose memories end where those of the laws do.
-fn check_start(start: &PreviousContacts, count: usize, memory_ends: &[usize]) -> Result<()> {
+/// Whether a start is that of `count` elements whose state variables end where those of the laws do.
+fn check_start(
+    start: &PreviousContacts,
+    count: usize,
+    state_variable_ends: &[usize],
+) -> Result<()> {
     same_length("starts of the step", start.len(), count)?;
-    if start.memory_ends() == memory_ends {
+    if start.state_variable_ends() == state_variable_ends {
         return Ok(());
     }
     let needed = "one of a problem with the same laws: theirs remember other numbers";

@@ -26,7 +26,7 @@ impl State {
         let start: Vec<_> = (0..count)
             .map(|e| {
                 let start = PreviousContact::new(contact[e], modes[e], scene.time_step);
-                start.with_memory(at.memory.get(e).map_or(&[], Vec::as_slice))
+                start.with_state_variables(at.state_variables.get(e).map_or(&[], Vec::as_slice))
             })
             .collect();
         let start = PreviousContacts::new(&scene.laws, &start)?;
@@ -83,7 +83,7 @@ impl State {
                 *from = to;
             }
         }
-        self.start.advance(&self.contact, &self.modes, &increment.memory);
+        self.start.advance(&self.contact, &self.modes, &increment.state_variables);
         (self.trials, self.method) = (increment.trials, increment.method);
         self.update_resultants(scene);
     }

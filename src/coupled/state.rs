@@ -205,10 +205,10 @@ impl State {
     }
 
     /// The numbers that the law of an element remembers
-    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no memory,
+    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no such numbers,
     /// or if there is no such element.
     pub fn state_variables(&self, element: usize) -> &[f64] {
-        if element < self.start.len() { self.start.memory_of(element) } else { &[] }
+        if element < self.start.len() { self.start.state_variables_of(element) } else { &[] }
     }
 }
 

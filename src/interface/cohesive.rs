@@ -88,7 +88,7 @@ impl Cohesive {
 
 /// Whether the element was glued at the start of the step, and is so far in it.
 fn is_glued(start: &PreviousContact) -> bool {
-    !start.has_opened && start.memory.first().is_some_and(|glued| *glued > 0.0)
+    !start.has_opened && start.state_variables.first().is_some_and(|glued| *glued > 0.0)
 }
 
 impl InterfaceLaw for Cohesive {
@@ -122,8 +122,8 @@ impl InterfaceLaw for Cohesive {
         1
     }
 
-    fn initial_state_variables(&self, start: &PreviousContact, memory: &mut [f64]) {
-        memory[0] = if start.mode.is_closed() { 1.0 } else { 0.0 };
+    fn initial_state_variables(&self, start: &PreviousContact, state_variables: &mut [f64]) {
+        state_variables[0] = if start.mode.is_closed() { 1.0 } else { 0.0 };
     }
 
     fn commit(
@@ -131,10 +131,10 @@ impl InterfaceLaw for Cohesive {
         _start: &PreviousContact,
         _end: &ContactState,
         mode: Mode,
-        memory: &mut [f64],
+        state_variables: &mut [f64],
     ) {
         if mode != Mode::Stick {
-            memory[0] = 0.0;
+            state_variables[0] = 0.0;
         }
     }
 

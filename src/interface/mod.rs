@@ -16,7 +16,7 @@ pub use cohesive::{Bonded, Cohesive};
 pub use coulomb::{Coulomb, UnilateralCondition, VariableFriction};
 pub use limits::Limits;
 pub use mode::Mode;
-pub(crate) use previous_contact::memory_ends;
+pub(crate) use previous_contact::state_variable_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use yielding::Yielding;
@@ -215,8 +215,8 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// Contact law between base and soil: implement this for a law of your own.
 ///
 /// A law is a rule and keeps nothing itself. The end of the step before is in [`PreviousContact`]; what
-/// else it needs of the past it declares as a memory of a few numbers per element, which the
-/// simulation keeps, shows in [`PreviousContact::memory`] and saves in checkpoints. Numbers of a law that
+/// else it needs of the past it declares as a few state variables per element, which the
+/// simulation keeps, shows in [`PreviousContact::state_variables`] and saves in checkpoints. Numbers of a law that
 /// are not finite, and a next mode that is none of its modes, are a [`LawError`](crate::LawError).
 ///
 /// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
@@ -234,7 +234,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// impl SlipWeakening {
 ///     /// Coulomb's law with the friction of this step.
 ///     fn now(&self, start: &PreviousContact) -> Coulomb {
-///         let slid = start.memory[0];
+///         let slid = start.state_variables[0];
 ///         Coulomb::new(0.3 + 0.2 * (-slid / 0.01).exp()).expect("a friction above zero")
 ///     }
 /// }
@@ -254,9 +254,9 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///     fn state_variables(&self) -> usize {
 ///         1
 ///     }
-///     fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+///     fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, state_variables: &mut [f64]) {
 ///         if mode.is_slip() {
-///             memory[0] += (end.slip - start.state.slip).abs();
+///             state_variables[0] += (end.slip - start.state.slip).abs();
 ///         }
 ///     }
 /// }
@@ -297,7 +297,7 @@ pub trait InterfaceLaw: Send {
     /// what goes with a compliance that changes, can be lost to friction, impact and damage.
     ///
     /// Asked for every mode at the static state, and once per solved step for the mode it ends in. A
-    /// law without memory that is hard in every mode at the static state counts as hard for the
+    /// law without state variables that is hard in every mode at the static state counts as hard for the
     /// whole run.
     fn compliance(&self, _mode: Mode, _start: &PreviousContact) -> [f64; 2] {
         [0.0; 2]
@@ -308,20 +308,20 @@ pub trait InterfaceLaw: Send {
         0
     }
 
-    /// Sets the memory that an element begins a run with, zeros unless this says otherwise, from
+    /// Sets the state variables that an element begins a run with, zeros unless this says otherwise, from
     /// the `start` of its first step (and, where the law acts while the weight comes on, from one
-    /// without pressure for that). Not called for a law without memory.
-    fn initial_state_variables(&self, _start: &PreviousContact, _memory: &mut [f64]) {}
+    /// without pressure for that). Not called for a law without any.
+    fn initial_state_variables(&self, _start: &PreviousContact, _state_variables: &mut [f64]) {}
 
-    /// Brings the memory of an element to the `end` of a step in `mode`: it holds what it was at the
+    /// Brings the state variables of an element to the `end` of a step in `mode`: they hold what they were at the
     /// `start` of the step. Called once per accepted step, after its modes are found, and not for a
-    /// law without memory.
+    /// law without any.
     fn commit(
         &self,
         _start: &PreviousContact,
         _end: &ContactState,
         _mode: Mode,
-        _memory: &mut [f64],
+        _state_variables: &mut [f64],
     ) {
     }
 

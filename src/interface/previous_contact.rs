@@ -5,7 +5,7 @@ use crate::error::{LawError, Result, finite, memory, same_length};
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///
-/// In the signatures of a law of one's own it is `&PreviousContact`; the lifetime is that of `memory`.
+/// In the signatures of a law of one's own it is `&PreviousContact`; the lifetime is that of `state_variables`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PreviousContact<'a> {
@@ -23,14 +23,14 @@ pub struct PreviousContact<'a> {
     /// Time step, s.
     pub time_step: f64,
     /// The numbers that the law remembers of this element ([`InterfaceLaw::state_variables`]); empty for a
-    /// law without memory.
-    pub memory: &'a [f64],
+    /// law without any.
+    pub state_variables: &'a [f64],
 }
 
 impl<'a> PreviousContact<'a> {
     /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
     /// simulation: it has opened if it is open, its slip rate is zero, its static pressure that
-    /// of `state`, and its memory empty. All fields can then be set.
+    /// of `state`, and its state variables empty. All fields can then be set.
     ///
     /// ```
     /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
@@ -51,32 +51,40 @@ impl<'a> PreviousContact<'a> {
             slip_rate: 0.0,
             static_pressure: state.pressure,
             time_step,
-            memory: &[],
+            state_variables: &[],
         }
     }
 
     /// State variables with which `law` begins after this contact.
-    pub(crate) fn first_memory(&self, law: &dyn InterfaceLaw) -> Vec<f64> {
-        let mut memory = vec![0.0; law.state_variables()];
-        if !memory.is_empty() {
-            law.initial_state_variables(self, &mut memory);
+    pub(crate) fn first_state_variables(&self, law: &dyn InterfaceLaw) -> Vec<f64> {
+        let mut state_variables = vec![0.0; law.state_variables()];
+        if !state_variables.is_empty() {
+            law.initial_state_variables(self, &mut state_variables);
         }
-        memory
+        state_variables
     }
 
-    fn without_memory(&self) -> PreviousContact<'static> {
+    fn without_state_variables(&self) -> PreviousContact<'static> {
         let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = *self;
-        let memory = &[];
-        PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+        let state_variables = &[];
+        PreviousContact {
+            state,
+            mode,
+            has_opened,
+            slip_rate,
+            static_pressure,
+            time_step,
+            state_variables,
+        }
     }
 
     /// This contact with other state variables: for a law made of others, each of which owns a part of them.
     #[must_use]
-    pub(crate) fn with_memory<'b>(self, memory: &'b [f64]) -> PreviousContact<'b>
+    pub(crate) fn with_state_variables<'b>(self, state_variables: &'b [f64]) -> PreviousContact<'b>
     where
         'a: 'b,
     {
-        PreviousContact { memory, ..self }
+        PreviousContact { state_variables, ..self }
     }
 }
 
@@ -89,16 +97,19 @@ impl<'a> PreviousContact<'a> {
 /// moves it on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreviousContacts {
-    /// Past of each element, without its memory.
+    /// Past of each element, without its state variables.
     past: Vec<PreviousContact<'static>>,
-    /// The memories of all elements, one after the other.
-    memory: Vec<f64>,
+    /// The state variables of all elements, one after the other.
+    state_variables: Vec<f64>,
     /// Ends of the state variables of each element; empty if no law has any.
     ends: Vec<usize>,
 }
 
 /// Ends of the state variables of each element; empty if no law has any.
-pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<Vec<usize>> {
+pub(crate) fn state_variable_ends(
+    laws: &[Box<dyn InterfaceLaw>],
+    count: usize,
+) -> Result<Vec<usize>> {
     if laws.iter().all(|law| law.state_variables() == 0) {
         return Ok(Vec::new());
     }
@@ -120,21 +131,24 @@ impl PreviousContacts {
         laws: &[Box<dyn InterfaceLaw>],
         elements: &[PreviousContact<'_>],
     ) -> Result<Self> {
-        let ends = memory_ends(laws, elements.len())?;
-        let past = elements.iter().map(PreviousContact::without_memory).collect();
-        let memory = vec![0.0; ends.last().copied().unwrap_or(0)];
-        let mut starts = Self { past, memory, ends };
+        let ends = state_variable_ends(laws, elements.len())?;
+        let past = elements.iter().map(PreviousContact::without_state_variables).collect();
+        let state_variables = vec![0.0; ends.last().copied().unwrap_or(0)];
+        let mut starts = Self { past, state_variables, ends };
         for (e, start) in elements.iter().enumerate() {
-            let range = starts.memory_range(e);
-            if start.memory.is_empty() && !range.is_empty() {
-                let memory = starts.of(e).first_memory(law_of(laws, e));
-                check_memory(e, start.mode, &memory)?;
-                starts.memory[range].copy_from_slice(&memory);
+            let range = starts.state_variable_range(e);
+            if start.state_variables.is_empty() && !range.is_empty() {
+                let state_variables = starts.of(e).first_state_variables(law_of(laws, e));
+                check_state_variables(e, start.mode, &state_variables)?;
+                starts.state_variables[range].copy_from_slice(&state_variables);
             } else {
-                let quantity = "memory of an interface law";
-                same_length(quantity, start.memory.len(), range.len())?;
-                start.memory.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))?;
-                starts.memory[range].copy_from_slice(start.memory);
+                let quantity = "state variables of an interface law";
+                same_length(quantity, start.state_variables.len(), range.len())?;
+                start
+                    .state_variables
+                    .iter()
+                    .try_for_each(|value| finite(quantity, *value).map(|_| ()))?;
+                starts.state_variables[range].copy_from_slice(start.state_variables);
             }
         }
         Ok(starts)
@@ -159,7 +173,7 @@ impl PreviousContacts {
     /// The start of an element that is there.
     #[inline]
     pub(crate) fn of(&self, element: usize) -> PreviousContact<'_> {
-        self.past[element].with_memory(self.memory_of(element))
+        self.past[element].with_state_variables(self.state_variables_of(element))
     }
 
     /// Opening and traction of an element at the end of the step before.
@@ -168,11 +182,15 @@ impl PreviousContacts {
     }
 
     /// Memory of an element's law.
-    pub(crate) fn memory_of(&self, element: usize) -> &[f64] {
-        if self.ends.is_empty() { &[] } else { &self.memory[self.memory_range(element)] }
+    pub(crate) fn state_variables_of(&self, element: usize) -> &[f64] {
+        if self.ends.is_empty() {
+            &[]
+        } else {
+            &self.state_variables[self.state_variable_range(element)]
+        }
     }
 
-    fn memory_range(&self, element: usize) -> std::ops::Range<usize> {
+    fn state_variable_range(&self, element: usize) -> std::ops::Range<usize> {
         let begin = if element == 0 { 0 } else { self.end(element - 1) };
         begin..self.end(element)
     }
@@ -182,18 +200,18 @@ impl PreviousContacts {
     }
 
     /// Ends of the state variables of each element; empty if no law has any.
-    pub(crate) fn memory_ends(&self) -> &[usize] {
+    pub(crate) fn state_variable_ends(&self) -> &[usize] {
         &self.ends
     }
 
     /// The memories of all elements.
-    pub(crate) fn memory(&self) -> &[f64] {
-        &self.memory
+    pub(crate) fn state_variables(&self) -> &[f64] {
+        &self.state_variables
     }
 
     /// State variables of all elements, to be set.
-    pub(crate) fn memory_mut(&mut self) -> &mut [f64] {
-        &mut self.memory
+    pub(crate) fn state_variables_mut(&mut self) -> &mut [f64] {
+        &mut self.state_variables
     }
 
     /// Slip velocities of the step before.
@@ -206,32 +224,37 @@ impl PreviousContacts {
         self.past[e] = PreviousContact { state, mode, has_opened, ..self.past[e] };
     }
 
-    /// Has the laws commit the step that ends in `states` and `modes` to `memory`, which has the
-    /// length of [`PreviousContacts::memory`]; nothing here changes.
-    pub(crate) fn remember(
+    /// Has the laws commit the step that ends in `states` and `modes` to `state_variables`, which has the
+    /// length of [`PreviousContacts::state_variables`]; nothing here changes.
+    pub(crate) fn update_state_variables(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
         states: &[ContactState],
         modes: &[Mode],
-        memory: &mut [f64],
+        state_variables: &mut [f64],
     ) -> std::result::Result<(), LawError> {
-        if memory.is_empty() {
+        if state_variables.is_empty() {
             return Ok(());
         }
-        memory.copy_from_slice(&self.memory);
+        state_variables.copy_from_slice(&self.state_variables);
         for (e, (state, &mode)) in states.iter().zip(modes).enumerate() {
-            let own = &mut memory[self.memory_range(e)];
+            let own = &mut state_variables[self.state_variable_range(e)];
             if !own.is_empty() {
                 law_of(laws, e).commit(&self.of(e), state, mode, own);
-                check_memory(e, mode, own)?;
+                check_state_variables(e, mode, own)?;
             }
         }
         Ok(())
     }
 
     /// Goes on to the start of the next step, after this one has ended in `states` and `modes` and
-    /// left `memory`.
-    pub(crate) fn advance(&mut self, states: &[ContactState], modes: &[Mode], memory: &[f64]) {
+    /// left `state_variables`.
+    pub(crate) fn advance(
+        &mut self,
+        states: &[ContactState],
+        modes: &[Mode],
+        state_variables: &[f64],
+    ) {
         for ((past, state), mode) in self.past.iter_mut().zip(states).zip(modes) {
             let along = state.slip - past.state.slip;
             let across = state.slip_across - past.state.slip_across;
@@ -240,15 +263,19 @@ impl PreviousContacts {
             past.has_opened |= !mode.is_closed();
             (past.state, past.mode) = (*state, *mode);
         }
-        if !memory.is_empty() {
-            self.memory.copy_from_slice(memory);
+        if !state_variables.is_empty() {
+            self.state_variables.copy_from_slice(state_variables);
         }
     }
 }
 
-fn check_memory(element: usize, mode: Mode, memory: &[f64]) -> std::result::Result<(), LawError> {
-    let quantity = "memory";
-    match memory.iter().find(|value| !value.is_finite()) {
+fn check_state_variables(
+    element: usize,
+    mode: Mode,
+    state_variables: &[f64],
+) -> std::result::Result<(), LawError> {
+    let quantity = "state variable";
+    match state_variables.iter().find(|value| !value.is_finite()) {
         Some(&value) => Err(LawError::NotFinite { element, mode: mode.word(), quantity, value }),
         None => Ok(()),
     }

@@ -84,7 +84,7 @@ impl Yielding {
 
 /// The indentation that an element remembers.
 fn indentation(start: &PreviousContact) -> f64 {
-    start.memory.first().copied().unwrap_or(0.0)
+    start.state_variables.first().copied().unwrap_or(0.0)
 }
 
 impl InterfaceLaw for Yielding {
@@ -146,9 +146,15 @@ impl InterfaceLaw for Yielding {
         1
     }
 
-    fn commit(&self, _start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(
+        &self,
+        _start: &PreviousContact,
+        end: &ContactState,
+        mode: Mode,
+        state_variables: &mut [f64],
+    ) {
         if mode.is_yield() {
-            memory[0] = memory[0].max(-end.gap);
+            state_variables[0] = state_variables[0].max(-end.gap);
         }
     }
 

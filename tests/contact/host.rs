@@ -170,7 +170,7 @@ fn bad_problems_are_errors() {
         assert!(matches!(own.start(&[element]), Err(Error::Input { .. })));
     }
     let mut remembers = element;
-    remembers.memory = &[1.0];
+    remembers.state_variables = &[1.0];
     assert!(
         matches!(own.start(&[remembers]), Err(Error::Size { .. })),
         "Coulomb remembers nothing"
@@ -200,7 +200,7 @@ fn glue_of_a_host_breaks_once() {
     let mut problem = glued(law);
     let element = PreviousContact::new(ContactState::default(), Mode::Stick, STEP);
     let mut start = problem.start(&[element]).unwrap();
-    assert_eq!(start.iter().next().unwrap().memory, [1e4, 0.0]);
+    assert_eq!(start.iter().next().unwrap().state_variables, [1e4, 0.0]);
     assert_eq!(start.iter().count(), 1);
     // Jump without traction, then pressure and shear that follow from it, and the strength left.
     for (jump, [pressure, shear], left) in [
@@ -222,7 +222,7 @@ fn glue_of_a_host_breaks_once() {
             assert!((found - wanted).abs() < 1e-6, "{jump:?}: {found}, {wanted} wanted");
         }
         solution.commit(&mut start).unwrap();
-        assert_eq!(start.iter().next().unwrap().memory[0], left, "{jump:?}");
+        assert_eq!(start.iter().next().unwrap().state_variables[0], left, "{jump:?}");
     }
 }
 
@@ -248,7 +248,7 @@ fn hosts_own_the_memory() {
         assert!((solution.states[0].shear - shear).abs() < 1e-6);
         slid = -jump[1] - 1e-7 * shear;
         solution.commit(&mut start).unwrap();
-        assert!((start.iter().next().unwrap().memory[0] - slid).abs() < 1e-12);
+        assert!((start.iter().next().unwrap().state_variables[0] - slid).abs() < 1e-12);
         // Taken apart and put together again, it is the same.
         let elements: Vec<PreviousContact> = start.iter().collect();
         let again = problem.start(&elements).unwrap();

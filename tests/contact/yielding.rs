@@ -171,7 +171,7 @@ fn the_search_finds_a_solution_of_brute_force() {
                     ..ContactState::default()
                 };
                 let mut start = PreviousContact::new(state, law.modes()[0], 1.0);
-                start.memory = &problem.indentation[e..=e];
+                start.state_variables = &problem.indentation[e..=e];
                 start
             })
             .collect();

@@ -49,7 +49,7 @@ impl InterfaceLaw for Spoilt {
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let mut pair = coulomb().conditions(mode, start);
         for number in 0..10 {
-            if self.breaks(Place::Condition(number), start.memory[0]) {
+            if self.breaks(Place::Condition(number), start.state_variables[0]) {
                 let Condition { gap, slip, pressure, shear, value } = &mut pair[number / 5];
                 *[gap, slip, pressure, shear, value][number % 5] = self.value;
             }
@@ -68,7 +68,7 @@ impl InterfaceLaw for Spoilt {
     }
 
     fn compliance(&self, _: Mode, start: &PreviousContact) -> [f64; 2] {
-        let broken = self.breaks(Place::Compliance, start.memory[0]);
+        let broken = self.breaks(Place::Compliance, start.state_variables[0]);
         [0.0, if broken { self.value } else { 0.0 }]
     }
 
@@ -76,16 +76,22 @@ impl InterfaceLaw for Spoilt {
         2
     }
 
-    fn initial_state_variables(&self, _: &PreviousContact, memory: &mut [f64]) {
+    fn initial_state_variables(&self, _: &PreviousContact, state_variables: &mut [f64]) {
         if self.breaks(Place::InitialMemory, f64::INFINITY) {
-            memory[1] = self.value;
+            state_variables[1] = self.value;
         }
     }
 
-    fn commit(&self, start: &PreviousContact, end: &ContactState, _: Mode, memory: &mut [f64]) {
-        memory[0] += (end.slip - start.state.slip).abs();
-        if self.breaks(Place::Memory, memory[0]) {
-            memory[1] = self.value;
+    fn commit(
+        &self,
+        start: &PreviousContact,
+        end: &ContactState,
+        _: Mode,
+        state_variables: &mut [f64],
+    ) {
+        state_variables[0] += (end.slip - start.state.slip).abs();
+        if self.breaks(Place::Memory, state_variables[0]) {
+            state_variables[1] = self.value;
         }
     }
 }
@@ -119,7 +125,7 @@ fn expected(place: Place) -> &'static str {
             "right-hand side of a condition",
         ][number % 5],
         Place::Compliance => "shear compliance",
-        Place::InitialMemory | Place::Memory => "memory",
+        Place::InitialMemory | Place::Memory => "state variable",
     }
 }
 
@@ -145,9 +151,9 @@ fn numbers_that_break_in_a_step_are_named_and_nothing_is_committed() {
             let error = loop {
                 let before = simulation.state().clone();
                 assert!(before.step < 600, "{place:?} of {value} was accepted");
-                let memory: Vec<f64> =
+                let state_variables: Vec<f64> =
                     (0..4).flat_map(|e| simulation.state().state_variables(e).to_vec()).collect();
-                assert!(memory.iter().all(|number| number.is_finite()));
+                assert!(state_variables.iter().all(|number| number.is_finite()));
                 if let Err(error) = simulation.step() {
                     assert_eq!(*simulation.state(), before);
                     // Tried again, it fails from the same state.
@@ -242,9 +248,9 @@ fn hosts_are_told_too_and_keep_their_start() {
     let problem = ContactProblem::new(unit(), vec![Box::new(spoilt)]).unwrap();
     assert!(matches!(problem.start(&[element]), Err(Error::Law(_))));
     let mut remembers = element;
-    remembers.memory = &[f64::NAN, 0.0];
+    remembers.state_variables = &[f64::NAN, 0.0];
     assert!(matches!(problem.start(&[remembers]), Err(Error::Input { .. })));
-    remembers.memory = &[0.0];
+    remembers.state_variables = &[0.0];
     assert!(matches!(problem.start(&[remembers]), Err(Error::Size { .. })));
     // The start of a problem whose laws remember something else.
     let other = ContactProblem::new(unit(), vec![Box::new(coulomb())]).unwrap();

@@ -2596,8 +2596,8 @@ class PreviousContact(ContactState):
     """An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
 
     A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
-    its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
-    variables ``memory`` (array of shape (m,); none unless given).
+    its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
+    ``state_variables`` (array of shape (m,); none unless given).
     """
 
     def __new__(
@@ -2607,7 +2607,7 @@ class PreviousContact(ContactState):
         time_step: float,
         *,
         slip_rate: float = 0.0,
-        memory: ArrayLike | None = None,
+        state_variables: ArrayLike | None = None,
     ) -> Self: ...
     @property
     def mode(self) -> _Mode:
@@ -2625,7 +2625,7 @@ class PreviousContact(ContactState):
     def time_step(self) -> float:
         """Time step, s."""
     @property
-    def memory(self) -> list[float]:
+    def state_variables(self) -> list[float]:
         """State variables of the law: list of numbers."""
 
 @final

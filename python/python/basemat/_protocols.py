@@ -57,7 +57,7 @@ class UserLaw(Protocol):
     """A law between base and ground written in Python. It keeps nothing itself.
 
     If it has them, these count too: ``compliance(mode, start)`` (normal and tangential, m/Pa),
-    ``memory`` (count of the numbers that it remembers of each element),
+    ``state_variables`` (count of the numbers that it remembers of each element),
     ``initial_state_variables(start)`` and ``commit(start, end, mode)`` (which return them),
     ``friction_coefficient`` (for the factor of safety), ``check(gravity, time_step)`` (may refuse).
     On a ground in plan it is a :class:`UserPlanLaw`.
@@ -81,7 +81,7 @@ class UserLaw(Protocol):
 class UserPlanLaw(Protocol):
     """A law for grounds in plan written in Python; one that is a :class:`UserLaw` too acts on any ground.
 
-    Slip is along the shear traction there, and the law says how far tractions go. If it has them, ``memory``,
+    Slip is along the shear traction there, and the law says how far tractions go. If it has them, ``state_variables``,
     ``initial_state_variables``, ``commit``, ``compliance`` (of the mode "stick"), ``friction_coefficient`` and ``check``
     count as for a :class:`UserLaw`.
     """

@@ -63,7 +63,7 @@ members! {
 
 /// A Python object with `modes`, `conditions(mode, start)` and
 /// `next_mode(mode, start, trial, tolerance)`, or for grounds in plan `limits(start)`, and as it may be
-/// `compliance(mode, start)`, `memory`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
+/// `compliance(mode, start)`, `state_variables`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
 /// `check(gravity, time_step)`.
 ///
 /// After an exception every number that the core asks for is NaN, which ends the step.
@@ -71,7 +71,7 @@ members! {
 pub(crate) struct UserLaw {
     object: UserObject,
     modes: Vec<Mode>,
-    memory: usize,
+    state_variables: usize,
     friction_coefficient: Option<f64>,
 }
 
@@ -99,11 +99,19 @@ impl UserLaw {
         let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
             Ok(law.getattr_opt(name)?.filter(|value| !value.is_none()))
         };
+        let state_variables = match optional("state_variables")? {
+            Some(count) => returned::<Count>("state_variables of the interface law", &count)?.0,
+            None => 0,
+        };
+        for method in ["initial_state_variables", "commit"] {
+            if state_variables == 0 && object.has(method) {
+                let text = "but no `state_variables`, the count of numbers that it returns";
+                return Err(refuse(format!("the law has `{method}`, {text}")));
+            }
+        }
         Ok(Self {
             modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
-            memory: optional("memory")?
-                .map_or(Ok(Count(0)), |count| returned("memory of the interface law", &count))?
-                .0,
+            state_variables,
             friction_coefficient: optional("friction_coefficient")?
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,
@@ -126,14 +134,14 @@ impl UserLaw {
         }
     }
 
-    /// Replaces the memory by what a method returns, if it is as long.
-    fn remember<A: for<'py> PyCallArgs<'py>>(
+    /// Replaces the state variables by what a method returns, if it is as long.
+    fn update_state_variables<A: for<'py> PyCallArgs<'py>>(
         &self,
         method: &str,
         arguments: impl FnOnce(Python<'_>) -> PyResult<A>,
-        memory: &mut [f64],
+        state_variables: &mut [f64],
     ) {
-        let count = memory.len();
+        let count = state_variables.len();
         let found = ask(None, |py| {
             let Numbers(values) = self.object.call(py, method, arguments(py)?)?;
             if values.len() == count {
@@ -143,8 +151,8 @@ impl UserLaw {
             Err(refuse(text))
         });
         match found {
-            Some(values) => memory.copy_from_slice(&values),
-            None => memory.fill(f64::NAN),
+            Some(values) => state_variables.copy_from_slice(&values),
+            None => state_variables.fill(f64::NAN),
         }
     }
 }
@@ -196,13 +204,13 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn state_variables(&self) -> usize {
-        self.memory
+        self.state_variables
     }
 
-    fn initial_state_variables(&self, start: &PreviousContact<'_>, memory: &mut [f64]) {
+    fn initial_state_variables(&self, start: &PreviousContact<'_>, state_variables: &mut [f64]) {
         if self.object.has("initial_state_variables") {
             let arguments = |py: Python<'_>| Ok((PyPreviousContact::of(py, start)?,));
-            self.remember("initial_state_variables", arguments, memory);
+            self.update_state_variables("initial_state_variables", arguments, state_variables);
         }
     }
 
@@ -211,13 +219,13 @@ impl InterfaceLaw for UserLaw {
         start: &PreviousContact<'_>,
         end: &ContactState,
         mode: Mode,
-        memory: &mut [f64],
+        state_variables: &mut [f64],
     ) {
         if self.object.has("commit") {
             let arguments = |py: Python<'_>| {
                 Ok((PyPreviousContact::of(py, start)?, PyContactState(*end), mode_name(mode)))
             };
-            self.remember("commit", arguments, memory);
+            self.update_state_variables("commit", arguments, state_variables);
         }
     }
 

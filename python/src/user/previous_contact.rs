@@ -40,13 +40,13 @@ members! {
 /// An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
 ///
 /// A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
-/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
-/// variables ``memory`` (array of shape (m,); none unless given).
+/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
+/// ``state_variables`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
 pub(crate) struct PyPreviousContact {
     /// All but what the law remembers.
     own: PreviousContact<'static>,
-    memory: Vec<f64>,
+    state_variables: Vec<f64>,
 }
 
 impl PyPreviousContact {
@@ -56,32 +56,35 @@ impl PyPreviousContact {
         own.slip_rate = start.slip_rate;
         own.static_pressure = start.static_pressure;
         let base = PyClassInitializer::from(PyContactState(start.state));
-        Py::new(py, base.add_subclass(Self { own, memory: start.memory.to_vec() }))
+        Py::new(
+            py,
+            base.add_subclass(Self { own, state_variables: start.state_variables.to_vec() }),
+        )
     }
 
     /// The same for a law of the core.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
         let mut start = self.own;
-        start.memory = &self.memory;
+        start.state_variables = &self.state_variables;
         start
     }
 }
 
 members! {
     PyPreviousContact, own;
-    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
+    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, state_variables=None))]
     new(
         state: &PyContactState,
         mode: &str,
         time_step: f64,
         slip_rate: f64,
-        memory: Option<Numbers>,
+        state_variables: Option<Numbers>,
     ) = {
         let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
         own.slip_rate = slip_rate;
-        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
+        let state_variables = state_variables.map_or_else(Vec::new, |numbers| numbers.0);
         let base = PyClassInitializer::from(PyContactState(state.0));
-        Ok(base.add_subclass(Self { own, memory }))
+        Ok(base.add_subclass(Self { own, state_variables }))
     };
     /// Mode of the step before, as in :data:`basemat.MODES`.
     mode: &'static str = mode_name(own.own.mode);
@@ -94,7 +97,7 @@ members! {
     /// Time step, s.
     time_step: f64 = own.own.time_step;
     /// State variables of the law: list of numbers.
-    memory: Vec<f64> = own.memory.clone();
+    state_variables: Vec<f64> = own.state_variables.clone();
 }
 
 /// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what

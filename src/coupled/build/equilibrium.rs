@@ -53,7 +53,7 @@ pub(crate) struct StaticState {
     /// The structure's own load at t = 0.
     pub(crate) load: Vec<f64>,
     /// Memory of each element's law where that acted in it; empty where the law begins anew.
-    pub(crate) memory: Vec<Vec<f64>>,
+    pub(crate) state_variables: Vec<Vec<f64>>,
     /// f(u) of a nonlinear structure, and its energies where it knows them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
@@ -71,7 +71,7 @@ impl StaticState {
             displacement: vec![0.0; dofs],
             modes: vec![Mode::Stick; elements],
             load: vec![0.0; dofs],
-            memory: Vec::new(),
+            state_variables: Vec::new(),
             force: Vec::new(),
             energy: None,
             stand_in: None,

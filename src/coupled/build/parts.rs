@@ -301,10 +301,9 @@ fn check_limits(given: &SimulationBuilder) -> Result<()> {
     let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
     require_part("contact search", given.search == ContactSearch::Robust, needed)?;
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, given.time_step);
-    given
-        .laws
-        .iter()
-        .try_for_each(|law| law.limits(&start.with_memory(&start.first_memory(law))).map(|_| ()))
+    given.laws.iter().try_for_each(|law| {
+        law.limits(&start.with_state_variables(&start.first_state_variables(law))).map(|_| ())
+    })
 }
 
 /// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one

@@ -87,9 +87,9 @@ fn in_stages(
     let found = settle(stage, placing, start, state, weight);
     let (mut state, start) = found.map_err(|e| diagnosis::cause(stage, placing, weight, e))?;
     // A law without friction that remembers as much is the same law; others begin anew.
-    state.memory = (0..count)
+    state.state_variables = (0..count)
         .map(|e| {
-            let own = start.memory_of(e);
+            let own = start.state_variables_of(e);
             if own.len() == law_of(laws, e).state_variables() { own.to_vec() } else { Vec::new() }
         })
         .collect();
@@ -101,7 +101,7 @@ fn in_stages(
     let placed: Vec<_> = (0..count)
         .map(|e| {
             let start = PreviousContact::new(*start.state(e), state.modes[e], TIME_STEP);
-            start.with_memory(&state.memory[e])
+            start.with_state_variables(&state.state_variables[e])
         })
         .collect();
     let begin = PreviousContacts::new(laws, &placed)?;
@@ -113,7 +113,7 @@ fn in_stages(
             let load = total(k as f64 / increments as f64);
             (state, start) = settle(stage, laws, start, state, &load)?;
         }
-        state.memory = (0..count).map(|e| start.memory_of(e).to_vec()).collect();
+        state.state_variables = (0..count).map(|e| start.state_variables_of(e).to_vec()).collect();
         Ok(state)
     };
     let sticks = |e: usize| law_of(laws, e).modes().contains(&Mode::Stick);
@@ -136,13 +136,13 @@ fn settle(
     mut state: StaticState,
     load: &[f64],
 ) -> Result<(StaticState, PreviousContacts)> {
-    let mut memory = start.memory().to_vec();
+    let mut state_variables = start.state_variables().to_vec();
     for _ in 0..PASSES {
         let contact;
         (state, contact) = stage.equilibrium(laws, &start, state, load)?;
-        start.remember(laws, &contact, &state.modes, &mut memory)?;
-        let is_settled = memory == start.memory();
-        start.advance(&contact, &state.modes, &memory);
+        start.update_state_variables(laws, &contact, &state.modes, &mut state_variables)?;
+        let is_settled = state_variables == start.state_variables();
+        start.advance(&contact, &state.modes, &state_variables);
         start.slip_rates_mut().for_each(|rate| *rate = 0.0);
         if is_settled {
             break;

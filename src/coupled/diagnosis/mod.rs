@@ -217,8 +217,8 @@ fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
     let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
-    let memory = start.first_memory(law);
-    let start = start.with_memory(&memory);
+    let state_variables = start.first_state_variables(law);
+    let start = start.with_state_variables(&state_variables);
     let tolerance = Tolerance::new(0.0, 0.0);
     // A bonded base has no other mode.
     law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick

@@ -207,7 +207,7 @@ impl Scene {
                 compliant |= self.compliance(element, mode, start)? != [0.0; 2];
             }
         }
-        Ok(compliant || !start.memory().is_empty())
+        Ok(compliant || !start.state_variables().is_empty())
     }
 
     /// Compliance of an element whose step ends in `mode`.

@@ -153,7 +153,7 @@ pub(crate) struct Increment {
     /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
     pub(crate) compliance: Vec<[f64; 2]>,
     /// Memory of the laws at the end.
-    pub(crate) memory: Vec<f64>,
+    pub(crate) state_variables: Vec<f64>,
     /// Linear solves of the mode search, and how far it had to go.
     pub(crate) trials: usize,
     pub(crate) method: SearchMethod,
@@ -182,7 +182,7 @@ impl Increment {
             contact: vec![ContactState::default(); count],
             modes: vec![Mode::Stick; count],
             compliance: vec![[0.0; 2]; compliant],
-            memory: state.start.memory().to_vec(),
+            state_variables: state.start.state_variables().to_vec(),
             trials: 0,
             method: SearchMethod::ActiveSet,
             stand_in: None,
@@ -216,6 +216,11 @@ impl Increment {
         for (e, compliance) in self.compliance.iter_mut().enumerate() {
             *compliance = scene.compliance(e, self.modes[e], &state.start)?;
         }
-        state.start.remember(&scene.laws, &self.contact, &self.modes, &mut self.memory)
+        state.start.update_state_variables(
+            &scene.laws,
+            &self.contact,
+            &self.modes,
+            &mut self.state_variables,
+        )
     }
 }

@@ -65,7 +65,7 @@ fn memories_resume_to_the_last_bit() {
 fn other_memories_are_refused() {
     let mut simulation = base().interface(WEAKENING).build().unwrap();
     simulation.run(20, |_| {}).unwrap();
-    let quantity = "memory of the interface laws";
+    let quantity = "state variables of the interface laws";
     for other in [base().interface(GLUE), base().interface(friction(0.3))] {
         let checkpoint = other.build().unwrap().checkpoint().unwrap();
         let found = refusal(&mut simulation, &checkpoint);
@@ -84,14 +84,14 @@ fn damaged_memories_are_refused() {
     let good = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
     for damage in 0..3 {
         let mut value = good.clone();
-        let list = value["memory"].as_array_mut().unwrap();
+        let list = value["state_variables"].as_array_mut().unwrap();
         match damage {
             0 => list.truncate(list.len() - 1),
             1 => list.push(Value::from(0_u64)),
             _ => list[1] = Value::from(f64::NAN.to_bits()),
         }
         let bad = sealed(value).unwrap();
-        let quantity = "memory of the interface laws";
+        let quantity = "state variables of the interface laws";
         assert_eq!(refusal(&mut simulation, &bad), CheckpointError::Corrupt { quantity });
     }
 }

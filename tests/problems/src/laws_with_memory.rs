@@ -19,7 +19,7 @@ impl SlipWeakening {
     }
 
     fn now(&self, start: &PreviousContact) -> Coulomb {
-        Coulomb::new(self.friction(start.memory[0])).unwrap()
+        Coulomb::new(self.friction(start.state_variables[0])).unwrap()
     }
 }
 
@@ -47,7 +47,10 @@ impl InterfaceLaw for SlipWeakening {
     }
 
     fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
-        assert_eq!(memory, start.memory, "a commit begins with the memory of the step's start");
+        assert_eq!(
+            memory, start.state_variables,
+            "a commit begins with the memory of the step's start"
+        );
         if mode.is_slip() {
             memory[0] += (end.slip - start.state.slip).abs();
         }
@@ -67,7 +70,7 @@ pub struct Adhesion {
 impl Adhesion {
     fn now(&self, start: &PreviousContact) -> Coulomb {
         let law = Coulomb::new(self.friction).unwrap();
-        law.with_tensile_strength(start.memory[0]).unwrap()
+        law.with_tensile_strength(start.state_variables[0]).unwrap()
     }
 
     /// Coulomb's law keeps no strength for what has once opened: here that is the memory's to say.
@@ -134,7 +137,7 @@ impl InterfaceLaw for SofteningPads {
     }
 
     fn conditions(&self, _: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let [normal, shear] = self.compliance_after(start.memory[0]);
+        let [normal, shear] = self.compliance_after(start.state_variables[0]);
         [
             Condition { gap: 1.0 / normal, ..Condition::pressure_is(0.0) },
             Condition { slip: -1.0 / shear, ..Condition::shear_is(0.0) },
@@ -146,7 +149,7 @@ impl InterfaceLaw for SofteningPads {
     }
 
     fn compliance(&self, _: Mode, start: &PreviousContact) -> [f64; 2] {
-        self.compliance_after(start.memory[0])
+        self.compliance_after(start.state_variables[0])
     }
 
     fn state_variables(&self) -> usize {

@@ -34,7 +34,7 @@ fn bonds_break_where_brute_force_says_they_may() {
             let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
             let mut search =
                 ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
-            let mut memory = problem.start.memory().to_vec();
+            let mut state_variables = problem.start.state_variables().to_vec();
             for _ in 0..10 {
                 push(&mut problem, &mut random);
                 problems += 1;
@@ -44,7 +44,7 @@ fn bonds_break_where_brute_force_says_they_may() {
                 let mut modes = problem.modes.clone();
                 search.solve(&mut solver, &problem.input(), &mut modes).unwrap();
                 assert!(all.iter().any(|(m, _)| *m == modes), "{modes:?} is not among {all:?}");
-                let glued = |e: usize| problem.start.memory_of(e) == [1.0];
+                let glued = |e: usize| problem.start.state_variables_of(e) == [1.0];
                 let keeps_all =
                     |modes: &[Mode]| (0..count).all(|e| !glued(e) || modes[e] == Mode::Stick);
                 // No bond breaks where all of them may hold, unless friction has a choice itself.
@@ -53,10 +53,13 @@ fn bonds_break_where_brute_force_says_they_may() {
                 assert!(keeps_all(&modes) || !may_hold || !is_unique, "{modes:?} {all:?}");
                 breaking += usize::from(!may_hold);
                 several += usize::from(distinct(&all) > 1);
-                cut += usize::from(problem.start.memory().contains(&0.0));
+                cut += usize::from(problem.start.state_variables().contains(&0.0));
                 let (laws, states) = (&problem.laws, &solver.states);
-                problem.start.remember(laws, states, &modes, &mut memory).unwrap();
-                problem.start.advance(states, &modes, &memory);
+                problem
+                    .start
+                    .update_state_variables(laws, states, &modes, &mut state_variables)
+                    .unwrap();
+                problem.start.advance(states, &modes, &state_variables);
                 problem.modes = modes;
             }
         }
