@@ -182,7 +182,7 @@ def test_a_law_without_memory_that_raises_in_next_mode_commits_nothing(rocking) 
 
 @pytest.mark.parametrize("method", ["initial_state_variables", "commit"])
 def test_a_law_says_how_many_numbers_it_commits(method: str, rocking) -> None:
-    class Forgetful(bm.UserLaw):
+    class Forgetful:
         modes = ("stick", "slip left", "slip right", "open")
         law = bm.Coulomb(0.4)
 
