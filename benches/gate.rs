@@ -61,9 +61,9 @@ fn many_elements() -> Result<Timed> {
 fn time_series() -> Result<Timed> {
     let mut simulation = block(10)?;
     Ok(Box::new(move || {
-        let mut histories = Recorder::new().contact(1).start(&simulation)?;
-        simulation.run(2_000, |state| histories.record(state))?;
-        black_box(histories.bytes());
+        let mut time_series = Recorder::new().contact(1).start(&simulation)?;
+        simulation.run(2_000, |state| time_series.record(state))?;
+        black_box(time_series.bytes());
         Ok(())
     }))
 }

@@ -78,9 +78,9 @@ fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
     .build()?;
     let steps = simulation.steps_for(el_centro_1940().duration());
     // Gaps, slips and tractions of the elements at every 24th step, for the picture of modes.
-    let mut histories = Recorder::new().contact(24).start(&simulation)?;
-    let run = simulation.run(steps, |state| histories.record(state))?;
-    Ok((run, histories))
+    let mut time_series = Recorder::new().contact(24).start(&simulation)?;
+    let run = simulation.run(steps, |state| time_series.record(state))?;
+    Ok((run, time_series))
 }
 
 fn main() -> Result<()> {
@@ -93,7 +93,7 @@ fn main() -> Result<()> {
         "case", "lb/ft", "ratio (paper)", "uplift", "slip", "residual", "roof", "balance", "run"
     );
     let bonded = runs[0].0.probe("base shear")?.magnitude();
-    for ((name, _, printed), (run, histories)) in CASES.iter().zip(&runs) {
+    for ((name, _, printed), (run, time_series)) in CASES.iter().zip(&runs) {
         let shear = run.probe("base shear")?.magnitude();
         println!(
             "{name:<14}{:>7.0}{:>9.3} ({:.3}){:>7.0} %{:>5.1} mm{:>7.2} mm{:>8.1} mm{:>9.0e}{:>6.2} s",
@@ -108,13 +108,14 @@ fn main() -> Result<()> {
             run.wall.as_secs_f64()
         );
         let name = name.replace([' ', '.'], "_");
-        histories.csv().save(out.join(format!("{name}.csv")))?;
-        plot::mode_map("Contact modes", histories)?.save(out.join(format!("modes_{name}.svg")))?;
+        time_series.csv().save(out.join(format!("{name}.csv")))?;
+        plot::mode_map("Contact modes", time_series)?
+            .save(out.join(format!("modes_{name}.svg")))?;
     }
     let curves: Vec<_> = CASES.iter().zip(&runs).map(|(case, (_, h))| (case.0, h)).collect();
     for probe in ["base shear", "roof x", "roof y"] {
         let file = out.join(format!("{}.svg", probe.replace(' ', "_")));
-        plot::probe_history("El Centro on a containment", &curves, probe)?.save(file)?;
+        plot::probe_time_series("El Centro on a containment", &curves, probe)?.save(file)?;
     }
     println!("\nratio: over the bonded shear, in the paper's Table 1; files in {}", out.display());
     Ok(())

@@ -52,9 +52,9 @@ fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
         .probe(Probe::acceleration("roof", roof))
         .expected_steps(1500)
         .build()?;
-    let mut histories = Recorder::new().start(&simulation)?;
-    let run = simulation.run(1500, |state| histories.record(state))?;
-    Ok((run, histories.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
+    let mut time_series = Recorder::new().start(&simulation)?;
+    let run = simulation.run(1500, |state| time_series.record(state))?;
+    Ok((run, time_series.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
 }
 
 fn main() -> Result<()> {

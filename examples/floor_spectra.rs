@@ -32,9 +32,9 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
         .probe(Probe::acceleration("roof", roof))
         .build()?;
     let steps = simulation.steps_for(20.0);
-    let mut histories = Recorder::new().start(&simulation)?;
-    simulation.run(steps, |state| histories.record(state))?;
-    Ok(histories)
+    let mut time_series = Recorder::new().start(&simulation)?;
+    simulation.run(steps, |state| time_series.record(state))?;
+    Ok(time_series)
 }
 
 fn main() -> Result<()> {

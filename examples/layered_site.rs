@@ -61,9 +61,9 @@ fn shake(
         .probe(Probe::acceleration("roof", roof))
         .expected_steps(2000)
         .build()?;
-    let mut histories = Recorder::new().start(&simulation)?;
-    let run = simulation.run(2000, |state| histories.record(state))?;
-    Ok((run, histories.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
+    let mut time_series = Recorder::new().start(&simulation)?;
+    let run = simulation.run(2000, |state| time_series.record(state))?;
+    Ok((run, time_series.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
 }
 
 fn main() -> Result<()> {

@@ -39,9 +39,9 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
         .safety_friction([FRICTION])
         .build()?;
     // Base and structure at every sixth step, for pictures in time.
-    let mut histories = Recorder::new().contact(6).motion(6).start(&simulation)?;
-    let run = simulation.run(STEPS, |state| histories.record(state))?;
-    Ok((run, histories, shape))
+    let mut time_series = Recorder::new().contact(6).motion(6).start(&simulation)?;
+    let run = simulation.run(STEPS, |state| time_series.record(state))?;
+    Ok((run, time_series, shape))
 }
 
 fn main() -> Result<()> {
@@ -63,9 +63,9 @@ fn main() -> Result<()> {
         ("safety_sliding", Quantity::SlidingSafety),
         ("safety_overturning", Quantity::OverturningSafety),
     ] {
-        save(name, plot::history("Tower under El Centro 1940", &runs, quantity)?)?;
+        save(name, plot::time_series("Tower under El Centro 1940", &runs, quantity)?)?;
     }
-    save("roof", plot::probe_history("Roof acceleration", &runs, "roof")?)?;
+    save("roof", plot::probe_time_series("Roof acceleration", &runs, "roof")?)?;
     save("modes", plot::mode_map("Contact modes", &free)?)?;
     save("pressure", plot::pressure_envelope("Pressure under the base", &free_run)?)?;
     save("energy", plot::energy("Energy", &free)?)?;

@@ -198,15 +198,15 @@ fn recording_does_not_allocate_once_memory_is_reserved() {
     let builder = builder.coordinates(Coordinates::Physical);
     let mut simulation = builder.expected_steps(WARM + STEPS).build().unwrap();
     let recorder = Recorder::new().contact(2).motion(3);
-    let mut histories = recorder.start(&simulation).unwrap();
+    let mut time_series = recorder.start(&simulation).unwrap();
     for _ in 0..WARM {
-        histories.record(simulation.step().unwrap());
+        time_series.record(simulation.step().unwrap());
     }
-    histories.reserve(STEPS);
+    time_series.reserve(STEPS);
     let before = COUNT.get();
     for _ in 0..STEPS {
-        histories.record(simulation.step().unwrap());
+        time_series.record(simulation.step().unwrap());
     }
     assert_eq!(COUNT.get() - before, 0);
-    assert_eq!(histories.times().len(), WARM + STEPS + 1);
+    assert_eq!(time_series.times().len(), WARM + STEPS + 1);
 }

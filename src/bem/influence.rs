@@ -21,7 +21,7 @@
 use super::strip::Overlap;
 use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::Surface;
-use crate::fundamental::branch::{Branches, Part, Weight};
+use crate::fundamental::branch::{Branch, Branches, Weight};
 use crate::fundamental::rayleigh::{Rayleigh, TERMS, late_coefficients};
 use crate::geometry::ContactElement;
 use crate::history::KINDS;
@@ -233,13 +233,13 @@ impl PairInfluence<'_> {
             }
             let middle = 0.5 / from + 0.5 / to;
             let covered = overlap.covered([begin, end], self.kernel.step, middle, false);
-            for part in [Part::Pressure, Part::Shear, Part::Tail] {
+            for part in [Branch::Pressure, Branch::Shear, Branch::Tail] {
                 branches.add(part, from, to, &covered, &mut even);
             }
             if couples && from <= branches.arrival {
                 let covered = overlap.covered([begin, end], self.kernel.step, middle, true);
-                branches.add(Part::OddLow, from, to, &covered, &mut odd);
-                branches.add(Part::OddHigh, from, to, &covered, &mut odd);
+                branches.add(Branch::OddLow, from, to, &covered, &mut odd);
+                branches.add(Branch::OddHigh, from, to, &covered, &mut odd);
                 if to > branches.arrival {
                     odd[0] += branches.pulse * covered.at(1.0 / branches.arrival);
                 }

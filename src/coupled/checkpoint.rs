@@ -38,9 +38,9 @@ pub struct Checkpoint {
     steps: usize,
     /// For each element, the number of its mode among its law's, and whether it has been open.
     modes: Vec<(usize, bool)>,
-    /// Memory of the laws of all elements.
+    /// State variables of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    state_variables: Vec<f64>,
+    laws: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     state: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -62,7 +62,7 @@ struct Identity {
     energy_balance: bool,
     probes: Vec<String>,
     /// Ends of the state variables of each element's law; empty if no law has any.
-    state_variables: Vec<usize>,
+    laws: Vec<usize>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     steps: Vec<f64>,
@@ -88,17 +88,7 @@ impl Checkpoint {
 
     /// Check sum over all contents, field by field.
     fn sum(&self) -> u64 {
-        let Self {
-            format,
-            identity,
-            steps,
-            modes,
-            state_variables,
-            state,
-            ground,
-            structure,
-            sum: _,
-        } = self;
+        let Self { format, identity, steps, modes, laws, state, ground, structure, sum: _ } = self;
         let mut sum = CheckSum::default();
         sum.add(u64::from(*format));
         identity.add_to(&mut sum);
@@ -108,7 +98,7 @@ impl Checkpoint {
             sum.add(*mode as u64);
             sum.add(u64::from(*has_opened));
         }
-        for list in [state_variables, state, ground, structure] {
+        for list in [laws, state, ground, structure] {
             sum.add_numbers(list);
         }
         sum.value()
@@ -121,7 +111,7 @@ impl Identity {
             dofs,
             energy_balance,
             probes,
-            state_variables,
+            laws,
             steps,
             elements,
             structure,
@@ -134,7 +124,7 @@ impl Identity {
         for name in probes {
             sum.add_text(name);
         }
-        sum.add_list(state_variables.iter().map(|end| *end as u64));
+        sum.add_list(laws.iter().map(|end| *end as u64));
         for list in [steps, elements, structure, ground, static_contact] {
             sum.add_numbers(list);
         }
@@ -153,7 +143,7 @@ impl Identity {
             (close(&self.elements, &own.elements, span), "list of contact elements"),
             (self.energy_balance == own.energy_balance, "energy balance"),
             (self.probes == own.probes, "list of probes"),
-            (self.state_variables == own.state_variables, "state variables of the interface laws"),
+            (self.laws == own.laws, "state variables of the interface laws"),
             (close(&self.structure, &own.structure, 0.0), "structure"),
             (close(&self.ground, &own.ground, 0.0), "ground"),
             (close(&self.static_contact, &own.static_contact, 0.0), "static state"),
@@ -220,7 +210,7 @@ impl Simulation {
             identity: self.identity(),
             steps: state.step,
             modes: state.start.iter().enumerate().map(number).collect::<Result<_>>()?,
-            state_variables: state.start.state_variables().to_vec(),
+            laws: state.start.state_variables().to_vec(),
             state: numbers.into_iter().map(|value| *value).collect(),
             ground: self.ground.save()?,
             structure: save_variables(self.structure.as_ref())?,
@@ -256,7 +246,7 @@ impl Simulation {
             return Err(corrupt("number of steps").into());
         }
         for (values, quantity) in [
-            (&checkpoint.state_variables, "state variables of the interface laws"),
+            (&checkpoint.laws, "state variables of the interface laws"),
             (&checkpoint.state, "state"),
             (&checkpoint.ground, "state of the ground"),
             (&checkpoint.structure, "state of the structure"),
@@ -273,11 +263,11 @@ impl Simulation {
         }
         own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
         restore_modes(scene, &checkpoint.modes, &mut state)?;
-        let state_variables = state.start.state_variables_mut();
-        if state_variables.len() != checkpoint.state_variables.len() {
+        let laws = state.start.state_variables_mut();
+        if laws.len() != checkpoint.laws.len() {
             return Err(corrupt("state variables of the interface laws").into());
         }
-        state_variables.copy_from_slice(&checkpoint.state_variables);
+        laws.copy_from_slice(&checkpoint.laws);
         let before = save_variables(structure)?;
         restore_variables(structure, &checkpoint.structure)?;
         if let Err(error) = self.ground.restore(checkpoint.steps, &checkpoint.ground) {
@@ -319,7 +309,7 @@ impl Simulation {
             dofs: model.dofs,
             energy_balance: self.books.is_some(),
             probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
-            state_variables: state.start.state_variable_ends().to_vec(),
+            laws: state.start.state_variable_ends().to_vec(),
             steps,
             elements,
             structure: vec![

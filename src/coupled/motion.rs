@@ -62,7 +62,7 @@ pub(crate) struct Motion {
 
 /// Quantities of [`Motion`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Quantity {
+pub(crate) enum DofResponse {
     Displacement,
     Velocity,
     Acceleration,
@@ -90,13 +90,13 @@ impl Motion {
     }
 
     /// The degrees of freedom.
-    pub(crate) fn dofs(&self, quantity: Quantity) -> &[f64] {
+    pub(crate) fn dofs(&self, quantity: DofResponse) -> &[f64] {
         let coordinates = match quantity {
-            Quantity::Displacement | Quantity::AbsoluteDisplacement => &self.displacement,
-            Quantity::Velocity => &self.velocity,
-            Quantity::Acceleration => &self.acceleration,
+            DofResponse::Displacement | DofResponse::AbsoluteDisplacement => &self.displacement,
+            DofResponse::Velocity => &self.velocity,
+            DofResponse::Acceleration => &self.acceleration,
         };
-        let absolute = matches!(quantity, Quantity::AbsoluteDisplacement);
+        let absolute = matches!(quantity, DofResponse::AbsoluteDisplacement);
         if let (Transformation::Identity, false) = (&self.transformation, absolute) {
             return coordinates;
         }
@@ -111,11 +111,11 @@ impl Motion {
     }
 }
 
-const ALL: [(Quantity, &str); 4] = [
-    (Quantity::Displacement, "displacement"),
-    (Quantity::Velocity, "velocity"),
-    (Quantity::Acceleration, "acceleration"),
-    (Quantity::AbsoluteDisplacement, "absolute_displacement"),
+const ALL: [(DofResponse, &str); 4] = [
+    (DofResponse::Displacement, "displacement"),
+    (DofResponse::Velocity, "velocity"),
+    (DofResponse::Acceleration, "acceleration"),
+    (DofResponse::AbsoluteDisplacement, "absolute_displacement"),
 ];
 
 impl PartialEq for Motion {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::energy_balance::EnergyBalance;
 use super::foundation::Foundation;
-use super::motion::{Motion, Quantity};
+use super::motion::{DofResponse, Motion};
 use crate::contact::SearchMethod;
 use crate::coupled::probe_index;
 use crate::error::Result;
@@ -152,22 +152,22 @@ impl State {
     /// are made at every step that asks for them. A few quantities
     /// at every step are cheaper as a [`Probe`](super::Probe).
     pub fn displacement(&self) -> &[f64] {
-        self.motion.dofs(Quantity::Displacement)
+        self.motion.dofs(DofResponse::Displacement)
     }
 
     /// Displacement with the translation of the free field added.
     pub fn absolute_displacement(&self) -> &[f64] {
-        self.motion.dofs(Quantity::AbsoluteDisplacement)
+        self.motion.dofs(DofResponse::AbsoluteDisplacement)
     }
 
     /// Total (not relative) rates of the degrees of freedom at the end of the step.
     pub fn velocity(&self) -> &[f64] {
-        self.motion.dofs(Quantity::Velocity)
+        self.motion.dofs(DofResponse::Velocity)
     }
 
     /// Total accelerations of the degrees of freedom; for the midpoint and θ rules the mean over the step.
     pub fn acceleration(&self) -> &[f64] {
-        self.motion.dofs(Quantity::Acceleration)
+        self.motion.dofs(DofResponse::Acceleration)
     }
 
     /// The value of the probe called `name`: looked for by its name at every call; by its place,

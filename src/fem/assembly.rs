@@ -8,7 +8,7 @@ use crate::linalg::Triplets;
 
 /// Matrix of the elements that is assembled.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Quantity {
+pub(crate) enum MatrixKind {
     /// Without the geometric stiffness.
     Stiffness,
     GeometricStiffness,
@@ -23,7 +23,7 @@ pub(crate) enum Quantity {
 pub(crate) fn assemble(
     mesh: &Mesh,
     numbering: &Numbering,
-    quantity: Quantity,
+    quantity: MatrixKind,
     factor: f64,
     keep: impl Fn(&[[f64; 2]]) -> bool,
     matrix: &mut Triplets,
@@ -38,10 +38,10 @@ pub(crate) fn assemble(
         block.clear();
         block.resize(element.order().pow(2), 0.0);
         match quantity {
-            Quantity::Stiffness => element.stiffness(&coordinates, &mut block),
-            Quantity::GeometricStiffness => element.geometric_stiffness(&coordinates, &mut block),
-            Quantity::Mass(kind) => element.mass(&coordinates, kind, &mut block),
-            Quantity::Damping => element.damping(&coordinates, &mut block),
+            MatrixKind::Stiffness => element.stiffness(&coordinates, &mut block),
+            MatrixKind::GeometricStiffness => element.geometric_stiffness(&coordinates, &mut block),
+            MatrixKind::Mass(kind) => element.mass(&coordinates, kind, &mut block),
+            MatrixKind::Damping => element.damping(&coordinates, &mut block),
         }
         // An element without, say, damping adds no entries to the pattern.
         if block.iter().all(|&value| value == 0.0) {

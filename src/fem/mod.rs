@@ -24,7 +24,7 @@ mod spring;
 mod truss;
 
 pub use crate::geometry::Direction;
-pub(crate) use assembly::{Numbering, Quantity, assemble, set_static_state};
+pub(crate) use assembly::{MatrixKind, Numbering, assemble, set_static_state};
 pub use beam::Beam;
 pub use element::{Element, MassKind, Material};
 pub use mesh::{Layer, Mesh};

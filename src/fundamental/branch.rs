@@ -46,7 +46,7 @@ impl Weight for Power {
 
 /// One branch of the kernel, in its own variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Part {
+pub(crate) enum Branch {
     /// zz and xx behind the pressure wave: s = √(τ²−a²).
     Pressure,
     /// zz and xx behind the shear wave: s = √(τ²−1).
@@ -124,31 +124,38 @@ impl Branches {
     }
 
     /// Interval of τ that belongs to a part.
-    fn range(&self, part: Part) -> [f64; 2] {
+    fn range(&self, part: Branch) -> [f64; 2] {
         match part {
-            Part::Pressure => [self.first, self.tail],
-            Part::Shear => [1.0, self.tail],
-            Part::OddLow => [self.first, self.middle],
-            Part::OddHigh => [self.middle, 1.0],
-            Part::Tail => [self.tail, f64::INFINITY],
+            Branch::Pressure => [self.first, self.tail],
+            Branch::Shear => [1.0, self.tail],
+            Branch::OddLow => [self.first, self.middle],
+            Branch::OddHigh => [self.middle, 1.0],
+            Branch::Tail => [self.tail, f64::INFINITY],
         }
     }
 
     /// The variable s of a part at τ.
-    fn variable(&self, part: Part, tau: f64) -> f64 {
+    fn variable(&self, part: Branch, tau: f64) -> f64 {
         match part {
-            Part::Pressure | Part::OddLow => {
+            Branch::Pressure | Branch::OddLow => {
                 ((tau - self.first).max(0.0) * (tau + self.first)).sqrt()
             }
-            Part::Shear => ((tau - 1.0).max(0.0) * (tau + 1.0)).sqrt(),
-            Part::OddHigh => ((1.0 - tau).max(0.0) * (1.0 + tau)).sqrt(),
-            Part::Tail => 1.0 / tau,
+            Branch::Shear => ((tau - 1.0).max(0.0) * (tau + 1.0)).sqrt(),
+            Branch::OddHigh => ((1.0 - tau).max(0.0) * (1.0 + tau)).sqrt(),
+            Branch::Tail => 1.0 / tau,
         }
     }
 
     /// Adds ∫ f(τ) A(1/τ) dτ over `from` < τ < `to` (the part of it inside this branch) to `sum`:
     /// zz and xx, or zx first.
-    pub(crate) fn add(&self, part: Part, from: f64, to: f64, a: &impl Weight, sum: &mut [f64; 2]) {
+    pub(crate) fn add(
+        &self,
+        part: Branch,
+        from: f64,
+        to: f64,
+        a: &impl Weight,
+        sum: &mut [f64; 2],
+    ) {
         let [begin, end] = self.range(part);
         let (from, to) = (from.max(begin), to.min(end));
         if from >= to {
@@ -160,7 +167,7 @@ impl Branches {
 
     fn piece(
         &self,
-        part: Part,
+        part: Branch,
         [low, high]: [f64; 2],
         a: &impl Weight,
         sum: &mut [f64; 2],
@@ -170,8 +177,8 @@ impl Branches {
             return;
         }
         let pole = match part {
-            Part::Pressure => Some(self.pole[0]),
-            Part::Shear => Some(self.pole[1]),
+            Branch::Pressure => Some(self.pole[0]),
+            Branch::Shear => Some(self.pole[1]),
             _ => None,
         };
         // No node may come near the pole: end the piece there.
@@ -187,7 +194,7 @@ impl Branches {
         for &point in &self.regular[part as usize] {
             reach = reach.min(gauss::reach(point, low, high));
         }
-        if part == Part::Tail && !a.vanishes() {
+        if part == Branch::Tail && !a.vanishes() {
             reach = reach.min(gauss::reach([0.0, 0.0], low, high));
         }
         let mut subtract_pole = None;
@@ -200,7 +207,7 @@ impl Branches {
             }
         }
         let mut subtract_near = None;
-        if let (Some(c), Part::Pressure | Part::OddLow) = (self.near, part) {
+        if let (Some(c), Branch::Pressure | Branch::OddLow) = (self.near, part) {
             let distance = gauss::reach([0.0, c.sqrt()], low, high);
             if distance < SUBTRACT {
                 subtract_near = Some(c);
@@ -229,7 +236,7 @@ impl Branches {
             let s = center + half * node;
             let weight = weight * half;
             let [one, two, u] = self.smooth(part, s, pole);
-            let covered = if part == Part::Tail { a.over(u) } else { a.at(u) };
+            let covered = if part == Branch::Tail { a.over(u) } else { a.at(u) };
             let mut value = [one * covered, two * covered];
             if let Some(residue) = residue {
                 value[0] -= residue[0];
@@ -263,12 +270,12 @@ impl Branches {
     }
 
     /// Kernel times dτ/ds at `s`, without 1/(s − pole) where there is one, and u.
-    fn smooth(&self, part: Part, s: f64, pole: Option<f64>) -> [f64; 3] {
+    fn smooth(&self, part: Branch, s: f64, pole: Option<f64>) -> [f64; 3] {
         let r = &self.rayleigh;
         let (square, sixteen) = (s * s, 16.0 * r.h);
         match part {
-            Part::Pressure | Part::Shear => {
-                let (z, y) = if part == Part::Pressure {
+            Branch::Pressure | Branch::Shear => {
+                let (z, y) = if part == Branch::Pressure {
                     (square, square + r.a2)
                 } else {
                     (square + r.h, square + 1.0)
@@ -276,21 +283,21 @@ impl Branches {
                 let u = 1.0 / y.sqrt();
                 let common = square * u / (sixteen * (s + pole.unwrap_or(0.0)) * r.pair(z));
                 let k2 = (r.g - 2.0 * z).powi(2);
-                if part == Part::Pressure {
+                if part == Branch::Pressure {
                     [common * k2, common * 4.0 * y * (z - r.h), u]
                 } else {
                     [common * 4.0 * y * z, common * k2, u]
                 }
             }
-            Part::OddLow | Part::OddHigh => {
-                let low = part == Part::OddLow;
+            Branch::OddLow | Branch::OddHigh => {
+                let low = part == Branch::OddLow;
                 let z = if low { square } else { r.h - square };
                 let root = if low { r.h - square } else { z }.max(0.0).sqrt();
                 let value =
                     2.0 * (r.g - 2.0 * z) * square * root / (sixteen * (z - r.z) * r.pair(z));
                 [value, 0.0, 1.0 / (z + r.a2).sqrt()]
             }
-            Part::Tail => {
+            Branch::Tail => {
                 let (ka, kb) = (1.0 - r.a2 * square, 1.0 - square);
                 let pair = (ka + r.sum * square) * ka + r.product * square * square;
                 let common = 1.0 / (sixteen * (1.0 - r.square * square) * pair);
@@ -301,14 +308,14 @@ impl Branches {
     }
 
     /// Factor of s²/(s²+c) at the root s² = −c beside the path.
-    fn beside(&self, part: Part, c: f64, a: &impl Weight) -> [f64; 2] {
+    fn beside(&self, part: Branch, c: f64, a: &impl Weight) -> [f64; 2] {
         let r = &self.rayleigh;
         let y = r.a2 - c;
         let u = 1.0 / y.sqrt();
         // The other factor of the pair at z = −c is c₂ − c, with c + c₂ = σ.
         let common = a.at(u) / (16.0 * r.h * (-c - r.z) * (r.sum - 2.0 * c));
         let k = r.g + 2.0 * c;
-        if part == Part::Pressure {
+        if part == Branch::Pressure {
             [common * u * k * k, common * u * 4.0 * y * (-c - r.h)]
         } else {
             [common * 2.0 * k * (r.h + c).sqrt(), 0.0]

@@ -16,7 +16,7 @@
 //! | J | x²F/2 + x t Q − t²W/2, the twice-integrated answer to H(t) |
 
 use crate::error::{Result, finite, positive, require};
-use crate::fundamental::branch::{Branches, Part, Power};
+use crate::fundamental::branch::{Branch, Branches, Power};
 use crate::fundamental::rayleigh::{TERMS, late_coefficients};
 use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
 use crate::geometry::ContactElement;
@@ -270,7 +270,7 @@ impl HalfPlane {
 
     fn odd_power(&self, tau: f64, power: i32) -> f64 {
         let mut sum = [0.0; 2];
-        for part in [Part::OddLow, Part::OddHigh] {
+        for part in [Branch::OddLow, Branch::OddHigh] {
             self.branches.add(part, self.branches.first, tau.min(1.0), &Power(power), &mut sum);
         }
         sum[0]

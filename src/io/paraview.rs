@@ -14,10 +14,10 @@
 //! use basemat::results::{Recorder, DeformedShape};
 //! let (mut simulation, block) = scene()?;
 //! let shape = DeformedShape::of_block(&block, 10.0)?;
-//! let mut histories = Recorder::new().contact(10).motion(10).start(&simulation)?;
-//! simulation.run(2000, |state| histories.record(state))?;
+//! let mut time_series = Recorder::new().contact(10).motion(10).start(&simulation)?;
+//! simulation.run(2000, |state| time_series.record(state))?;
 //! // results/block.pvd, block_0000.vtu, block_base_0000.vtu, …
-//! basemat::io::paraview::write_series("results", "block", &shape, &histories)?;
+//! basemat::io::paraview::write_series("results", "block", &shape, &time_series)?;
 //! # Ok::<(), basemat::Error>(())
 //! ```
 
@@ -29,7 +29,7 @@ use crate::geometry::ContactElement;
 use crate::interface::ContactState;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 
-/// Writes `name.pvd`, and for every frame of motion that `histories` keep a grid of the structure
+/// Writes `name.pvd`, and for every frame of motion that `time series` keep a grid of the structure
 /// (`name_0000.vtu`, …) and for every frame of contact one of the base (`name_base_0000.vtu`, …),
 /// into `folder`, which is made if need be. Returns the number of grids.
 ///
@@ -41,30 +41,30 @@ pub fn write_series(
     folder: impl AsRef<Path>,
     name: &str,
     shape: &DeformedShape,
-    histories: &TimeSeries,
+    time_series: &TimeSeries,
 ) -> Result<usize> {
     let needed = "tell the recorder to keep the motion";
-    require_part("series of the structure", histories.motion_frames().next().is_some(), needed)?;
-    write(folder.as_ref(), name, Some(shape), histories)
+    require_part("series of the structure", time_series.motion_frames().next().is_some(), needed)?;
+    write(folder.as_ref(), name, Some(shape), time_series)
 }
 
-/// Writes `name.pvd`, and for every frame of contact that `histories` keep a grid of the base (`name_base_0000.vtu`,
+/// Writes `name.pvd`, and for every frame of contact that `time series` keep a grid of the base (`name_base_0000.vtu`,
 /// …), as [`write_series`] does: for structures without a [`DeformedShape`].
 ///
 /// # Errors
 /// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if
 /// a file cannot be written.
-pub fn write_base(folder: impl AsRef<Path>, name: &str, histories: &TimeSeries) -> Result<usize> {
+pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries) -> Result<usize> {
     let needed = "tell the recorder to keep the contact";
-    require_part("series of the base", histories.contact_frames().next().is_some(), needed)?;
-    write(folder.as_ref(), name, None, histories)
+    require_part("series of the base", time_series.contact_frames().next().is_some(), needed)?;
+    write(folder.as_ref(), name, None, time_series)
 }
 
 fn write(
     folder: &Path,
     name: &str,
     shape: Option<&DeformedShape>,
-    histories: &TimeSeries,
+    time_series: &TimeSeries,
 ) -> Result<usize> {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let needed = "letters, digits, - and _ only, one at least";
@@ -73,19 +73,19 @@ fn write(
     made.map_err(|e| Error::Write { file: folder.display().to_string(), reason: e.kind() })?;
 
     let mut entries = Vec::new();
-    let moved = histories.motion_frames().filter_map(|frame| Some((shape?, frame)));
+    let moved = time_series.motion_frames().filter_map(|frame| Some((shape?, frame)));
     for (k, (shape, frame)) in moved.enumerate() {
         let file = format!("{name}_{k:04}.vtu");
-        write_file(&folder.join(&file), &structure(shape, &frame, histories.in_plan())?)?;
+        write_file(&folder.join(&file), &structure(shape, &frame, time_series.in_plan())?)?;
         entries.push((frame.time, 0, file));
     }
-    let corners = if histories.in_plan() { 4 } else { 2 };
-    let cells: Vec<Vec<usize>> = (0..histories.elements().len())
+    let corners = if time_series.in_plan() { 4 } else { 2 };
+    let cells: Vec<Vec<usize>> = (0..time_series.elements().len())
         .map(|e| (corners * e..corners * (e + 1)).collect())
         .collect();
-    for (k, frame) in histories.contact_frames().enumerate() {
+    for (k, frame) in time_series.contact_frames().enumerate() {
         let file = format!("{name}_base_{k:04}.vtu");
-        write_file(&folder.join(&file), base(histories, &cells, &frame))?;
+        write_file(&folder.join(&file), base(time_series, &cells, &frame))?;
         entries.push((frame.time, 1, file));
     }
     entries.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -112,15 +112,16 @@ fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>, in_plan: bool) -> R
     Ok(grid.xml())
 }
 
-fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
-    let ends = histories.elements().iter().flat_map(|e| [[e.left, 0.0, 0.0], [e.right, 0.0, 0.0]]);
-    let sides = histories.elements().iter().zip(histories.depths());
+fn base(time_series: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
+    let ends =
+        time_series.elements().iter().flat_map(|e| [[e.left, 0.0, 0.0], [e.right, 0.0, 0.0]]);
+    let sides = time_series.elements().iter().zip(time_series.depths());
     let rectangles = sides.flat_map(|(along, [front, back])| {
         let ContactElement { left, right } = *along;
         [[left, *front], [right, *front], [right, *back], [left, *back]].map(|[x, y]| [x, y, 0.0])
     });
-    let points = if histories.in_plan() { rectangles.collect() } else { ends.collect() };
-    let numbers = ContactState::NUMBERS.iter().filter(|own| histories.in_plan() || !own.2);
+    let points = if time_series.in_plan() { rectangles.collect() } else { ends.collect() };
+    let numbers = ContactState::NUMBERS.iter().filter(|own| time_series.in_plan() || !own.2);
     let values = |value: &fn(&ContactState) -> f64| frame.states.iter().map(value).collect();
     let modes = frame.modes.iter().map(|mode| f64::from(*mode as u8)).collect();
     let numbers = numbers.map(|(word, .., value)| (*word, values(value)));

@@ -82,13 +82,13 @@ struct Fit {
     /// The polynomial has the factor t.
     starts_from_zero: bool,
     /// Quantity that is minimised.
-    least: Quantity,
+    least: Integral,
     /// Quantities that are zero at the end.
-    zero_at_end: &'static [Quantity],
+    zero_at_end: &'static [Integral],
 }
 
 #[derive(Clone, Copy)]
-enum Quantity {
+enum Integral {
     Velocity,
     Displacement,
 }
@@ -97,25 +97,25 @@ impl Baseline {
     /// Treated samples.
     pub(super) fn apply(self, samples: &[f64]) -> Result<Vec<f64>> {
         let newmark =
-            Fit { terms: 3, starts_from_zero: false, least: Quantity::Velocity, zero_at_end: &[] };
+            Fit { terms: 3, starts_from_zero: false, least: Integral::Velocity, zero_at_end: &[] };
         let fit = match self {
             Self::None => return Ok(samples.to_vec()),
-            Self::RemoveMean => Fit { terms: 1, zero_at_end: &[Quantity::Velocity], ..newmark },
+            Self::RemoveMean => Fit { terms: 1, zero_at_end: &[Integral::Velocity], ..newmark },
             Self::NewmarkParabola => newmark,
             Self::VelocityPolynomial { degree } => {
                 check_degree(degree, 1, "between 1 and 8")?;
-                Fit { terms: degree, zero_at_end: &[Quantity::Velocity], ..newmark }
+                Fit { terms: degree, zero_at_end: &[Integral::Velocity], ..newmark }
             }
             Self::DisplacementPolynomial { degree } => {
                 check_degree(degree, 2, "between 2 and 8")?;
-                Fit { terms: degree - 1, least: Quantity::Displacement, ..newmark }
+                Fit { terms: degree - 1, least: Integral::Displacement, ..newmark }
             }
             Self::RestToRest { degree } => {
                 check_degree(degree, 3, "between 3 and 8")?;
                 Fit {
                     terms: degree - 1,
                     starts_from_zero: true,
-                    zero_at_end: &[Quantity::Velocity, Quantity::Displacement],
+                    zero_at_end: &[Integral::Velocity, Integral::Displacement],
                     ..newmark
                 }
             }
@@ -214,7 +214,7 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 
 impl Integrals {
-    fn new(step: f64, samples: &[f64], least: Quantity) -> Self {
+    fn new(step: f64, samples: &[f64], least: Integral) -> Self {
         let (velocity, displacement) = super::integral::integrate(step, samples);
         let last = samples.len() - 1;
         let mut values = Vec::with_capacity(GAUSS.len() * last);
@@ -228,8 +228,8 @@ impl Integrals {
             for (point, weight) in GAUSS {
                 let at = start.after(point * step, jerk);
                 let value = match least {
-                    Quantity::Velocity => at.velocity,
-                    Quantity::Displacement => at.displacement,
+                    Integral::Velocity => at.velocity,
+                    Integral::Displacement => at.displacement,
                 };
                 values.push(value * (weight * step).sqrt());
             }
@@ -238,10 +238,10 @@ impl Integrals {
     }
 
     /// Quantity at the end.
-    fn end(&self, quantity: Quantity) -> f64 {
+    fn end(&self, quantity: Integral) -> f64 {
         match quantity {
-            Quantity::Velocity => self.velocity,
-            Quantity::Displacement => self.displacement,
+            Integral::Velocity => self.velocity,
+            Integral::Displacement => self.displacement,
         }
     }
 

@@ -4,7 +4,7 @@ use std::io::Read;
 
 use super::format::FixedColumns;
 use super::lines::{Lines, Reason, count, push_numbers, read_numbers, record, scaled};
-use super::unit::{Quantity, clause_end, unclear};
+use super::unit::{HeaderNumber, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
@@ -126,7 +126,7 @@ impl Block {
         let title = title.as_str();
         let points = points(title, "number of points")?;
         let step = match csmip(title) {
-            Some(text) => Quantity::TimeStep.read(&text[..time_end(text)])?,
+            Some(text) => HeaderNumber::TimeStep.read(&text[..time_end(text)])?,
             None => interval,
         };
         let missing = RecordError::Missing { quantity: "sampling interval" };
@@ -298,14 +298,14 @@ fn read_k_net(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
 impl Header {
     /// Notes what a line of the header says, if it is one of those that are needed.
     fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
-        let positive = |quantity: Quantity, unit| match line.split_once(unit) {
+        let positive = |quantity: HeaderNumber, unit| match line.split_once(unit) {
             Some((_, text)) => Ok(quantity.read(text)?.filter(|&value| value > 0.0)),
             None => Ok::<_, RecordError>(None),
         };
         let (known, value) = if line.starts_with("Sampling Freq") {
-            (&mut self.frequency, positive(Quantity::Frequency, "(Hz)")?)
+            (&mut self.frequency, positive(HeaderNumber::Frequency, "(Hz)")?)
         } else if line.starts_with("Duration Time") {
-            (&mut self.duration, positive(Quantity::Duration, "(s)")?)
+            (&mut self.duration, positive(HeaderNumber::Duration, "(s)")?)
         } else if let Some(factor) = line.strip_prefix("Scale Factor") {
             (&mut self.scale, scale(factor.trim())?)
         } else {

@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::lines::{Lines, Reason, count, end_of_numbers, read_numbers, record, scaled};
-use super::unit::{Quantity, clause_end, unclear};
+use super::unit::{HeaderNumber, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
@@ -148,7 +148,10 @@ fn has_word(line: &str, word: &str) -> bool {
 /// Number of points and time step, s.
 fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, RecordError> {
     let (points, step) = if line.contains(['=', ':']) {
-        (assigned(line, "NPTS", Quantity::Points)?, assigned(line, "DT", Quantity::TimeStep)?)
+        (
+            assigned(line, "NPTS", HeaderNumber::Points)?,
+            assigned(line, "DT", HeaderNumber::TimeStep)?,
+        )
     } else {
         listed(line)?
     };
@@ -163,7 +166,7 @@ fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, RecordError> 
 fn assigned(
     line: &str,
     key: &str,
-    quantity: Quantity,
+    quantity: HeaderNumber,
 ) -> std::result::Result<Option<f64>, RecordError> {
     let mut pieces = line.split(['=', ':']).peekable();
     let mut found = None;
@@ -203,7 +206,7 @@ fn listed(line: &str) -> std::result::Result<(Option<f64>, Option<f64>), RecordE
     let not_understood = || unclear("order of number of points and time step", line);
     let unit = keys.trim_matches(GAPS).strip_prefix("DT").ok_or_else(not_understood)?;
     let step = format!("{} {}", step.trim_start_matches(GAPS), unit.trim_matches(GAPS));
-    Ok((Quantity::Points.read(points)?, Quantity::TimeStep.read(&step)?))
+    Ok((HeaderNumber::Points.read(points)?, HeaderNumber::TimeStep.read(&step)?))
 }
 
 #[cfg(test)]

@@ -137,7 +137,7 @@ const NUMBER: Units = &[("", 1.0)];
 
 /// Quantities in the header of a file, and their names in errors.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Quantity {
+pub(super) enum HeaderNumber {
     /// s.
     TimeStep,
     /// s.
@@ -147,7 +147,7 @@ pub(super) enum Quantity {
     Points,
 }
 
-impl Quantity {
+impl HeaderNumber {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::TimeStep => "time step",
@@ -229,15 +229,15 @@ mod tests {
             ("10 (msec)", 0.01),
             ("1E1MS", 0.01),
         ] {
-            assert_eq!(Quantity::TimeStep.read(text), Ok(Some(value)), "{text}");
+            assert_eq!(HeaderNumber::TimeStep.read(text), Ok(Some(value)), "{text}");
         }
-        assert_eq!(Quantity::TimeStep.read(" = "), Ok(None));
+        assert_eq!(HeaderNumber::TimeStep.read(" = "), Ok(None));
         for text in ["x", ".01E", "1,5", "1 2", "1/0", "5 sec sec", "5 (sec", "5 hz", "s", "é"] {
-            assert!(Quantity::TimeStep.read(text).is_err(), "{text}");
+            assert!(HeaderNumber::TimeStep.read(text).is_err(), "{text}");
         }
-        assert_eq!(Quantity::Frequency.read("100Hz"), Ok(Some(100.0)));
-        assert!(Quantity::Frequency.read("100 s").is_err());
-        assert!(Quantity::Points.read("100 s").is_err());
+        assert_eq!(HeaderNumber::Frequency.read("100Hz"), Ok(Some(100.0)));
+        assert!(HeaderNumber::Frequency.read("100 s").is_err());
+        assert!(HeaderNumber::Points.read("100 s").is_err());
     }
 
     #[test]

@@ -39,19 +39,19 @@ const MOST_TIMES: usize = 150;
 pub fn animation(
     title: &str,
     shape: &DeformedShape,
-    histories: &TimeSeries,
+    time_series: &TimeSeries,
     magnification: f64,
     slowness: f64,
 ) -> Result<Svg> {
     positive("magnification", magnification)?;
     positive("slowness", slowness)?;
-    let frames: Vec<_> = histories.motion_frames().collect();
+    let frames: Vec<_> = time_series.motion_frames().collect();
     require_part("animation", frames.len() > 1, "tell the recorder to keep the motion, and run")?;
     let needed = "600 or fewer: keep fewer of them";
     require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
-    check_dimension(shape, histories)?;
+    check_dimension(shape, time_series)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-    let in_plan = histories.in_plan();
+    let in_plan = time_series.in_plan();
     let view = if in_plan { View::Slanted } else { View::AlongY };
     let seen = |frame| Ok(view.all(&places(shape, frame, magnification)?));
     let moved: Vec<Vec<[f64; 2]>> = frames.iter().map(seen).collect::<Result<_>>()?;
@@ -60,13 +60,13 @@ pub fn animation(
     let mut out = head(title);
     let screen;
     if in_plan {
-        let floor = Floor::of(histories);
+        let floor = Floor::of(time_series);
         screen = Screen::of(&moved, &view.all(&floor.corners(floor.margin)));
-        out += &floor.draw(histories, &screen, frames.len(), &duration);
+        out += &floor.draw(time_series, &screen, frames.len(), &duration);
     } else {
         screen = Screen::of(&moved, &[[moved[0][0][0], 0.0]]);
         out += &screen.ground();
-        out += &base(histories, &screen, frames.len(), &duration);
+        out += &base(time_series, &screen, frames.len(), &duration);
     }
     let paths: Vec<String> = moved.iter().map(|places| screen.path(shape, places)).collect();
     let _ = writeln!(
@@ -214,14 +214,14 @@ fn key(modes: Vec<Shown>) -> String {
 }
 
 /// A rectangle for every contact element, coloured by its mode, and the key to the colours.
-fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
-    let contact: Vec<_> = histories.contact_frames().collect();
+fn base(time_series: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
+    let contact: Vec<_> = time_series.contact_frames().collect();
     if contact.len() != frames {
         return String::new();
     }
     let (shown, modes) = shown(&contact, false);
     let mut out = key(modes);
-    for (e, element) in histories.elements().iter().enumerate() {
+    for (e, element) in time_series.elements().iter().enumerate() {
         let [left, _] = screen.place([element.left, 0.0]);
         let [right, _] = screen.place([element.right, 0.0]);
         let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
@@ -250,9 +250,9 @@ struct Floor {
 const SIDE: [f64; 4] = [ASIDE, 440.0, 915.0, 585.0];
 
 impl Floor {
-    fn of(histories: &TimeSeries) -> Self {
-        let along = far_ends(histories.elements().iter().map(|own| [own.left, own.right]));
-        let across = far_ends(histories.depths().iter().copied());
+    fn of(time_series: &TimeSeries) -> Self {
+        let along = far_ends(time_series.elements().iter().map(|own| [own.left, own.right]));
+        let across = far_ends(time_series.depths().iter().copied());
         let side = (along[1] - along[0]).max(across[1] - across[0]);
         Self { ends: [along, across], margin: 0.15 * side }
     }
@@ -267,7 +267,7 @@ impl Floor {
     /// Soil, axes, and the elements, coloured by their modes, below the structure and at the side.
     fn draw(
         &self,
-        histories: &TimeSeries,
+        time_series: &TimeSeries,
         screen: &Screen,
         frames: usize,
         duration: &str,
@@ -294,7 +294,7 @@ impl Floor {
                 to_y + 5.0
             );
         }
-        let contact: Vec<_> = histories.contact_frames().collect();
+        let contact: Vec<_> = time_series.contact_frames().collect();
         if contact.len() != frames {
             return out;
         }
@@ -310,7 +310,7 @@ impl Floor {
         let scale = ((SIDE[2] - SIDE[0]) / wide).min((SIDE[3] - SIDE[1]) / high);
         let plan =
             |[x, _, y]: [f64; 3]| [SIDE[0] + scale * (x - left), SIDE[1] + scale * (back - y)];
-        let sides = histories.elements().iter().zip(histories.depths());
+        let sides = time_series.elements().iter().zip(time_series.depths());
         for (e, (along, depth)) in sides.enumerate() {
             let corners =
                 Self { ends: [[along.left, along.right], *depth], margin: 0.0 }.corners(0.0);

@@ -23,18 +23,18 @@ const COLUMNS: usize = 1000;
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of contact were kept
 /// ([`crate::results::Recorder::contact`]), or on a ground in plan.
-pub fn mode_map(title: &str, histories: &TimeSeries) -> Result<Svg> {
+pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let needed = "a base in the plane: `contact_plan` draws one in plan";
-    require_part("map of contact modes", !histories.in_plan(), needed)?;
-    let frames: Vec<_> = histories.contact_frames().collect();
-    let elements = histories.elements();
+    require_part("map of contact modes", !time_series.in_plan(), needed)?;
+    let frames: Vec<_> = time_series.contact_frames().collect();
+    let elements = time_series.elements();
     let needed = "tell the recorder to keep the contact";
     require_part("map of contact modes", !elements.is_empty() && frames.len() > 1, needed)?;
     let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
     let every = (frames.len() - 1).div_ceil(COLUMNS).max(1);
     let (shown, key) = shown(&frames, false);
     let key = key.into_iter().map(|what| (what.name(), Sample::Area(what.color())));
-    let base = Base::of(elements.iter().copied());
+    let base = BaseAxis::of(elements.iter().copied());
     Sheet::new(title, Key::of(key)).picture(|area| {
         let mut chart = chart(area, &Axis::linear(begin..end, "time, s"), &base.axis(), false)?;
         label_breaks(&mut chart, &base, |place| (0.5 * (begin + end), place))?;
@@ -77,7 +77,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
         return largest_pressures(title, run);
     }
     let envelope = &run.envelope;
-    let base = Base::of(envelope.iter().map(|e| e.element));
+    let base = BaseAxis::of(envelope.iter().map(|e| e.element));
     let curves: [(&str, Value); 3] = [
         ("largest", |e| 1e-3 * e.pressure.highest.value),
         ("static", |e| 1e-3 * e.static_pressure),
@@ -138,12 +138,12 @@ pub(super) struct Break {
 
 /// Foundations side by side.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Base {
+pub(super) struct BaseAxis {
     pieces: Vec<Piece>,
     pub(super) breaks: Vec<Break>,
 }
 
-impl Base {
+impl BaseAxis {
     pub(super) fn of(elements: impl Iterator<Item = ContactElement>) -> Self {
         let mut elements: Vec<ContactElement> = elements.collect();
         elements.sort_by(|a, b| a.left.total_cmp(&b.left));
@@ -213,7 +213,7 @@ impl Base {
 /// text for the middle of the break.
 pub(super) fn label_breaks(
     chart: &mut Chart<'_, '_>,
-    base: &Base,
+    base: &BaseAxis,
     at: impl Fn(f64) -> (f64, f64),
 ) -> Drawing<()> {
     let style = TextStyle::from(LABEL.into_font()).pos(Pos::new(HPos::Center, VPos::Center));
@@ -239,7 +239,7 @@ mod tests {
     fn wide_gaps_are_short_and_marks_tell_where_one_is() {
         let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
         let elements = elements.map(|(left, right)| ContactElement { left, right });
-        let base = Base::of(elements.into_iter());
+        let base = BaseAxis::of(elements.into_iter());
         // 17.5 m of foundations: 32 m become 1.75, half a metre stays.
         assert_eq!(base.breaks, [Break { from: 8.0, to: 9.75, width: 32.0 }]);
         for (x, place) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {

@@ -44,9 +44,9 @@ const COS: f64 = 0.866_025_403_784_438_6;
 const SIN: f64 = 0.5;
 
 /// Error for a shape of the plane on a ground in plan, or the other way round.
-pub(super) fn check_dimension(shape: &DeformedShape, histories: &TimeSeries) -> Result<()> {
+pub(super) fn check_dimension(shape: &DeformedShape, time_series: &TimeSeries) -> Result<()> {
     let needed = "must be one in plan on a ground in plan, and one of the plane else";
-    require_part("deformed shape", shape.in_plan() == histories.in_plan(), needed)
+    require_part("deformed shape", shape.in_plan() == time_series.in_plan(), needed)
 }
 
 /// Places of the points (x, height, y), m: displacements relative to the free field, magnified.
@@ -106,19 +106,19 @@ fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
 pub fn deformed_shapes(
     title: &str,
     shape: &DeformedShape,
-    histories: &TimeSeries,
+    time_series: &TimeSeries,
     times: &[f64],
     magnification: f64,
 ) -> Result<Svg> {
     positive("magnification", magnification)?;
     at_least("times of deformed shapes", times.len(), 1)?;
-    check_dimension(shape, histories)?;
+    check_dimension(shape, time_series)?;
     let rest: Vec<[f64; 3]> = shape.points().iter().map(at_rest).collect();
     let mut drawn = vec![("at rest".to_owned(), rest)];
     for &time in times {
         finite("time of a deformed shape", time)?;
         let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
-        let nearest = histories.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let nearest = time_series.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
         let frame = nearest.ok_or(Error::Scene {
             quantity: "deformed shape",
             needed: "tell the recorder to keep the motion",
@@ -142,7 +142,7 @@ pub fn deformed_shapes(
     };
     let draw = |area: &Area<'_>, (view, [x, y], seen): &Elevation| -> Drawing<()> {
         let name = if *view == View::AlongX { "y, m" } else { "x, m" };
-        let height = if histories.in_plan() { "z, m" } else { "y, m" };
+        let height = if time_series.in_plan() { "z, m" } else { "y, m" };
         let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
         let mut chart = chart(area, &axes.0, &axes.1, false)?;
         let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
@@ -153,7 +153,7 @@ pub fn deformed_shapes(
         }
         Ok(())
     };
-    if !histories.in_plan() {
+    if !time_series.in_plan() {
         let one = elevation(View::AlongY, sheet.room());
         return sheet.picture(|area| draw(area, &one));
     }

@@ -71,9 +71,9 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
 ///
 /// # Errors
 /// As for [`curves`]; [`Error::Scene`] for runs in the plane and in plan together, whose units differ.
-pub fn history(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
+pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
     let limit = quantity.limit();
-    let in_plan = runs.first().is_some_and(|(_, histories)| histories.in_plan());
+    let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
     let (factor, unit) = quantity.printed(in_plan);
     let is_common = runs.iter().all(|(_, own)| quantity.printed(own.in_plan()).1 == unit);
     let needed = "the same in all runs: in the plane it is per metre";
@@ -84,13 +84,13 @@ pub fn history(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) ->
         Some(_) => value.recip().min(MOST_DEMAND),
         None => factor * value,
     };
-    let points = |histories: &TimeSeries| -> Vec<(f64, f64)> {
-        let values = histories.series(quantity).iter().map(value);
-        histories.times().iter().copied().zip(values).collect()
+    let points = |time_series: &TimeSeries| -> Vec<(f64, f64)> {
+        let values = time_series.series(quantity).iter().map(value);
+        time_series.times().iter().copied().zip(values).collect()
     };
-    let curve = |&(name, histories): &(&str, &TimeSeries)| Curve {
+    let curve = |&(name, time_series): &(&str, &TimeSeries)| Curve {
         name: name.into(),
-        points: points(histories),
+        points: points(time_series),
     };
     let list: Vec<Curve> = runs.iter().map(curve).collect();
     let name = quantity.name();
@@ -109,17 +109,17 @@ pub fn history(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) ->
 /// # Errors
 /// [`Error::Name`] if a run has no such probe, [`Error::Scene`] if the runs have it in different
 /// units, and as for [`curves`].
-pub fn probe_history(title: &str, runs: &[(&str, &TimeSeries)], probe: &str) -> Result<Svg> {
+pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str) -> Result<Svg> {
     let mut units = Vec::with_capacity(runs.len());
-    for (_, histories) in runs {
-        units.push(&histories.probes()[histories.probe_index(probe)?].unit[..]);
+    for (_, time_series) in runs {
+        units.push(&time_series.probes()[time_series.probe_index(probe)?].unit[..]);
     }
     let needed = "the same in all runs";
     require_part("unit of a probe", units.windows(2).all(|pair| pair[0] == pair[1]), needed)?;
     let (factor, unit) = printed(units.first().copied().unwrap_or_default());
-    let curve = |&(name, histories): &(&str, &TimeSeries)| {
-        let values = histories.probe(probe)?.iter().map(|value| factor * value);
-        let points = histories.times().iter().copied().zip(values).collect();
+    let curve = |&(name, time_series): &(&str, &TimeSeries)| {
+        let values = time_series.probe(probe)?.iter().map(|value| factor * value);
+        let points = time_series.times().iter().copied().zip(values).collect();
         Ok(Curve { name: name.to_owned(), points })
     };
     let list = runs.iter().map(curve).collect::<Result<Vec<Curve>>>()?;
@@ -157,21 +157,26 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 ///
 /// # Errors
 /// Those of [`curves`].
-pub fn energy(title: &str, histories: &TimeSeries) -> Result<Svg> {
+pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     // The input, then what it has become.
     let terms = |energy_balance: &EnergyBalance| {
         [vec![("input", energy_balance.input)], energy_balance.parts()].concat()
     };
-    let rows: Vec<_> = histories.energy_balances().iter().map(terms).collect();
+    let rows: Vec<_> = time_series.energy_balances().iter().map(terms).collect();
     let largest = |k: usize| rows.iter().fold(0.0_f64, |m, row| m.max(row[k].1.abs()));
     let names: Vec<_> = rows.first().into_iter().flatten().map(|(name, _)| *name).collect();
     let scale = (0..names.len()).map(largest).fold(0.0, f64::max);
     let shown = (0..names.len()).filter(|k| *k == 0 || largest(*k) > 1e-3 * scale);
     let curve = |k: usize| Curve {
         name: names[k].to_owned(),
-        points: histories.times().iter().zip(&rows).map(|(t, row)| (*t, 1e-3 * row[k].1)).collect(),
+        points: time_series
+            .times()
+            .iter()
+            .zip(&rows)
+            .map(|(t, row)| (*t, 1e-3 * row[k].1))
+            .collect(),
     };
-    let y = with_unit("energy", of_body("kJ/m", histories.in_plan()));
+    let y = with_unit("energy", of_body("kJ/m", time_series.in_plan()));
     curves(title, "time, s", &y, &shown.map(curve).collect::<Vec<_>>())
 }
 

@@ -6,7 +6,7 @@
 //!
 //! | picture | function |
 //! |---|---|
-//! | one quantity of one or more runs over time | [`history`], [`probe_history`], [`curves`] |
+//! | one quantity of one or more runs over time | [`time_series`], [`probe_time_series`], [`curves`] |
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, least and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
@@ -20,10 +20,10 @@
 //! ```no_run
 //! # fn recorded() -> basemat::results::TimeSeries { unimplemented!() }
 //! use basemat::{plot, results::Quantity};
-//! let histories = recorded();
-//! plot::history("Base shear", &[("friction 0.4", &histories)], Quantity::BaseShear)?
+//! let time_series = recorded();
+//! plot::time_series("Base shear", &[("friction 0.4", &time_series)], Quantity::BaseShear)?
 //!     .save("base_shear.svg")?;
-//! plot::mode_map("Contact", &histories)?.save("modes.svg")?;
+//! plot::mode_map("Contact", &time_series)?.save("modes.svg")?;
 //! # Ok::<(), basemat::Error>(())
 //! ```
 
@@ -43,7 +43,7 @@ pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
 pub use deformed::deformed_shapes;
 pub use lines::{
-    Curve, curves, energy, history, probe_history, refinement, site_response, spectra,
+    Curve, curves, energy, probe_time_series, refinement, site_response, spectra, time_series,
 };
 pub use plan::contact_plan;
 pub use svg::Svg;

@@ -35,15 +35,15 @@ struct Cell {
 /// # Errors
 /// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground is not one
 /// in plan; [`Error::Input`] for a time that is not finite.
-pub fn contact_plan(title: &str, histories: &TimeSeries, time: f64) -> Result<Svg> {
+pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<Svg> {
     finite("time of a picture", time)?;
     let apart = |frame: &crate::results::ContactFrame<'_>| (frame.time - time).abs();
-    let frames = histories.contact_frames();
+    let frames = time_series.contact_frames();
     let Some(frame) = frames.min_by(|a, b| apart(a).total_cmp(&apart(b))) else {
         let needed = "tell the recorder to keep the contact";
         return Err(Error::Scene { quantity: "contact in plan", needed });
     };
-    check(histories.in_plan())?;
+    check(time_series.in_plan())?;
     let largest = frame.states.iter().fold(0.0_f64, |most, own| own.pressure.max(most));
     let classes = Classes::to(largest);
     let both = frame.states.iter().zip(frame.modes);
@@ -53,7 +53,7 @@ pub fn contact_plan(title: &str, histories: &TimeSeries, time: f64) -> Result<Sv
         (shown == Shown::Slip && size > 0.0)
             .then(|| [state.shear / size, state.shear_across / size])
     };
-    let sides = histories.elements().iter().zip(histories.depths());
+    let sides = time_series.elements().iter().zip(time_series.depths());
     let cells =
         sides.zip(frame.states.iter().zip(&shown)).map(|((along, depth), (state, what))| Cell {
             sides: [[along.left, along.right], *depth],

@@ -47,9 +47,9 @@ impl TimeSeries {
     /// #     .interface(Coulomb::new(0.4)?)
     /// #     .motion(basemat::motion::AtRest)
     /// #     .build()?;
-    /// let mut histories = Recorder::new().contact(5).start(&simulation)?;
-    /// simulation.run(10, |state| histories.record(state))?;
-    /// let text = histories.contact_csv();
+    /// let mut time_series = Recorder::new().contact(5).start(&simulation)?;
+    /// simulation.run(10, |state| time_series.record(state))?;
+    /// let text = time_series.contact_csv();
     /// let lines: Vec<_> = text.lines().collect();
     /// assert_eq!(lines[0], "time_s,element,left_m,right_m,mode,gap_m,slip_m,pressure_pa,shear_pa");
     /// // Three frames of two elements.
@@ -146,7 +146,7 @@ pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
     )
 }
 
-// The columns of histories, in CSV and in archives of arrays.
+// The columns of time series, in CSV and in archives of arrays.
 
 /// Times, modes and their words of contact frames, beside their numbers.
 pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contact_mode_words"];

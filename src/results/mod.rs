@@ -1,4 +1,4 @@
-//! Results that engineers look for: histories, peaks with their times, envelopes, factors of safety.
+//! Results that engineers look for: time series, peaks with their times, envelopes, factors of safety.
 //!
 //! [`Simulation::run`](crate::Simulation::run) gives a [`Run`]: peaks, envelopes, factors of safety,
 //! printed a page for the report. A [`Comparison`] puts several into one table. For time series and
@@ -24,8 +24,8 @@
 //!     .probe(Probe::acceleration("roof", roof))
 //!     .build()?;
 //!
-//! let mut histories = Recorder::new().start(&simulation)?;
-//! let run = simulation.run(500, |state| histories.record(state))?;
+//! let mut time_series = Recorder::new().start(&simulation)?;
+//! let run = simulation.run(500, |state| time_series.record(state))?;
 //!
 //! println!("{run}");
 //! assert!((run.whole.static_normal_force / weight - 1.0).abs() < 1e-9);
@@ -36,8 +36,8 @@
 //! assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
 //!
 //! // A history, and the response spectrum of the roof.
-//! assert_eq!(histories.series(Quantity::BaseShear).len(), 501);
-//! let floor = histories.floor_spectrum("roof", &log_spaced(0.1, 2.0, 20)?, 0.05)?;
+//! assert_eq!(time_series.series(Quantity::BaseShear).len(), 501);
+//! let floor = time_series.floor_spectrum("roof", &log_spaced(0.1, 2.0, 20)?, 0.05)?;
 //! assert_eq!(floor.len(), 20);
 //! # Ok::<(), basemat::Error>(())
 //! ```
@@ -53,10 +53,10 @@
 //!
 //! # What it costs
 //!
-//! Nothing where it is not used. The scalar histories take 24 numbers and one per probe at every
+//! Nothing where it is not used. The scalar time series take 24 numbers and one per probe at every
 //! kept step (192 kB for 1000 steps); contact and motion frames are off unless asked for, see
 //! [`TimeSeries::bytes`]. A [`Run`] keeps numbers per element and the slip events. Its peaks,
-//! envelopes and events are those of all steps, however few the histories keep.
+//! envelopes and events are those of all steps, however few the time series keep.
 //!
 //! # Conventions
 //!

@@ -213,7 +213,7 @@ impl TimeSeries {
         self.motion.iter().flat_map(|frames| frames.frames(self.dofs))
     }
 
-    /// Memory that histories and frames take up now.
+    /// Memory that time series and frames take up now.
     pub fn bytes(&self) -> usize {
         let numbers: usize =
             self.scalars.iter().chain(&self.probe_values).map(Vec::len).sum::<usize>()

@@ -154,20 +154,20 @@ fn records_of_functions() {
 #[test]
 fn runs_and_histories_are_saved() -> Result<()> {
     let mut simulation = simulation();
-    let mut histories = Recorder::new().start(&simulation)?;
-    let run = simulation.run(100, |state| histories.record(state))?;
-    assert_eq!(histories.times().len(), 101);
+    let mut time_series = Recorder::new().start(&simulation)?;
+    let run = simulation.run(100, |state| time_series.record(state))?;
+    assert_eq!(time_series.times().len(), 101);
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("conveniences/new/one");
     let _ = std::fs::remove_dir_all(&folder);
-    histories.csv().save(folder.join("run.csv"))?;
-    assert_eq!(std::fs::read_to_string(folder.join("run.csv")).unwrap(), *histories.csv());
+    time_series.csv().save(folder.join("run.csv"))?;
+    assert_eq!(std::fs::read_to_string(folder.join("run.csv")).unwrap(), *time_series.csv());
     let mut comparison = Comparison::default();
     comparison.add("only", run);
     comparison.csv().save(folder.join("cases.csv"))?;
     assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), *comparison.csv());
     let nowhere = folder.join("run.csv/below_a_file.csv");
-    assert!(matches!(histories.csv().save(&nowhere), Err(Error::Write { .. })));
+    assert!(matches!(time_series.csv().save(&nowhere), Err(Error::Write { .. })));
     assert!(matches!(comparison.csv().save(&nowhere), Err(Error::Write { .. })));
     Ok(())
 }

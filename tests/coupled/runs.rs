@@ -51,16 +51,16 @@ fn all_ways_to_run_tell_the_same() {
 
     // In parts, the run as an observer of them; the histories beside it.
     let mut parts = simulation();
-    let (mut run, mut histories) = (parts.begin_run(), Recorder::new().start(&parts).unwrap());
+    let (mut run, mut time_series) = (parts.begin_run(), Recorder::new().start(&parts).unwrap());
     for steps in [1, 120, STEPS - 121] {
         let part = parts.run(steps, |state| {
             run.record(state);
-            histories.record(state);
+            time_series.record(state);
         });
         assert_eq!(part.unwrap().steps, steps);
     }
     assert_eq!(told(parts.end_run(run)), expected);
-    assert_eq!(histories.times().len(), STEPS + 1);
+    assert_eq!(time_series.times().len(), STEPS + 1);
 }
 
 #[test]

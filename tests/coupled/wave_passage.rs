@@ -26,10 +26,10 @@ fn shear(motion: impl FreeField + 'static) -> Vec<f64> {
         .gravity(STANDARD_GRAVITY)
         .build()
         .unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
-    let run = simulation.run(400, |state| histories.record(state)).unwrap();
+    let mut time_series = Recorder::new().start(&simulation).unwrap();
+    let run = simulation.run(400, |state| time_series.record(state)).unwrap();
     assert!(run.whole.uplift.count > 0 && !run.whole.sliding.events.is_empty());
-    histories.series(Quantity::BaseShear).to_vec()
+    time_series.series(Quantity::BaseShear).to_vec()
 }
 
 /// Ever faster and ever steeper waves become vertical incidence; slow ones are something else.

@@ -50,15 +50,15 @@ fn recorded() -> (Vec<State>, TimeSeries, DeformedShape) {
     let shape = DeformedShape::of_model(&tower);
     let mut simulation = scene(SI, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
     let recorder = Recorder::new().contact(40).motion(40);
-    let (histories, _, states) = scenes::recorded(&mut simulation, recorder, 200);
-    (states, histories, shape)
+    let (time_series, _, states) = scenes::recorded(&mut simulation, recorder, 200);
+    (states, time_series, shape)
 }
 
 #[test]
 fn a_series_holds_the_states() {
-    let (states, histories, shape) = recorded();
+    let (states, time_series, shape) = recorded();
     let folder = folder("series");
-    assert_eq!(paraview::write_series(&folder, "tower", &shape, &histories), Ok(12));
+    assert_eq!(paraview::write_series(&folder, "tower", &shape, &time_series), Ok(12));
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
 
     let collection = read("tower.pvd");
@@ -157,25 +157,25 @@ fn deformed_shapes_move_as_their_structures() {
 
 #[test]
 fn bad_requests_are_errors() {
-    let (_, histories, shape) = recorded();
+    let (_, time_series, shape) = recorded();
     let folder = folder("errors");
-    let series = |name, shape: &DeformedShape, histories| {
-        paraview::write_series(&folder, name, shape, histories).unwrap_err()
+    let series = |name, shape: &DeformedShape, time_series| {
+        paraview::write_series(&folder, name, shape, time_series).unwrap_err()
     };
     for name in ["", "a/b", "..", "a b", "\"x\""] {
-        assert!(matches!(series(name, &shape, &histories), Error::Scene { .. }));
+        assert!(matches!(series(name, &shape, &time_series), Error::Scene { .. }));
     }
     // More degrees of freedom than the run has.
     let point = ShapePoint { position: [0.0; 2], horizontal: 98.into(), ..ShapePoint::default() };
     let other = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
-    assert!(matches!(series("a", &other, &histories), Error::Index { index: 98, bound: 98, .. }));
+    assert!(matches!(series("a", &other, &time_series), Error::Index { index: 98, bound: 98, .. }));
     let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();
     let without = Recorder::new().start(&simulation).unwrap();
     assert!(matches!(series("a", &shape, &without), Error::Scene { .. }));
     // A folder that cannot be made.
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("file"), "").unwrap();
-    let fault = paraview::write_series(folder.join("file/deeper"), "a", &shape, &histories);
+    let fault = paraview::write_series(folder.join("file/deeper"), "a", &shape, &time_series);
     assert!(matches!(fault, Err(Error::Write { .. })));
 
     assert!(DeformedShape::new(vec![], vec![]).is_err());

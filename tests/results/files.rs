@@ -1,4 +1,4 @@
-//! GOAL: histories, contact, envelopes and spectra as files, read back as they were.
+//! GOAL: time_series, contact, envelopes and spectra as files, read back as they were.
 //! SCENE: the block of `main`; probes whose names collide or are no names of columns.
 //! REFERENCE: the numbers themselves, through a reader of CSV that is not the crate's.
 
@@ -33,21 +33,21 @@ fn same(cell: &str, value: f64) {
 
 #[test]
 fn histories_have_a_column_for_every_series() {
-    let Recorded { histories, .. } = recorded(Recorder::new().every(3));
-    let (heading, rows) = table(&histories.csv());
+    let Recorded { time_series, .. } = recorded(Recorder::new().every(3));
+    let (heading, rows) = table(&time_series.csv());
     let mut wanted = vec!["time_s".to_owned()];
     wanted.extend(Quantity::of(false).map(|quantity| quantity.column(false)));
     wanted
         .extend(["top_m", "top_acceleration_m_per_s2", "input_energy_j_per_m"].map(str::to_owned));
     assert_eq!(heading, wanted);
-    assert_eq!(rows.len(), histories.times().len());
+    assert_eq!(rows.len(), time_series.times().len());
     for (k, row) in rows.iter().enumerate() {
-        same(&row[0], histories.times()[k]);
+        same(&row[0], time_series.times()[k]);
         for (cell, quantity) in row[1..].iter().zip(Quantity::of(false)) {
-            same(cell, histories.series(quantity)[k]);
+            same(cell, time_series.series(quantity)[k]);
         }
-        same(&row[12], histories.probe("top").unwrap()[k]);
-        same(&row[14], histories.energy_balances()[k].input);
+        same(&row[12], time_series.probe("top").unwrap()[k]);
+        same(&row[14], time_series.energy_balances()[k].input);
     }
     // At the start nothing shears: the factor of safety is infinite.
     assert_eq!(rows[0][10], "inf");
@@ -62,9 +62,9 @@ fn what_is_not_known_is_an_empty_cell() {
         .without_energy_balance()
         .build()
         .unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
-    simulation.run(2, |state| histories.record(state)).unwrap();
-    let (_, rows) = table(&histories.csv());
+    let mut time_series = Recorder::new().start(&simulation).unwrap();
+    simulation.run(2, |state| time_series.record(state)).unwrap();
+    let (_, rows) = table(&time_series.csv());
     assert!(rows.iter().all(|row| row.last().unwrap().is_empty()));
 }
 
@@ -84,8 +84,8 @@ fn columns_of_probes_differ() {
         .probes(probes)
         .build()
         .unwrap();
-    let histories = Recorder::new().start(&simulation).unwrap();
-    let (heading, _) = table(&histories.csv());
+    let time_series = Recorder::new().start(&simulation).unwrap();
+    let (heading, _) = table(&time_series.csv());
     let wanted = [
         "roof_left_m",
         "roof_left_m_2",
@@ -100,15 +100,15 @@ fn columns_of_probes_differ() {
 
 #[test]
 fn contact_has_a_row_for_every_frame_and_element() {
-    let Recorded { histories, states, .. } = recorded(Recorder::new().contact(10));
-    let (heading, rows) = table(&histories.contact_csv());
+    let Recorded { time_series, states, .. } = recorded(Recorder::new().contact(10));
+    let (heading, rows) = table(&time_series.contact_csv());
     assert_eq!(heading.len(), 9);
-    let count = histories.elements().len();
+    let count = time_series.elements().len();
     assert_eq!(rows.len(), (STEPS / 10 + 1) * count);
     let mut modes = std::collections::BTreeSet::new();
     for (k, row) in rows.iter().enumerate() {
         let (state, e) = (&states[k / count * 10], k % count);
-        let (element, contact) = (histories.elements()[e], state.contact[e]);
+        let (element, contact) = (time_series.elements()[e], state.contact[e]);
         same(&row[0], state.time);
         assert_eq!(row[1], e.to_string());
         same(&row[2], element.left);
@@ -120,13 +120,13 @@ fn contact_has_a_row_for_every_frame_and_element() {
     }
     assert!(modes.len() > 2, "{modes:?}");
     // Without frames there is the heading alone.
-    let (_, none) = table(&recorded(Recorder::new()).histories.contact_csv());
+    let (_, none) = table(&recorded(Recorder::new()).time_series.contact_csv());
     assert!(none.is_empty());
 }
 
 #[test]
 fn envelopes_and_spectra() {
-    let Recorded { histories, run, .. } = recorded(Recorder::new());
+    let Recorded { time_series, run, .. } = recorded(Recorder::new());
     let (heading, rows) = table(&run.envelope_csv());
     assert_eq!((heading.len(), rows.len()), (15, run.envelope.len()));
     let at = |name: &str| heading.iter().position(|column| column == name).unwrap();
@@ -140,7 +140,7 @@ fn envelopes_and_spectra() {
         same(&row[at("slip_time_s")], own.slip.time);
         same(&row[at("open_s")], own.open);
     }
-    let spectrum = histories.floor_spectrum("top acceleration", &[0.2, 0.5], 0.05).unwrap();
+    let spectrum = time_series.floor_spectrum("top acceleration", &[0.2, 0.5], 0.05).unwrap();
     let (heading, rows) = table(&spectrum_csv(&spectrum));
     assert_eq!(heading[3], "pseudo_acceleration_m_per_s2");
     same(&rows[1][3], spectrum[1].pseudo_acceleration);
@@ -148,11 +148,11 @@ fn envelopes_and_spectra() {
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("files");
     run.envelope_csv().save(folder.join("envelope.csv")).unwrap();
-    histories.contact_csv().save(folder.join("contact.csv")).unwrap();
+    time_series.contact_csv().save(folder.join("contact.csv")).unwrap();
     spectrum_csv(&spectrum).save(folder.join("spectrum.csv")).unwrap();
     let below = folder.join("envelope.csv/below_a_file.csv");
     assert!(
-        run.envelope_csv().save(&below).is_err() && histories.contact_csv().save(&below).is_err()
+        run.envelope_csv().save(&below).is_err() && time_series.contact_csv().save(&below).is_err()
     );
     assert!(spectrum_csv(&spectrum).save(&below).is_err());
 }

@@ -6,7 +6,6 @@ mod case_tables;
 mod damaged_tables;
 mod files;
 mod foundations;
-mod histories;
 mod layout;
 #[cfg(feature = "npz")]
 mod npz;
@@ -17,6 +16,7 @@ mod resolution;
 mod safety;
 mod serviceability;
 mod spectra;
+mod time_series;
 
 use basemat::Simulation;
 use basemat::coupled::{Probe, State};
@@ -42,12 +42,12 @@ fn simulation() -> Simulation {
 struct Recorded {
     simulation: Simulation,
     states: Vec<State>,
-    histories: TimeSeries,
+    time_series: TimeSeries,
     run: Run,
 }
 
 fn recorded(recorder: Recorder) -> Recorded {
     let mut simulation = simulation();
-    let (histories, run, states) = scenes::recorded(&mut simulation, recorder, STEPS);
-    Recorded { simulation, states, histories, run }
+    let (time_series, run, states) = scenes::recorded(&mut simulation, recorder, STEPS);
+    Recorded { simulation, states, time_series, run }
 }

@@ -57,9 +57,9 @@ impl Array {
     }
 }
 
-fn arrays(histories: &TimeSeries) -> BTreeMap<String, Array> {
+fn arrays(time_series: &TimeSeries) -> BTreeMap<String, Array> {
     let mut bytes = Vec::new();
-    histories.write_npz(&mut bytes).unwrap();
+    time_series.write_npz(&mut bytes).unwrap();
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
     let count = archive.len();
     let read = |place| {
@@ -79,22 +79,22 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
 #[test]
 fn arrays_are_what_was_kept() {
     let recorder = Recorder::new().every(2).contact(5).motion(8);
-    let Recorded { histories, states, .. } = recorded(recorder);
-    let arrays = arrays(&histories);
+    let Recorded { time_series, states, .. } = recorded(recorder);
+    let arrays = arrays(&time_series);
     let same = |name: &str, shape: &[usize], numbers: &[f64]| {
         let array = &arrays[name];
         assert_eq!(array.shape, shape, "{name}");
         assert_eq!(bits(&array.numbers()), bits(numbers), "{name}");
     };
     let kept = STEPS / 2 + 1;
-    same("time_s", &[kept], histories.times());
+    same("time_s", &[kept], time_series.times());
     for quantity in Quantity::of(false) {
-        same(&quantity.column(false), &[kept], histories.series(quantity));
+        same(&quantity.column(false), &[kept], time_series.series(quantity));
     }
-    same("top_m", &[kept], histories.probe("top").unwrap());
-    same("top_acceleration_m_per_s2", &[kept], histories.probe("top acceleration").unwrap());
+    same("top_m", &[kept], time_series.probe("top").unwrap());
+    same("top_acceleration_m_per_s2", &[kept], time_series.probe("top acceleration").unwrap());
     let energy_balance = |of: fn(&basemat::coupled::EnergyBalance) -> f64| -> Vec<f64> {
-        histories.energy_balances().iter().map(of).collect()
+        time_series.energy_balances().iter().map(of).collect()
     };
     same("kinetic_energy_j_per_m", &[kept], &energy_balance(|l| l.kinetic));
     same("strain_energy_j_per_m", &[kept], &energy_balance(|l| l.strain));
@@ -109,7 +109,7 @@ fn arrays_are_what_was_kept() {
     same("relative_input_energy_j_per_m", &[kept], &energy_balance(|l| l.relative_input));
     same("soil_error_bound_j_per_m", &[kept], &energy_balance(|l| l.soil_error_bound));
 
-    let elements = histories.elements();
+    let elements = time_series.elements();
     let count = elements.len();
     same("element_left_m", &[count], &elements.iter().map(|e| e.left).collect::<Vec<_>>());
     same("element_right_m", &[count], &elements.iter().map(|e| e.right).collect::<Vec<_>>());
@@ -145,12 +145,12 @@ fn arrays_are_what_was_kept() {
 #[test]
 fn archives_are_saved_beside_their_tables() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz");
-    let Recorded { histories, .. } = recorded(Recorder::new().contact(4).motion(100));
-    histories.save_npz(folder.join("run.npz")).unwrap();
-    histories.csv().save(folder.join("run.csv")).unwrap();
-    histories.contact_csv().save(folder.join("contact.csv")).unwrap();
+    let Recorded { time_series, .. } = recorded(Recorder::new().contact(4).motion(100));
+    time_series.save_npz(folder.join("run.npz")).unwrap();
+    time_series.csv().save(folder.join("run.csv")).unwrap();
+    time_series.contact_csv().save(folder.join("contact.csv")).unwrap();
     let below = folder.join("run.npz/below_a_file.npz");
-    assert!(matches!(histories.save_npz(below), Err(Error::Write { .. })));
+    assert!(matches!(time_series.save_npz(below), Err(Error::Write { .. })));
 }
 
 #[test]
@@ -169,9 +169,9 @@ fn names_of_arrays_differ_and_frames_may_be_left_out() {
     // No name of a file is as long as this.
     let long = probe(&"a".repeat(70_000));
     let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
-    let histories = Recorder::new().start(&builder.probe(long).build().unwrap()).unwrap();
-    assert!(histories.write_npz(&mut Vec::new()).is_err());
+    let time_series = Recorder::new().start(&builder.probe(long).build().unwrap()).unwrap();
+    assert!(time_series.write_npz(&mut Vec::new()).is_err());
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz_refused/long.npz");
-    assert!(matches!(histories.save_npz(&path), Err(Error::Write { .. })));
+    assert!(matches!(time_series.save_npz(&path), Err(Error::Write { .. })));
     assert!(!path.exists());
 }

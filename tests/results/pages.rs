@@ -24,8 +24,8 @@ fn probes_come_with_their_unit() {
         ])
     };
     let mut simulation = build().build().unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
-    let run = simulation.run(STEPS, |state| histories.record(state)).unwrap();
+    let mut time_series = Recorder::new().start(&simulation).unwrap();
+    let run = simulation.run(STEPS, |state| time_series.record(state)).unwrap();
     let (page, mut table) = (run.to_string(), Comparison::default());
     table.extend([("a", run.clone())]);
     let table_page = table.to_string();
@@ -37,7 +37,7 @@ fn probes_come_with_their_unit() {
     ];
     for (name, unit, factor) in labels {
         let peak = run.probe(name).unwrap().largest();
-        let series = histories.probe(name).unwrap().iter();
+        let series = time_series.probe(name).unwrap().iter();
         assert_eq!(peak.value.abs(), series.fold(0.0, |most: f64, value| most.max(value.abs())));
         assert!(peak.value != 0.0);
         for text in [&page, &table_page] {
@@ -51,7 +51,7 @@ fn probes_come_with_their_unit() {
             assert!(words.iter().any(shown), "{line}, not {}", factor * peak.value);
         }
     }
-    let text = histories.csv();
+    let text = time_series.csv();
     let wanted = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare,input_energy_j_per_m";
     assert!(text.lines().next().unwrap().ends_with(wanted));
     let csv = table.csv();
@@ -83,7 +83,7 @@ fn cases_with_other_probes_or_units_have_no_common_rows() {
 
 #[test]
 fn pages_and_tables() {
-    let Recorded { histories, run, .. } = recorded(Recorder::new());
+    let Recorded { time_series, run, .. } = recorded(Recorder::new());
     let page = run.to_string();
     println!("{page}");
     for words in [
@@ -120,10 +120,10 @@ fn pages_and_tables() {
     assert!(Comparison::default().to_string().contains("base shear"));
     assert_eq!(Comparison::default().csv().lines().count(), 1);
 
-    let text = histories.csv();
+    let text = time_series.csv();
     assert_eq!(text.lines().count(), STEPS + 2);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().all(|line| line.split(',').count() == columns));
     let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
-    assert_eq!(last[1].parse(), Ok(histories.series(Quantity::BaseShear)[STEPS]));
+    assert_eq!(last[1].parse(), Ok(time_series.series(Quantity::BaseShear)[STEPS]));
 }

@@ -25,15 +25,15 @@ fn simulation() -> (Simulation, DeformedShape) {
 }
 
 fn recorded(recorder: Recorder) -> (TimeSeries, DeformedShape) {
-    let (histories, shape, _) = ran(recorder);
-    (histories, shape)
+    let (time_series, shape, _) = ran(recorder);
+    (time_series, shape)
 }
 
 fn ran(recorder: Recorder) -> (TimeSeries, DeformedShape, Run) {
     let (mut simulation, shape) = simulation();
-    let mut histories = recorder.start(&simulation).unwrap();
-    let run = simulation.run(200, |state| histories.record(state)).unwrap();
-    (histories, shape, run)
+    let mut time_series = recorder.start(&simulation).unwrap();
+    let run = simulation.run(200, |state| time_series.record(state)).unwrap();
+    (time_series, shape, run)
 }
 
 /// Words of the picture; its tags must be nested, its numbers finite and its texts readable.
@@ -66,26 +66,26 @@ fn shows(svg: &Svg, needed: &[&str]) {
 
 #[test]
 fn every_picture_has_title_labels_units_and_legend() {
-    let (histories, shape, run) = ran(Recorder::new().contact(1).motion(5));
-    let runs = [("one", &histories), ("two", &histories)];
+    let (time_series, shape, run) = ran(Recorder::new().contact(1).motion(5));
+    let runs = [("one", &time_series), ("two", &time_series)];
     for quantity in Quantity::of(false) {
-        let svg = plot::history("Title", &runs, quantity).unwrap();
+        let svg = plot::time_series("Title", &runs, quantity).unwrap();
         shows(&svg, &["Title", "time, s", quantity.name(), "one", "two"]);
     }
-    let svg = plot::history("Title", &runs, Quantity::SlidingSafety).unwrap();
+    let svg = plot::time_series("Title", &runs, Quantity::SlidingSafety).unwrap();
     shows(&svg, &["1 / factor of safety against sliding", "1: sliding"]);
     // Without a friction coefficient there is no demand to be drawn, however large.
     let builder = scene(SI, 0.6).structure(block(SI)).interface(Bonded);
     let mut simulation = builder.build().unwrap();
     let mut bonded = Recorder::new().start(&simulation).unwrap();
     simulation.run(50, |state| bonded.record(state)).unwrap();
-    let svg = plot::history("Title", &[("held", &bonded)], Quantity::SlidingSafety).unwrap();
+    let svg = plot::time_series("Title", &[("held", &bonded)], Quantity::SlidingSafety).unwrap();
     assert!(!words(&svg).contains("drawn at"));
-    let svg = plot::history("a < b & c", &runs, Quantity::BaseMoment).unwrap();
+    let svg = plot::time_series("a < b & c", &runs, Quantity::BaseMoment).unwrap();
     shows(&svg, &["a &lt; b &amp; c"]);
     shows(&svg, &["base moment, kN·m/m"]);
     let modes = ["stick", "slip to the left", "slip to the right", "open"];
-    let svg = plot::mode_map("Modes", &histories).unwrap();
+    let svg = plot::mode_map("Modes", &time_series).unwrap();
     shows(&svg, &modes);
     shows(&svg, &["x along the base, m", "time, s"]);
     // Each of the modes has its stretches (and its key).
@@ -94,21 +94,21 @@ fn every_picture_has_title_labels_units_and_legend() {
     }
     let svg = plot::pressure_envelope("Pressure", &run).unwrap();
     shows(&svg, &["pressure, kPa", "largest", "static", "least"]);
-    let svg = plot::energy("Energy", &histories).unwrap();
+    let svg = plot::energy("Energy", &time_series).unwrap();
     shows(&svg, &["energy, kJ/m", "input", "friction and impact", "soil"]);
     // A rigid block has no dampers.
     assert!(!words(&svg).contains("damping"));
-    let svg = plot::deformed_shapes("Shape", &shape, &histories, &[0.1, 0.4], 20.0).unwrap();
+    let svg = plot::deformed_shapes("Shape", &shape, &time_series, &[0.1, 0.4], 20.0).unwrap();
     shows(&svg, &["Shape", "displacements × 20", "at rest", "t = 0.10 s", "t = 0.40 s", "y, m"]);
-    let svg = plot::animation("A < B & C", &shape, &histories, 20.0, 1.0).unwrap();
+    let svg = plot::animation("A < B & C", &shape, &time_series, 20.0, 1.0).unwrap();
     shows(&svg, &["A &lt; B &amp; C"]);
     // Path, bar of time and 40 times; no base, for its frames are others than the structure's.
     assert_eq!(svg.as_str().matches("<animate ").count(), 2 + 40);
     shows(&svg, &["t = 0.00 s", "t = 0.49 s", "structure: 2 m", "displacements: 100 mm", "× 20"]);
-    let (histories, shape) = recorded(Recorder::new().contact(5).motion(5));
-    let svg = plot::animation("Block", &shape, &histories, 20.0, 1.0).unwrap();
+    let (time_series, shape) = recorded(Recorder::new().contact(5).motion(5));
+    let svg = plot::animation("Block", &shape, &time_series, 20.0, 1.0).unwrap();
     shows(&svg, &modes);
-    assert_eq!(svg.as_str().matches("<animate ").count(), 42 + histories.elements().len());
+    assert_eq!(svg.as_str().matches("<animate ").count(), 42 + time_series.elements().len());
     // 41 frames of the same commands.
     let path = svg.as_str().split("attributeName=\"d\"").nth(1).unwrap();
     let values = path.split("values=\"").nth(1).unwrap().split('"').next().unwrap();
@@ -181,19 +181,19 @@ fn odd_values_are_pictures_or_errors() {
 
 #[test]
 fn bad_requests_are_errors() {
-    let (histories, shape) = recorded(Recorder::new());
-    assert!(matches!(plot::mode_map("T", &histories), Err(Error::Scene { .. })));
-    let shapes = |histories, times: &[f64], scale| {
-        plot::deformed_shapes("T", &shape, histories, times, scale)
+    let (time_series, shape) = recorded(Recorder::new());
+    assert!(matches!(plot::mode_map("T", &time_series), Err(Error::Scene { .. })));
+    let shapes = |time_series, times: &[f64], scale| {
+        plot::deformed_shapes("T", &shape, time_series, times, scale)
     };
-    assert!(matches!(shapes(&histories, &[0.1], 1.0), Err(Error::Scene { .. })));
-    assert!(plot::animation("T", &shape, &histories, 1.0, 1.0).is_err());
-    let runs = [("a", &histories)];
-    let fault = plot::probe_history("T", &runs, "nobody");
+    assert!(matches!(shapes(&time_series, &[0.1], 1.0), Err(Error::Scene { .. })));
+    assert!(plot::animation("T", &shape, &time_series, 1.0, 1.0).is_err());
+    let runs = [("a", &time_series)];
+    let fault = plot::probe_time_series("T", &runs, "nobody");
     assert!(matches!(fault, Err(Error::Name { .. })));
     // A folder cannot be made beneath a file.
     let nowhere = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/picture.svg");
-    let fault = plot::history("T", &runs, Quantity::BaseShear).unwrap().save(nowhere);
+    let fault = plot::time_series("T", &runs, Quantity::BaseShear).unwrap().save(nowhere);
     assert!(matches!(fault, Err(Error::Write { .. })));
     let with = |probe| {
         let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(0.35));
@@ -202,23 +202,23 @@ fn bad_requests_are_errors() {
     };
     let turn = || Probe::displacement("turn", RigidBlock::ROTATION);
     let [length, angle] = [with(turn()), with(turn().in_unit("rad"))];
-    let svg = plot::probe_history("T", &[("a", &angle)], "turn").unwrap();
+    let svg = plot::probe_time_series("T", &[("a", &angle)], "turn").unwrap();
     assert!(svg.as_str().contains("turn, mrad"));
-    let fault = plot::probe_history("T", &[("a", &angle), ("b", &length)], "turn");
+    let fault = plot::probe_time_series("T", &[("a", &angle), ("b", &length)], "turn");
     assert!(matches!(fault, Err(Error::Scene { .. })));
 
-    let (histories, shape) = recorded(Recorder::new().motion(1));
+    let (time_series, shape) = recorded(Recorder::new().motion(1));
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(plot::deformed_shapes("T", &shape, &histories, &[0.1], value).is_err());
-        assert!(plot::animation("T", &shape, &histories, value, 1.0).is_err());
-        assert!(plot::animation("T", &shape, &histories, 1.0, value).is_err());
+        assert!(plot::deformed_shapes("T", &shape, &time_series, &[0.1], value).is_err());
+        assert!(plot::animation("T", &shape, &time_series, value, 1.0).is_err());
+        assert!(plot::animation("T", &shape, &time_series, 1.0, value).is_err());
     }
-    assert!(plot::deformed_shapes("T", &shape, &histories, &[], 1.0).is_err());
-    assert!(plot::deformed_shapes("T", &shape, &histories, &[f64::NAN], 1.0).is_err());
-    let fault = plot::deformed_shapes("T", &shape, &histories, &[0.4], f64::MAX);
+    assert!(plot::deformed_shapes("T", &shape, &time_series, &[], 1.0).is_err());
+    assert!(plot::deformed_shapes("T", &shape, &time_series, &[f64::NAN], 1.0).is_err());
+    let fault = plot::deformed_shapes("T", &shape, &time_series, &[0.4], f64::MAX);
     assert!(matches!(fault, Err(Error::Input { .. })));
     // Far away is the nearest instant.
-    assert!(plot::deformed_shapes("T", &shape, &histories, &[1e9], 1.0).is_ok());
+    assert!(plot::deformed_shapes("T", &shape, &time_series, &[1e9], 1.0).is_ok());
 }
 
 /// Names that no sheet is wide enough for.
@@ -311,38 +311,38 @@ fn apart(distances: &[f64]) -> (TimeSeries, DeformedShape, Run) {
     let scene = scene(SI, 0.6).structure(group).ground(ground).interface(friction(0.35));
     let mut simulation = scene.build().unwrap();
     let recorder = Recorder::new().contact(4).motion(4);
-    let mut histories = recorder.start(&simulation).unwrap();
-    let run = simulation.run(160, |state| histories.record(state)).unwrap();
-    (histories, DeformedShape::new(points, cells).unwrap(), run)
+    let mut time_series = recorder.start(&simulation).unwrap();
+    let run = simulation.run(160, |state| time_series.record(state)).unwrap();
+    (time_series, DeformedShape::new(points, cells).unwrap(), run)
 }
 
 #[test]
 fn foundations_far_apart_leave_no_sheet_blank() {
     let title = long("two blocks ");
     for distances in [&[40.0][..], &[4.3], &[9.0, 1000.0, 1007.0, 1_000_000.0]] {
-        let (histories, shape, run) = apart(distances);
+        let (time_series, shape, run) = apart(distances);
         let name = format!("foundations at {distances:?}");
         for svg in [
-            plot::mode_map(&title, &histories),
+            plot::mode_map(&title, &time_series),
             plot::pressure_envelope(&title, &run),
-            plot::energy(&title, &histories),
-            plot::deformed_shapes(&title, &shape, &histories, &[0.1; 30], 1.234_567_890_1e-7),
-            plot::animation(&title, &shape, &histories, 1.234_567_890_1e-7, 1e9),
-            plot::animation(&title, &shape, &histories, 1e9, 1.0),
+            plot::energy(&title, &time_series),
+            plot::deformed_shapes(&title, &shape, &time_series, &[0.1; 30], 1.234_567_890_1e-7),
+            plot::animation(&title, &shape, &time_series, 1.234_567_890_1e-7, 1e9),
+            plot::animation(&title, &shape, &time_series, 1e9, 1.0),
         ] {
             assert_readable(svg.unwrap().as_str(), &name);
         }
         if distances.len() == 4 {
-            shows(&plot::mode_map("T", &histories).unwrap(), &["1000000", "gap 5 m"]);
+            shows(&plot::mode_map("T", &time_series).unwrap(), &["1000000", "gap 5 m"]);
         }
         for quantity in Quantity::of(false) {
-            let runs = [(title.as_str(), &histories); 9];
-            let svg = plot::history(&title, &runs, quantity).unwrap();
+            let runs = [(title.as_str(), &time_series); 9];
+            let svg = plot::time_series(&title, &runs, quantity).unwrap();
             assert_readable(svg.as_str(), quantity.name());
         }
     }
-    let (histories, ..) = apart(&[40.0]);
-    let svg = plot::mode_map("Far", &histories).unwrap();
+    let (time_series, ..) = apart(&[40.0]);
+    let svg = plot::mode_map("Far", &time_series).unwrap();
     shows(&svg, &["gap 36 m", "-2", "38", "42"]);
     // Elements are 1 m high of 8.8 m between the axes.
     let heights = svg.as_str().split("<rect").filter(|tag| tag.contains("#D6DEE4")).map(|tag| {
@@ -358,15 +358,15 @@ fn foundations_far_apart_leave_no_sheet_blank() {
 fn nothing_slides_with_infinite_friction() {
     let law = Coulomb::uplift_only();
     let mut simulation = scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
-    let mut histories = Recorder::new().contact(1).start(&simulation).unwrap();
-    simulation.run(400, |state| histories.record(state)).unwrap();
+    let mut time_series = Recorder::new().contact(1).start(&simulation).unwrap();
+    simulation.run(400, |state| time_series.record(state)).unwrap();
     let slips = |mode: &Mode| matches!(mode, Mode::SlipLeft | Mode::SlipRight);
-    let svg = plot::mode_map("T", &histories).unwrap();
+    let svg = plot::mode_map("T", &time_series).unwrap();
     // What the key shows only.
     for color in ["#FFA62B", "#D62728"] {
         assert_eq!(svg.as_str().matches(color).count(), 1, "{color}");
     }
-    let occurs = histories.contact_frames().any(|frame| frame.modes.iter().any(slips));
+    let occurs = time_series.contact_frames().any(|frame| frame.modes.iter().any(slips));
     assert_eq!(words(&svg).contains("touching without pressure"), occurs);
     assert!(occurs);
 }
@@ -376,11 +376,11 @@ fn nothing_slides_with_infinite_friction() {
 fn control_characters_leave_a_picture_valid() {
     let signs: String =
         (0..32).chain([0x7f, 0x85, 0xfffe, 0xffff]).filter_map(char::from_u32).collect();
-    let (histories, shape, run) = ran(Recorder::new().motion(20));
+    let (time_series, shape, run) = ran(Recorder::new().motion(20));
     let title = format!("a{signs}<b>");
     for svg in [
         plot::pressure_envelope(&title, &run).unwrap(),
-        plot::animation(&title, &shape, &histories, 10.0, 1.0).unwrap(),
+        plot::animation(&title, &shape, &time_series, 10.0, 1.0).unwrap(),
     ] {
         let text = svg.as_str();
         let unknown = text.chars().find(|&c| {

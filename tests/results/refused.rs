@@ -12,15 +12,15 @@ use super::simulation;
 fn bad_requests_are_errors() {
     // A loop of one's own that forgets steps has no spectrum.
     let mut forgetful = simulation();
-    let mut histories = Recorder::new().start(&forgetful).unwrap();
-    histories.reserve(usize::MAX);
+    let mut time_series = Recorder::new().start(&forgetful).unwrap();
+    time_series.reserve(usize::MAX);
     for step in 0..200 {
         let state = forgetful.step().unwrap();
         if step % 2 == 1 {
-            histories.record(state);
+            time_series.record(state);
         }
     }
-    let spectrum = histories.floor_spectrum("top acceleration", &[0.1, 0.2], 0.05);
+    let spectrum = time_series.floor_spectrum("top acceleration", &[0.1, 0.2], 0.05);
     assert!(matches!(spectrum, Err(Error::Scene { .. })));
 
     let mut simulation = simulation();
@@ -30,16 +30,16 @@ fn bad_requests_are_errors() {
     {
         assert!(matches!(start(recorder), Err(Error::Input { .. })));
     }
-    let (mut histories, mut run) = (start(Recorder::new()).unwrap(), simulation.begin_run());
+    let (mut time_series, mut run) = (start(Recorder::new()).unwrap(), simulation.begin_run());
     let known = ["top", "top acceleration"].map(str::to_owned).into();
     assert_eq!(
-        histories.probe("nobody"),
+        time_series.probe("nobody"),
         Err(Error::Name { quantity: "probe", name: "nobody".to_owned(), known })
     );
-    assert!(histories.floor_spectrum("nobody", &[1.0], 0.05).is_err());
-    assert!(histories.floor_spectrum("top", &[1.0], 0.05).is_err());
+    assert!(time_series.floor_spectrum("nobody", &[1.0], 0.05).is_err());
+    assert!(time_series.floor_spectrum("top", &[1.0], 0.05).is_err());
     // Nothing recorded yet: one sample is no record.
-    assert!(histories.floor_spectrum("top acceleration", &[1.0], 0.05).is_err());
+    assert!(time_series.floor_spectrum("top acceleration", &[1.0], 0.05).is_err());
     for bad in [[0.0, 1.0], [1.0, f64::NAN], [f64::INFINITY, 1.0]] {
         assert!(log_spaced(bad[0], bad[1], 5).is_err());
     }
@@ -47,7 +47,7 @@ fn bad_requests_are_errors() {
     // The same state twice, and one of another scene.
     let state = simulation.step().unwrap().clone();
     let mut record = |state: &State| {
-        histories.record(state);
+        time_series.record(state);
         run.record(state);
     };
     record(&state);
@@ -68,7 +68,7 @@ fn bad_requests_are_errors() {
         spoil(&mut other);
         record(&other);
     }
-    assert_eq!(histories.times().len(), 2);
+    assert_eq!(time_series.times().len(), 2);
     assert_eq!((run.steps, run.end), (1, state.time));
 }
 
@@ -76,13 +76,13 @@ fn bad_requests_are_errors() {
 #[test]
 fn states_of_another_simulation_are_ignored() {
     let (mut own, mut other) = (simulation(), simulation());
-    let (mut histories, mut run) = (Recorder::new().start(&own).unwrap(), own.begin_run());
+    let (mut time_series, mut run) = (Recorder::new().start(&own).unwrap(), own.begin_run());
     let foreign = other.step().unwrap();
-    histories.record(foreign);
+    time_series.record(foreign);
     run.record(foreign);
-    assert_eq!((histories.times(), run.steps), (&[0.0][..], 0));
+    assert_eq!((time_series.times(), run.steps), (&[0.0][..], 0));
     let state = own.step().unwrap();
-    histories.record(state);
+    time_series.record(state);
     run.record(state);
-    assert_eq!((histories.times(), run.steps), (&[0.0, own.time_step()][..], 1));
+    assert_eq!((time_series.times(), run.steps), (&[0.0, own.time_step()][..], 1));
 }

@@ -38,8 +38,8 @@ fn statics_of_a_pushed_block() {
             builder.interface(Coulomb::new(0.6).unwrap())
         };
         let simulation = builder.safety_friction([0.6]).build().unwrap();
-        let histories = Recorder::new().start(&simulation).unwrap();
-        let value = |quantity| histories.series(quantity)[0];
+        let time_series = Recorder::new().start(&simulation).unwrap();
+        let value = |quantity| time_series.series(quantity)[0];
         assert!((value(Quantity::SlidingSafety) * share / 0.6 - 1.0).abs() < 1e-6);
         assert!((value(Quantity::OverturningSafety) * share * height / 2.0 - 1.0).abs() < 1e-6);
         assert_eq!(value(Quantity::OverturningSafety) < 1.0, bonded);
@@ -103,9 +103,9 @@ fn friction_is_that_of_the_laws() {
     let march = |laws: Laws, told: Vec<f64>| {
         let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
         let mut simulation = builder.safety_friction(told).build()?;
-        let mut histories = Recorder::new().start(&simulation)?;
-        let run = simulation.run(20, |state| histories.record(state))?;
-        Ok::<_, Error>((run, histories))
+        let mut time_series = Recorder::new().start(&simulation)?;
+        let run = simulation.run(20, |state| time_series.record(state))?;
+        Ok::<_, Error>((run, time_series))
     };
     let count = simulation().ground().elements().len();
     let each = |friction: &dyn Fn(usize) -> f64| -> Laws {

@@ -27,18 +27,18 @@ fn floors_of_a_light_rigid_block_move_as_the_ground() {
         .probe(Probe::acceleration("top", top))
         .build()
         .unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
-    let run = simulation.run(1500, |state| histories.record(state)).unwrap();
+    let mut time_series = Recorder::new().start(&simulation).unwrap();
+    let run = simulation.run(1500, |state| time_series.record(state)).unwrap();
     assert_eq!(run.steps, 1500);
     let periods = log_spaced(0.2, 3.0, 12).unwrap();
-    let floor = histories.floor_spectrum("top", &periods, 0.05).unwrap();
+    let floor = time_series.floor_spectrum("top", &periods, 0.05).unwrap();
     let ground = el_centro_1940().response_spectrum(&periods, 0.05).unwrap();
     for (floor, ground) in floor.iter().zip(&ground) {
         let ratio = floor.pseudo_acceleration / ground.pseudo_acceleration;
         assert!((ratio - 1.0).abs() < 0.02, "T = {}: {ratio}", floor.period);
     }
-    let record = histories.acceleration_record("top").unwrap();
-    assert_eq!(record.accelerations(), histories.probe("top").unwrap());
+    let record = time_series.acceleration_record("top").unwrap();
+    assert_eq!(record.accelerations(), time_series.probe("top").unwrap());
 }
 
 /// As the guide words it: the peak at f_j is as wide as 0.85 f_j to 1.15 f_j, and its slopes go on

@@ -63,8 +63,8 @@ fn recorded(structure: impl Structure + 'static) -> (TimeSeries, Vec<State>) {
     let mut simulation = on_springs(structure, Shake, Vec::new());
     simulation.run(200, |_| {}).unwrap();
     let recorder = Recorder::new().contact(5).motion(5);
-    let (histories, _, states) = scenes::recorded(&mut simulation, recorder, 200);
-    (histories, states)
+    let (time_series, _, states) = scenes::recorded(&mut simulation, recorder, 200);
+    (time_series, states)
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -82,21 +82,21 @@ fn points(path: &str) -> Vec<[f64; 2]> {
 
 #[test]
 fn a_body_moves_above_its_elements() {
-    let (histories, _) = recorded(body());
+    let (time_series, _) = recorded(body());
     let shape = DeformedShape::of_block(&body(), HEIGHT).unwrap();
-    let svg = plot::animation("A block that rocks", &shape, &histories, 30.0, 2.0).unwrap();
+    let svg = plot::animation("A block that rocks", &shape, &time_series, 30.0, 2.0).unwrap();
     svg.save(folder("body.svg")).unwrap();
     let text = svg.as_str();
     assert!(text.contains(">stick<") && text.contains(">slip<") && text.contains(">open<"));
     assert!(!text.contains("to the left") && text.contains("contact from above"));
     // Each element below the body and at the side; open ones are dark.
-    let count = histories.elements().len();
+    let count = time_series.elements().len();
     assert_eq!(text.matches("stroke-width=\"0.6\"").count(), 2 * count);
     assert!(text.contains("#164878"));
     // Edges along x, y and up of the body at the first frame: 30 degrees, one scale.
     let path = text.split(" d=\"").find(|d| d.contains("attributeName=\"d\"")).unwrap();
     let places = points(path.split('"').next().unwrap());
-    let frame = histories.motion_frames().next().unwrap();
+    let frame = time_series.motion_frames().next().unwrap();
     let moved = |[x, y, z]: [f64; 3]| {
         let u = frame.displacement;
         let [dx, dy] = [x - 1.0, y - 2.0];
@@ -125,8 +125,8 @@ fn a_body_moves_above_its_elements() {
     let block = RigidBlock::new(8.0, HEIGHT, 2000.0).unwrap();
     let flat = DeformedShape::of_block(&block, HEIGHT).unwrap();
     for error in [
-        plot::animation("A", &flat, &histories, 1.0, 1.0).err(),
-        plot::deformed_shapes("A", &flat, &histories, &[1.0], 1.0).err(),
+        plot::animation("A", &flat, &time_series, 1.0, 1.0).err(),
+        plot::deformed_shapes("A", &flat, &time_series, &[1.0], 1.0).err(),
     ] {
         assert!(
             matches!(error, Some(Error::Scene { quantity: "deformed shape", .. })),
@@ -141,22 +141,23 @@ fn towers_are_seen_from_two_sides() {
     let shape = DeformedShape::of_storeys(&own).unwrap();
     // Four corners of the mat and of each floor; outlines and columns.
     assert_eq!((shape.points().len(), shape.cells().len()), (16, 4 + 12));
-    let (histories, _) = recorded(own);
-    let picture = plot::deformed_shapes("A tower", &shape, &histories, &[1.3, 1.8], 20.0).unwrap();
+    let (time_series, _) = recorded(own);
+    let picture =
+        plot::deformed_shapes("A tower", &shape, &time_series, &[1.3, 1.8], 20.0).unwrap();
     picture.save(folder("tower.svg")).unwrap();
     for text in ["x, m", "y, m", "z, m", "t = 1.30 s", "t = 1.80 s"] {
         assert!(picture.as_str().contains(text), "{text}");
     }
     assert_eq!(picture.as_str().matches("z, m").count(), 2);
-    let svg = plot::animation("A tower", &shape, &histories, 20.0, 2.0).unwrap();
+    let svg = plot::animation("A tower", &shape, &time_series, 20.0, 2.0).unwrap();
     svg.save(folder("tower_moves.svg")).unwrap();
     let group = StructureGroup::new().with(body(), 0.0).unwrap();
     let other = RigidBody::cylinder(3.0, 6.0, 2000.0).unwrap().centered_at([12.0, 2.0]).unwrap();
     let group = group.with(other, 0.0).unwrap();
     let shape = DeformedShape::of_block(&group, 6.0).unwrap();
     assert_eq!(shape.points().len(), 2 * (4 + 32));
-    let (histories, _) = recorded(group);
-    let svg = plot::animation("Two bodies", &shape, &histories, 20.0, 2.0).unwrap();
+    let (time_series, _) = recorded(group);
+    let svg = plot::animation("Two bodies", &shape, &time_series, 20.0, 2.0).unwrap();
     svg.save(folder("two.svg")).unwrap();
     #[cfg(feature = "png")]
     for (name, picture) in [("two.png", &svg), ("tower.png", &picture)] {
@@ -173,10 +174,10 @@ fn array(text: &str, name: &str) -> Vec<f64> {
 
 #[test]
 fn paraview_gets_towers_in_space() {
-    let (histories, states) = recorded(tower());
+    let (time_series, states) = recorded(tower());
     let shape = DeformedShape::of_storeys(&tower()).unwrap();
     let folder = folder("paraview");
-    assert_eq!(paraview::write_series(&folder, "tower", &shape, &histories), Ok(2 * 41));
+    assert_eq!(paraview::write_series(&folder, "tower", &shape, &time_series), Ok(2 * 41));
     let text = std::fs::read_to_string(folder.join("tower_0007.vtu")).unwrap();
     let state = &states[35];
     let (u, v) = (state.displacement(), state.velocity());
@@ -267,9 +268,9 @@ fn floors_along_y_are_those_along_x() {
         let mut motion = Triaxial::default();
         *[&mut motion.x, &mut motion.y][axis] = Some(record.clone());
         let mut simulation = on_springs(own, motion, probes);
-        let mut histories = Recorder::new().start(&simulation).unwrap();
-        let run = simulation.run(600, |state| histories.record(state)).unwrap();
-        (histories, run)
+        let mut time_series = Recorder::new().start(&simulation).unwrap();
+        let run = simulation.run(600, |state| time_series.record(state)).unwrap();
+        (time_series, run)
     };
     let [(x, of_x), (y, of_y)] = [run(0), run(1)];
     let periods = log_spaced(0.1, 2.0, 15).unwrap();
@@ -320,29 +321,30 @@ fn npz(archive: &[u8], name: &str) -> Vec<f64> {
 
 #[test]
 fn frames_have_the_motion_of_the_ground_along_y() {
-    let (histories, states) = recorded(body());
+    let (time_series, states) = recorded(body());
     let shown: Vec<&State> = states.iter().step_by(5).collect();
     let across: Vec<f64> = shown.iter().map(|state| state.free_field_across).collect();
     assert!(across.iter().any(|u| u.abs() > 1e-3));
-    let frames: Vec<f64> = histories.motion_frames().map(|frame| frame.free_field_across).collect();
+    let frames: Vec<f64> =
+        time_series.motion_frames().map(|frame| frame.free_field_across).collect();
     assert_eq!(frames, across);
     let again: TimeSeries =
-        serde_json::from_str(&serde_json::to_string(&histories).unwrap()).unwrap();
-    assert!(again.motion_frames().eq(histories.motion_frames()));
+        serde_json::from_str(&serde_json::to_string(&time_series).unwrap()).unwrap();
+    assert!(again.motion_frames().eq(time_series.motion_frames()));
 }
 
 #[cfg(feature = "npz")]
 #[test]
 fn archives_have_what_moves_along_y() {
-    let (histories, states) = recorded(body());
+    let (time_series, states) = recorded(body());
     let shown: Vec<&State> = states.iter().step_by(5).collect();
     let across: Vec<f64> = shown.iter().map(|state| state.free_field_across).collect();
     let mut archive = Vec::new();
-    histories.write_npz(&mut archive).unwrap();
+    time_series.write_npz(&mut archive).unwrap();
     assert_eq!(npz(&archive, "motion_free_field_across_m"), across);
     let flat: Vec<f64> = shown.iter().flat_map(|state| state.free_field).collect();
     assert_eq!(npz(&archive, "motion_free_field_m"), flat);
-    assert_eq!(npz(&archive, "torque_n_m"), histories.series(basemat::results::Quantity::Torque));
+    assert_eq!(npz(&archive, "torque_n_m"), time_series.series(basemat::results::Quantity::Torque));
     let slips: Vec<f64> =
         shown.iter().flat_map(|state| state.contact.iter().map(|own| own.slip_across)).collect();
     assert_eq!(npz(&archive, "contact_slip_across_m"), slips);

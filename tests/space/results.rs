@@ -49,8 +49,8 @@ fn rocked(law: impl InterfaceLaw + 'static) -> (Simulation, TimeSeries, Run, Vec
         })
         .build()
         .unwrap();
-    let (histories, run, states) = recorded(&mut simulation, Recorder::new().contact(10), 400);
-    (simulation, histories, run, states)
+    let (time_series, run, states) = recorded(&mut simulation, Recorder::new().contact(10), 400);
+    (simulation, time_series, run, states)
 }
 
 fn rocking() -> (Simulation, TimeSeries, Run, Vec<State>) {
@@ -63,9 +63,9 @@ fn extreme(values: impl Iterator<Item = f64>) -> f64 {
 
 #[test]
 fn quantities_are_sums_over_the_cells() {
-    let (_, histories, run, states) = rocking();
-    let elements = histories.elements();
-    let depths = histories.depths();
+    let (_, time_series, run, states) = rocking();
+    let elements = time_series.elements();
+    let depths = time_series.depths();
     let areas: Vec<f64> =
         elements.iter().zip(depths).map(|(e, [front, back])| e.length() * (back - front)).collect();
     let whole: f64 = areas.iter().sum();
@@ -101,7 +101,7 @@ fn quantities_are_sums_over_the_cells() {
     for (k, quantity) in table.into_iter().enumerate() {
         let far = extreme(sums.iter().map(|own| own[k]));
         assert!(far.abs() > 1e-6, "{quantity} {far}");
-        let series = histories.series(quantity);
+        let series = time_series.series(quantity);
         assert_eq!(series.len(), states.len());
         for (own, found) in sums.iter().zip(series) {
             assert!((own[k] - found).abs() < 1e-9 * far.abs(), "{quantity}: {} {found}", own[k]);
@@ -115,12 +115,12 @@ fn quantities_are_sums_over_the_cells() {
         (Quantity::RotationAcross, 3, 1.0),
         (Quantity::Twist, 5, 1.0),
     ] {
-        for (state, found) in states.iter().zip(histories.series(quantity)) {
+        for (state, found) in states.iter().zip(time_series.series(quantity)) {
             assert!((sign * state.displacement()[dof] - found).abs() < 1e-14, "{quantity}");
         }
         assert!(run.whole.peak(quantity).value.abs() > 1e-7, "{quantity}");
     }
-    for (state, found) in states.iter().zip(histories.series(Quantity::FreeFieldAcross)) {
+    for (state, found) in states.iter().zip(time_series.series(Quantity::FreeFieldAcross)) {
         assert_eq!(state.free_field_across, *found);
     }
     let weight = 9.80665 * 2000.0 * SIDES.iter().product::<f64>();
@@ -157,8 +157,8 @@ fn rows(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 
 #[test]
 fn files_have_columns_of_the_whole_body() {
-    let (_, histories, run, states) = rocking();
-    let (heading, values) = rows(&histories.csv());
+    let (_, time_series, run, states) = rocking();
+    let (heading, values) = rows(&time_series.csv());
     assert!(heading.iter().all(|name| !name.ends_with("per_m")), "{heading:?}");
     let place = |name: &str| heading.iter().position(|own| own == name).expect(name);
     for (name, quantity) in [
@@ -172,20 +172,20 @@ fn files_have_columns_of_the_whole_body() {
         ("twist_rad", Quantity::Twist),
     ] {
         let found: Vec<f64> = values.iter().map(|row| row[place(name)]).collect();
-        assert_eq!(found, histories.series(quantity), "{name}");
+        assert_eq!(found, time_series.series(quantity), "{name}");
         assert_eq!(name.parse(), Ok(quantity));
     }
     assert_eq!(values.last().unwrap()[place("input_energy_j")], run.energy_balance.input);
 
-    let (heading, values) = rows(&histories.contact_csv());
+    let (heading, values) = rows(&time_series.contact_csv());
     let names = "time_s,element,left_m,right_m,front_m,back_m,mode,gap_m,slip_m,pressure_pa,shear_pa,\
                  slip_across_m,shear_across_pa";
     assert_eq!(heading.join(","), names);
-    let count = histories.elements().len();
+    let count = time_series.elements().len();
     let row = &values[3 * count + 5];
     let state = &states[30].contact[5];
     assert_eq!(row[..2], [states[30].time, 5.0]);
-    assert_eq!(row[4..6], histories.depths()[5]);
+    assert_eq!(row[4..6], time_series.depths()[5]);
     assert_eq!(row[7..11], [state.gap, state.slip, state.pressure, state.shear]);
     assert_eq!(row[11..], [state.slip_across, state.shear_across]);
 
@@ -276,7 +276,7 @@ fn the_area_of_a_body_is_that_of_its_outline() {
 /// One rectangle for each open element, and one line for each arrow, beside those of the key.
 #[test]
 fn pictures_show_open_and_sliding_cells() {
-    let (_, histories, run, states) = rocking();
+    let (_, time_series, run, states) = rocking();
     let count = |text: &str, what: &str| text.matches(what).count();
     let time = run.whole.uplifted_area.highest.time;
     let shown = states
@@ -287,8 +287,8 @@ fn pictures_show_open_and_sliding_cells() {
     let open = shown.modes.iter().filter(|mode| !mode.is_closed()).count();
     let slides = shown.modes.iter().filter(|mode| mode.is_slip()).count();
     assert!(open > 2 && slides > 2, "{open} {slides}");
-    let picture = plot::contact_plan("Contact", &histories, time).unwrap();
-    let bare = plot::contact_plan("Contact", &histories, 0.0).unwrap();
+    let picture = plot::contact_plan("Contact", &time_series, time).unwrap();
+    let bare = plot::contact_plan("Contact", &time_series, 0.0).unwrap();
     assert_eq!(count(picture.as_str(), "fill=\"#164878\""), open + 1);
     assert_eq!(count(bare.as_str(), "fill=\"#164878\""), 0);
     // Axes are lines too: those of both pictures, and the sample of the key.
@@ -296,14 +296,14 @@ fn pictures_show_open_and_sliding_cells() {
     let ticks = lines(&bare);
     assert!(lines(&picture) > slides && lines(&picture) <= slides + 2 + ticks);
     let largest = plot::pressure_envelope("Pressure", &run).unwrap();
-    assert!(count(largest.as_str(), "stroke=\"#FFFFFF\"") == histories.elements().len());
-    let torque = plot::history("T", &[("body", &histories)], Quantity::Torque).unwrap();
+    assert!(count(largest.as_str(), "stroke=\"#FFFFFF\"") == time_series.elements().len());
+    let torque = plot::time_series("T", &[("body", &time_series)], Quantity::Torque).unwrap();
     assert!(torque.as_str().contains("torque, kN·m"));
-    let energy = plot::energy("E", &histories).unwrap();
+    let energy = plot::energy("E", &time_series).unwrap();
     assert!(energy.as_str().contains("energy, kJ") && !energy.as_str().contains("kJ/m"));
     for error in [
-        plot::mode_map("Modes", &histories).err(),
-        plot::contact_plan("T", &histories, f64::NAN).err(),
+        plot::mode_map("Modes", &time_series).err(),
+        plot::contact_plan("T", &time_series, f64::NAN).err(),
     ] {
         assert!(matches!(error, Some(Error::Scene { .. } | Error::Input { .. })), "{error:?}");
     }
@@ -316,20 +316,23 @@ fn pictures_show_open_and_sliding_cells() {
     let mut strip = Recorder::new().contact(1).start(&plane).unwrap();
     plane.run(3, |state| strip.record(state)).unwrap();
     assert!(matches!(plot::contact_plan("T", &strip, 0.0), Err(Error::Scene { .. })));
-    let mixed = [("body", &histories), ("strip", &strip)];
-    assert!(matches!(plot::history("T", &mixed, Quantity::BaseShear), Err(Error::Scene { .. })));
-    assert!(plot::history("T", &mixed, Quantity::MeanSlip).is_ok());
+    let mixed = [("body", &time_series), ("strip", &strip)];
+    assert!(matches!(
+        plot::time_series("T", &mixed, Quantity::BaseShear),
+        Err(Error::Scene { .. })
+    ));
+    assert!(plot::time_series("T", &mixed, Quantity::MeanSlip).is_ok());
     // Series of three directions alone are empty in the plane.
     assert!(strip.series(Quantity::Torque).is_empty() && strip.depths().is_empty());
 }
 
 #[test]
 fn paraview_gets_the_base_as_rectangles() {
-    let (_, histories, _, states) = rocking();
+    let (_, time_series, _, states) = rocking();
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("base_in_plan");
-    assert_eq!(paraview::write_base(&folder, "mat", &histories), Ok(41));
+    assert_eq!(paraview::write_base(&folder, "mat", &time_series), Ok(41));
     let text = std::fs::read_to_string(folder.join("mat_base_0030.vtu")).unwrap();
-    let count = histories.elements().len();
+    let count = time_series.elements().len();
     assert!(text.contains(&format!("NumberOfPoints=\"{}\" NumberOfCells=\"{count}\"", 4 * count)));
     let numbers = |name: &str| -> Vec<f64> {
         let rest = text.split(&format!("Name=\"{name}\"")).nth(1).unwrap();
@@ -342,7 +345,7 @@ fn paraview_gets_the_base_as_rectangles() {
     assert_eq!(numbers("shear_across"), of(|own| own.shear_across));
     assert_eq!(numbers("slip_across"), of(|own| own.slip_across));
     assert_eq!(numbers("pressure"), of(|own| own.pressure));
-    let (element, [front, back]) = (&histories.elements()[5], histories.depths()[5]);
+    let (element, [front, back]) = (&time_series.elements()[5], time_series.depths()[5]);
     let [left, right] = [element.left, element.right];
     let corners = [left, front, 0.0, right, front, 0.0, right, back, 0.0, left, back, 0.0];
     assert_eq!(numbers("points")[60..72], corners);
@@ -355,11 +358,11 @@ fn paraview_gets_the_base_as_rectangles() {
 /// Written and read again in serde's form, and as an archive.
 #[test]
 fn results_in_plan_are_read_again() {
-    let (_, histories, run, _) = rocking();
-    let text = serde_json::to_string(&histories).unwrap();
+    let (_, time_series, run, _) = rocking();
+    let text = serde_json::to_string(&time_series).unwrap();
     let again: TimeSeries = serde_json::from_str(&text).unwrap();
-    assert_eq!(again.csv(), histories.csv());
-    assert_eq!(again.contact_csv(), histories.contact_csv());
+    assert_eq!(again.csv(), time_series.csv());
+    assert_eq!(again.contact_csv(), time_series.contact_csv());
     let cut = text.replacen("\"depths\":[[", "\"depths\":[[0.0,1.0],[", 1);
     assert!(serde_json::from_str::<TimeSeries>(&cut).is_err());
     let again: Run = serde_json::from_str(&serde_json::to_string(&run).unwrap()).unwrap();
@@ -367,7 +370,7 @@ fn results_in_plan_are_read_again() {
     #[cfg(feature = "npz")]
     {
         let mut archive = Vec::new();
-        histories.write_npz(&mut archive).unwrap();
+        time_series.write_npz(&mut archive).unwrap();
         let has = |name: &str| {
             let name = format!("{name}.npy");
             archive.windows(name.len()).any(|own| own == name.as_bytes())

@@ -66,22 +66,22 @@ fn rocked(quarters: usize) -> (Simulation, TimeSeries, Run, Vec<State>) {
         })
         .build()
         .unwrap();
-    let (histories, run, states) = recorded(&mut simulation, Recorder::new().contact(1), 300);
+    let (time_series, run, states) = recorded(&mut simulation, Recorder::new().contact(1), 300);
     assert!(run.energy_error < 1e-9);
-    (simulation, histories, run, states)
+    (simulation, time_series, run, states)
 }
 
 /// Forces on the soil of some elements, and moments about a point: along, across, normal, about x, counter-clockwise
 /// about −y, torque; open area and area.
 fn by_hand(
-    histories: &TimeSeries,
+    time_series: &TimeSeries,
     state: &State,
     own: std::ops::Range<usize>,
     middle: [f64; 2],
 ) -> [f64; 8] {
     let mut sums = [0.0; 8];
     for e in own {
-        let (element, [front, back]) = (&histories.elements()[e], histories.depths()[e]);
+        let (element, [front, back]) = (&time_series.elements()[e], time_series.depths()[e]);
         let area = element.length() * (back - front);
         let [x, y] = [element.center() - middle[0], 0.5 * (front + back) - middle[1]];
         let own = &state.contact[e];
@@ -98,7 +98,7 @@ fn by_hand(
 
 #[test]
 fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
-    let (simulation, histories, run, states) = rocked(0);
+    let (simulation, time_series, run, states) = rocked(0);
     let weights = SIDES.map(|[a, b, c]| 9.80665 * DENSITY * a * b * c);
     let start = simulation.state().foundations.iter().map(|own| own.elements.clone());
     assert!(start.eq(PLACES));
@@ -117,7 +117,7 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
         let scale = all * 10.0;
         for (k, own) in state.foundations.iter().enumerate() {
             let [fx, fy, normal, about_x, moment, torque, open, area] =
-                by_hand(&histories, state, PLACES[k].clone(), MIDDLES[k]);
+                by_hand(&time_series, state, PLACES[k].clone(), MIDDLES[k]);
             for (found, exact) in [
                 (own.base_shear, fx),
                 (own.shear_across, fy),
@@ -138,7 +138,7 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
             }
         }
         let [fx, fy, normal, about_x, moment, torque, open, _] =
-            by_hand(&histories, state, 0..72, whole);
+            by_hand(&time_series, state, 0..72, whole);
         for (quantity, exact) in [
             (Quantity::BaseShear, fx),
             (Quantity::ShearAcross, fy),
@@ -180,7 +180,7 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
 /// Limits of service hold for either body, in any direction.
 #[test]
 fn service_is_that_of_either_body() {
-    let (_, histories, run, states) = rocked(0);
+    let (_, time_series, run, states) = rocked(0);
     let furthest = |of: &dyn Fn(&State, usize) -> f64| {
         let each = states.iter().flat_map(|state| [0, 1].map(|k| of(state, k)));
         each.fold(0.0, f64::max)
@@ -198,7 +198,7 @@ fn service_is_that_of_either_body() {
         x.hypot(y) / own.len() as f64
     };
     let open = |state: &State, k: usize| {
-        let [.., open, area] = by_hand(&histories, state, PLACES[k].clone(), [0.0; 2]);
+        let [.., open, area] = by_hand(&time_series, state, PLACES[k].clone(), [0.0; 2]);
         open / area
     };
     let gap = |state: &State, k: usize| {

@@ -39,19 +39,19 @@ fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedSha
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRun {
     pub(super) run: Run,
-    histories: Option<TimeSeries>,
+    time_series: Option<TimeSeries>,
     names: Option<Vec<String>>,
 }
 
 extends!(PyRun, own => PySummary(own.run.whole.clone()));
 
 impl PyRun {
-    pub(crate) fn new(run: Run, histories: Option<TimeSeries>, names: Option<Vec<String>>) -> Self {
-        Self { run, histories, names }
+    pub(crate) fn new(run: Run, time_series: Option<TimeSeries>, names: Option<Vec<String>>) -> Self {
+        Self { run, time_series, names }
     }
 
     fn kept(&self) -> PyResult<&TimeSeries> {
-        self.histories
+        self.time_series
             .as_ref()
             .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
     }
@@ -66,9 +66,9 @@ impl PyRun {
 
     /// The time series, of which the `probe` is one.
     fn probed(&self, probe: &str) -> PyResult<&TimeSeries> {
-        let (histories, known) = (self.kept()?, series::names(self.kept()?));
+        let (time_series, known) = (self.kept()?, series::names(self.kept()?));
         if known.iter().any(|own| own == probe) {
-            return Ok(histories);
+            return Ok(time_series);
         }
         let known = if known.is_empty() { "none".into() } else { known.join(", ") };
         Err(refuse(format!("there is no probe called '{probe}', only {known}")))
@@ -194,8 +194,8 @@ impl PyRun {
         periods: Numbers,
         damping: f64,
     ) -> PyResult<PySpectrum> {
-        let histories = self.probed(probe)?;
-        let spectrum = py.detach(|| histories.floor_spectrum(probe, &periods.0, damping));
+        let time_series = self.probed(probe)?;
+        let spectrum = py.detach(|| time_series.floor_spectrum(probe, &periods.0, damping));
         Ok(PySpectrum(spectrum.or_raise()?))
     }
 

@@ -11,63 +11,63 @@ use crate::array::{Array, Named};
 use crate::error::refuse;
 
 /// A scalar, or a probe, by its name.
-pub(super) fn named(histories: &TimeSeries, name: &str) -> PyResult<Array> {
+pub(super) fn named(time_series: &TimeSeries, name: &str) -> PyResult<Array> {
     if name == "time" {
-        return Ok(Array::from(histories.times()));
+        return Ok(Array::from(time_series.times()));
     }
-    if let Ok(values) = histories.probe(name) {
+    if let Ok(values) = time_series.probe(name) {
         return Ok(Array::from(values));
     }
-    let in_plan = !histories.depths().is_empty();
+    let in_plan = !time_series.depths().is_empty();
     if let Some(quantity) = Quantity::of(in_plan).find(|own| own.to_string() == name) {
-        return Ok(Array::from(histories.series(quantity)));
+        return Ok(Array::from(time_series.series(quantity)));
     }
     let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
-    let (words, names) = (words.join(", "), names(histories).join(", "));
+    let (words, names) = (words.join(", "), names(time_series).join(", "));
     let text = format!("'{name}' is neither a time series ({words}) nor a probe ({names})");
     Err(pyo3::exceptions::PyKeyError::new_err(text))
 }
 
 /// Names of the probes.
-pub(super) fn names(histories: &TimeSeries) -> Vec<String> {
-    histories.probes().iter().map(|probe| probe.name.clone()).collect()
+pub(super) fn names(time_series: &TimeSeries) -> Vec<String> {
+    time_series.probes().iter().map(|probe| probe.name.clone()).collect()
 }
 
 /// All scalars and probes by their names.
-pub(super) fn all(histories: &TimeSeries) -> PyResult<Named<String, Array>> {
-    let scalars = Quantity::of(!histories.depths().is_empty()).map(|own| own.to_string());
-    let all = std::iter::once("time".into()).chain(scalars).chain(names(histories));
-    all.map(|name| named(histories, &name).map(|values| (name, values))).collect()
+pub(super) fn all(time_series: &TimeSeries) -> PyResult<Named<String, Array>> {
+    let scalars = Quantity::of(!time_series.depths().is_empty()).map(|own| own.to_string());
+    let all = std::iter::once("time".into()).chain(scalars).chain(names(time_series));
+    all.map(|name| named(time_series, &name).map(|values| (name, values))).collect()
 }
 
 /// Terms of the energy balance over time.
-pub(super) fn energy_balances(histories: &TimeSeries) -> Named<String, Array> {
-    let balances = histories.energy_balances().iter();
+pub(super) fn energy_balances(time_series: &TimeSeries) -> Named<String, Array> {
+    let balances = time_series.energy_balances().iter();
     let terms = EnergyTerm::ALL.map(|term| {
         (term.to_string(), balances.clone().map(|balance| balance.term(term)).collect())
     });
     let residual = balances.clone().map(EnergyBalance::residual).collect();
-    let time = ("time".to_owned(), Array::from(histories.times()));
+    let time = ("time".to_owned(), Array::from(time_series.times()));
     [time].into_iter().chain(terms).chain([("residual".to_owned(), residual)]).collect()
 }
 
 /// Snapshots of the base: times, and arrays of shape (frames, elements).
 pub(super) fn contact<'py>(
     py: Python<'py>,
-    histories: &TimeSeries,
+    time_series: &TimeSeries,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let frames: Vec<ContactFrame<'_>> = histories.contact_frames().collect();
+    let frames: Vec<ContactFrame<'_>> = time_series.contact_frames().collect();
     if frames.is_empty() {
         return Err(refuse("no contact was kept: give `contact_every` to `run`"));
     }
-    let shape = [frames.len(), histories.elements().len()];
+    let shape = [frames.len(), time_series.elements().len()];
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let value = |pick: fn(&ContactState) -> f64| {
         let values = frames.iter().flat_map(|frame| frame.states).map(pick);
         PyArray1::from_iter(py, values).reshape(shape)
     };
-    let in_plan = !histories.depths().is_empty();
+    let in_plan = !time_series.depths().is_empty();
     for (name, _, across, pick) in ContactState::NUMBERS {
         if in_plan || !across {
             columns.set_item(name, value(pick)?)?;
@@ -79,8 +79,8 @@ pub(super) fn contact<'py>(
 }
 
 /// Snapshots of the structure: times, and arrays of shape (frames, n).
-pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
-    let frames: Vec<_> = histories.motion_frames().collect();
+pub(super) fn motion<'py>(py: Python<'py>, time_series: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
+    let frames: Vec<_> = time_series.motion_frames().collect();
     let Some(first) = frames.first() else {
         return Err(refuse("no motion was kept: give `motion_every` to `run`"));
     };
@@ -94,7 +94,7 @@ pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<B
     columns.set_item("velocity", all(|frame| frame.velocity.to_vec(), shape)?)?;
     let two = [frames.len(), 2];
     columns.set_item("free_field", all(|frame| frame.free_field.to_vec(), two)?)?;
-    if !histories.depths().is_empty() {
+    if !time_series.depths().is_empty() {
         let across = frames.iter().map(|frame| frame.free_field_across);
         columns.set_item("free_field_across", across.collect::<Array>())?;
     }

@@ -273,13 +273,13 @@ impl PySimulation {
         take_raised();
         let run = py.detach(|| {
             let mut simulation = self.lock()?;
-            let mut histories =
+            let mut time_series =
                 series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
-            if let Some(histories) = &mut histories {
-                histories.reserve(steps);
+            if let Some(time_series) = &mut time_series {
+                time_series.reserve(steps);
             }
             watched(coefficients, |observer| simulation.precompute(steps, observer))?;
-            let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
+            let mut watched = Watched::new(progress, steps, observe, observe_every, time_series);
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result, self.names.as_ref())
         })?;

@@ -20,7 +20,7 @@ pub(super) struct Watched {
     steps: usize,
     observe: Option<Py<PyAny>>,
     observe_every: usize,
-    histories: Option<TimeSeries>,
+    time_series: Option<TimeSeries>,
     done: usize,
     stopped: Option<PyErr>,
 }
@@ -31,16 +31,16 @@ impl Watched {
         steps: usize,
         observe: Option<Py<PyAny>>,
         observe_every: usize,
-        histories: Option<TimeSeries>,
+        time_series: Option<TimeSeries>,
     ) -> Self {
         let ticker = Ticker::new(progress);
-        Self { ticker, steps, observe, observe_every, histories, done: 0, stopped: None }
+        Self { ticker, steps, observe, observe_every, time_series, done: 0, stopped: None }
     }
 
     pub(super) fn see(&mut self, state: &State) -> ControlFlow<()> {
         self.done += 1;
-        if let Some(histories) = &mut self.histories {
-            histories.record(state);
+        if let Some(time_series) = &mut self.time_series {
+            time_series.record(state);
         }
         match self.ask(state) {
             Ok(flow) => flow,
@@ -82,7 +82,7 @@ impl Watched {
         }
         let run = result.map_err(raise)?;
         last?;
-        Ok(PyRun::new(run, self.histories, names.map(DofNames::to_vec)))
+        Ok(PyRun::new(run, self.time_series, names.map(DofNames::to_vec)))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Surface compliance of a layered ground in the wavenumber domain.
+//! SurfaceCompliance compliance of a layered ground in the wavenumber domain.
 //!
 //! Pressure p cos kx and shear τ sin kx on the surface give W cos kx (down) and U sin kx:
 //! [U; W] = C(k, s) [τ; p], C symmetric. The impedance Z (stresses by displacements on a horizontal
@@ -32,7 +32,7 @@ use crate::soil::{Base, SoilProfile};
 
 /// C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Surface {
+pub(crate) struct SurfaceCompliance {
     /// To the right due to shear.
     pub(crate) xx: Complex,
     /// Down due to pressure.
@@ -150,7 +150,7 @@ impl Compliance {
     }
 
     /// C at the wavenumber `k` > 0, 1/m.
-    pub(crate) fn at(&mut self, k: f64) -> Surface {
+    pub(crate) fn at(&mut self, k: f64) -> SurfaceCompliance {
         self.roots.clear();
         let mut decay = 0.0;
         for layer in &self.layers {
@@ -189,7 +189,7 @@ impl Compliance {
             (u, t) = waves.above(layer, reflected);
         }
         let c = u.times_inverse(t);
-        Surface { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
+        SurfaceCompliance { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
     }
 
     /// `C_tt` = 1/Z: displacement by shear across the wavenumber at which the last evaluation was, m/Pa.

@@ -1,6 +1,6 @@
 //! Panels of wavenumbers, halved until the surface compliance is a polynomial on each.
 
-use super::compliance::Surface;
+use super::compliance::SurfaceCompliance;
 use super::form_factors::{DEGREES, POINTS, Panel, legendre_at};
 use super::tail::grid;
 use super::wavenumber::{Found, SHORT, Scratch, Wavenumbers, parts};
@@ -76,7 +76,7 @@ impl Wavenumbers {
         &self,
         panels: usize,
         work: &mut Scratch,
-        symbol: &mut dyn FnMut(f64) -> Surface,
+        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
         take: &mut dyn FnMut(Panel, Found, usize),
     ) -> std::result::Result<(), f64> {
         let allowed = self.sample(panels, work, symbol);
@@ -127,7 +127,7 @@ impl Wavenumbers {
         &self,
         panels: usize,
         work: &mut Scratch,
-        symbol: &mut dyn FnMut(f64) -> Surface,
+        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> [f64; 2] {
         let Scratch { samples, wide, .. } = work;
         samples.clear();
@@ -148,14 +148,20 @@ impl Wavenumbers {
         &self,
         left: f64,
         width: f64,
-        symbol: &mut dyn FnMut(f64) -> Surface,
-    ) -> [Surface; POINTS] {
+        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
+    ) -> [SurfaceCompliance; POINTS] {
         std::array::from_fn(|i| symbol(left + 0.5 * width * (1.0 + self.forms.rule.nodes[i])))
     }
 
     /// Whether the last two Legendre coefficients of C are small enough.
-    fn resolved(&self, samples: &[Surface; POINTS], left: f64, width: f64, allowed: f64) -> bool {
-        let values = |sample: &Surface| [sample.xx, sample.zz, sample.xz];
+    fn resolved(
+        &self,
+        samples: &[SurfaceCompliance; POINTS],
+        left: f64,
+        width: f64,
+        allowed: f64,
+    ) -> bool {
+        let values = |sample: &SurfaceCompliance| [sample.xx, sample.zz, sample.xz];
         let rule = &self.forms.rule;
         let all = samples.iter().map(values);
         let Some(error) = last_coefficients(all.clone(), rule, &self.polynomials) else {
@@ -173,7 +179,7 @@ impl Wavenumbers {
         start: f64,
         allowed: f64,
         work: &mut Scratch,
-        symbol: &mut dyn FnMut(f64) -> Surface,
+        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> std::result::Result<[[f64; 6]; DEGREES], f64> {
         let rule = &self.forms.rule;
         let mut moments = [[0.0; 6]; DEGREES];

@@ -29,7 +29,7 @@ mod wavenumber;
 mod weights;
 
 pub(super) use coefficients::Quadrature;
-pub(super) use compliance::{Compliance, Surface};
+pub(super) use compliance::{Compliance, SurfaceCompliance};
 pub use cost::Cost;
 pub(super) use cost::{MOST_HALVING, Outlook, Priced};
 pub(super) use form_factors::{DEGREES, POINTS, legendre};

@@ -9,7 +9,7 @@
 //!
 //! with a free datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). A rigid base is its own datum.
 
-use super::compliance::{Compliance, Surface};
+use super::compliance::{Compliance, SurfaceCompliance};
 use super::wavenumber::{Scratch, Wavenumbers, deep};
 use crate::error::{Result, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE};
@@ -68,7 +68,7 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
         let Some([even, odd]) = far else { return c };
         let decay = (-k * span).exp() / k;
         let (even, odd) = (Complex::real(even * decay), Complex::real(odd * decay));
-        Surface { xx: c.xx - even, zz: c.zz - even, xz: c.xz + odd }
+        SurfaceCompliance { xx: c.xx - even, zz: c.zz - even, xz: c.xz + odd }
     };
     let least = deep(profile).max(end);
     integrals.at_rest(&compliance, least, &mut Scratch::default(), &mut values, &mut symbol)?;

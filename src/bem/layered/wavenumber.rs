@@ -11,7 +11,7 @@
 //! through Legendre moments over the whole panel, so that only C is evaluated more often. Beyond K the integral
 //! is a [series](super::tail).
 
-use super::compliance::{Compliance, Surface};
+use super::compliance::{Compliance, SurfaceCompliance};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
 use crate::error::{Error, LayeredError, Result, Watch};
@@ -101,7 +101,7 @@ pub(crate) struct Workspace {
 /// Scratch for the panels of one integral after the other.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
-    pub(super) samples: Vec<(Panel, [Surface; POINTS])>,
+    pub(super) samples: Vec<(Panel, [SurfaceCompliance; POINTS])>,
     sums: Vec<Sums>,
     pub(super) wide: Vec<Panel>,
     pub(super) stack: Vec<(f64, f64, u32)>,
@@ -144,7 +144,7 @@ impl Counts {
 
 /// Result of a panel: C at its points, or the moments of its halves.
 pub(super) enum Found<'a> {
-    Samples(&'a [Surface; POINTS]),
+    Samples(&'a [SurfaceCompliance; POINTS]),
     Moments(&'a [[f64; 6]; DEGREES]),
 }
 
@@ -274,7 +274,7 @@ impl Wavenumbers {
         least: f64,
         work: &mut Scratch,
         values: &mut [[Complex; KINDS]],
-        symbol: &mut dyn FnMut(f64) -> Surface,
+        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> Result<()> {
         let panels = self.panels(least)?;
         let resolved = self.sum(panels, work, symbol);
@@ -308,7 +308,7 @@ impl Wavenumbers {
         &self,
         panels: usize,
         work: &mut Scratch,
-        symbol: &mut dyn FnMut(f64) -> Surface,
+        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> std::result::Result<(), f64> {
         let forms = &self.forms;
         let mut sums = std::mem::take(&mut work.sums);
@@ -352,7 +352,8 @@ impl Wavenumbers {
         let mut coefficients = [[0.0; 6]; TERMS];
         for (j, coefficient) in coefficients.iter_mut().enumerate() {
             let value = |d: f64| power.scale(d);
-            let surface = Surface { xx: value(xx[j]), zz: value(zz[j]), xz: value(xz[j]) };
+            let surface =
+                SurfaceCompliance { xx: value(xx[j]), zz: value(zz[j]), xz: value(xz[j]) };
             *coefficient = parts(&surface, 1.0);
             power = power * ratio;
         }
@@ -380,7 +381,7 @@ pub(crate) fn deep(profile: &SoilProfile) -> f64 {
 }
 
 /// zz, xx, xz, real and imaginary, times a weight.
-pub(super) fn parts(c: &Surface, weight: f64) -> [f64; 6] {
+pub(super) fn parts(c: &SurfaceCompliance, weight: f64) -> [f64; 6] {
     [c.zz.re, c.zz.im, c.xx.re, c.xx.im, c.xz.re, c.xz.im].map(|x| weight * x)
 }
 

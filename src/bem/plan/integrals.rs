@@ -18,7 +18,7 @@
 use super::form_table::{FormTable, Rows, TERMS};
 use super::forms::FORMS;
 use crate::bem::layered::{
-    Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, Surface, by_halves, deep,
+    Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, SurfaceCompliance, by_halves, deep,
     last_coefficients, legendre, median, surface_outlook, surface_series, unresolved,
 };
 use crate::error::{PlanError, Result, Watch};
@@ -79,7 +79,7 @@ struct Symbol<'a> {
 
 impl Symbol<'_> {
     fn at(&mut self, k: f64) -> Kernel {
-        let Surface { xx, zz, xz } = self.ground.at(k);
+        let SurfaceCompliance { xx, zz, xz } = self.ground.at(k);
         let all = [zz, xx, self.ground.across(), xz];
         std::array::from_fn(|i| all[i].scale(k) - self.rest[i])
     }

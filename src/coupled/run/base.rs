@@ -13,12 +13,12 @@ use crate::interface::{ContactState, Mode};
 
 /// The base as a whole, or the foundation of this number.
 #[derive(Clone, Copy)]
-pub(super) struct Base<'a> {
+pub(super) struct BaseView<'a> {
     pub(super) state: &'a State,
     pub(super) foundation: Option<usize>,
 }
 
-impl<'a> Base<'a> {
+impl<'a> BaseView<'a> {
     fn own(&self) -> Option<&'a Foundation> {
         self.foundation.map(|k| &self.state.foundations[k])
     }
@@ -85,7 +85,7 @@ impl<'a> Base<'a> {
 }
 
 /// Area of the open elements of a base.
-pub(super) fn open_area(base: &Base<'_>) -> f64 {
+pub(super) fn open_area(base: &BaseView<'_>) -> f64 {
     let open = base.areas().iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
     // An empty sum would be a negative zero.
     open.fold(0.0, |sum, (area, _)| sum + area)

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::base::{Base, open_area};
+use super::base::{BaseView, open_area};
 use super::peak::resultant;
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Peak, State};
@@ -20,7 +20,7 @@ struct Row {
     unit: &'static str,
     scale: Scale,
     places: &'static [Place],
-    value: fn(&Base) -> f64,
+    value: fn(&BaseView) -> f64,
 }
 
 /// How a quantity is drawn and printed.
@@ -115,7 +115,7 @@ macro_rules! quantities {
             pub(crate) fn append_values(&self, lists: &mut [Vec<f64>]) {
                 let base = self.base(None);
                 $(if let Some(list) = lists.get_mut(Quantity::$variant as usize) {
-                    const VALUE: fn(&Base) -> f64 = $value;
+                    const VALUE: fn(&BaseView) -> f64 = $value;
                     list.push(VALUE(&base));
                 })+
             }
@@ -125,7 +125,7 @@ macro_rules! quantities {
             /// At the start of a run, of the whole base or of its foundation number `foundation`.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
-                let extremes = |value: fn(&Base) -> f64| Extremes::of(value(&base), state.time);
+                let extremes = |value: fn(&BaseView) -> f64| Extremes::of(value(&base), state.time);
                 let [ends, depth] = base.ends();
                 Self {
                     elements: base.elements(),
@@ -142,9 +142,9 @@ macro_rules! quantities {
 
             /// Takes in the first `count` values of a step. Each is called directly: at every step, calls through the
             /// table cost more than the values.
-            fn see_values(&mut self, base: &Base, count: usize, time: f64) {
+            fn see_values(&mut self, base: &BaseView, count: usize, time: f64) {
                 $(if (Quantity::$variant as usize) < count {
-                    const VALUE: fn(&Base) -> f64 = $value;
+                    const VALUE: fn(&BaseView) -> f64 = $value;
                     self.$field.see(VALUE(base), time);
                 })+
             }
@@ -331,8 +331,8 @@ impl State {
         (quantity.row().value)(&self.base(None))
     }
 
-    fn base(&self, foundation: Option<usize>) -> Base<'_> {
-        Base { state: self, foundation: foundation.filter(|k| *k < self.foundations.len()) }
+    fn base(&self, foundation: Option<usize>) -> BaseView<'_> {
+        BaseView { state: self, foundation: foundation.filter(|k| *k < self.foundations.len()) }
     }
 }
 

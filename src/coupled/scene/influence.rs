@@ -14,7 +14,7 @@ use crate::structure::FaceNode;
 /// The influence vectors of all connected parts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Influence {
-    parts: Vec<Part>,
+    parts: Vec<ConnectedPart>,
     /// Directions in which they translate: right, up and, in plan, away.
     directions: usize,
 }
@@ -24,7 +24,7 @@ pub(crate) const UP: usize = 1;
 
 /// A connected part of the structure and the elements under it.
 #[derive(Debug, Clone)]
-pub(crate) struct Part {
+pub(crate) struct ConnectedPart {
     /// R to the right, upwards and away; without terms for what cannot move that way.
     pub(crate) vectors: [Terms; 3],
     elements: Vec<usize>,
@@ -34,7 +34,7 @@ impl Influence {
     /// Splits the rigid translations of the whole structure into those of its parts; `roots` has the
     /// same number for the degrees of freedom of one part.
     pub(crate) fn split(base: &Base, translations: &[Vec<f64>], roots: &[usize]) -> Self {
-        let mut parts: Vec<(usize, Part)> = Vec::new();
+        let mut parts: Vec<(usize, ConnectedPart)> = Vec::new();
         for (nodes, elements) in base.foundations() {
             let Some(dof) = nodes.iter().find_map(|node| node.dofs().next()) else {
                 continue;
@@ -49,14 +49,14 @@ impl Influence {
                 let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
                 own.map(|(i, r)| (i, *r)).collect()
             });
-            parts.push((root, Part { vectors, elements: elements.collect() }));
+            parts.push((root, ConnectedPart { vectors, elements: elements.collect() }));
         }
         let parts = parts.into_iter().map(|(_, part)| part).collect();
         Self { parts, directions: translations.len() }
     }
 
     /// The connected parts, from left to right by their leftmost foundation.
-    pub(crate) fn parts(&self) -> &[Part] {
+    pub(crate) fn parts(&self) -> &[ConnectedPart] {
         &self.parts
     }
 
@@ -108,7 +108,7 @@ impl Influence {
     }
 }
 
-impl Part {
+impl ConnectedPart {
     /// Contact elements of the part.
     pub(crate) fn elements(&self) -> &[usize] {
         &self.elements

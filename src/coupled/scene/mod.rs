@@ -21,7 +21,7 @@ use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
 use base::Base;
-use influence::{Part, UP};
+use influence::{ConnectedPart, UP};
 use operators::Model;
 use transformation::{Transformation, Weights};
 
@@ -163,7 +163,7 @@ impl Scene {
     ) {
         self.base.means(displacement, means);
         let influence = &self.model.influence;
-        let mean = |part: &Part| part.mean(&self.base, means);
+        let mean = |part: &ConnectedPart| part.mean(&self.base, means);
         let parts = || influence.parts().iter().zip(&self.joined);
         let first = parts().zip(translations.clone()).find(|((_, joined), _)| **joined);
         let first = first.map(|((part, _), y)| (mean(part), y));

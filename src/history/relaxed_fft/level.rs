@@ -59,7 +59,7 @@ impl Work {
 
 /// Components of the tractions, and those of the displacements that they move.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Part {
+pub(super) enum Components {
     /// Pressure moves down, shear along.
     Even,
     /// Each moves the other.
@@ -118,9 +118,9 @@ impl Level {
     }
 
     /// Adds what the last b inputs give to the next b outputs.
-    pub(super) fn apply(&self, block: &mut Block<'_>, part: Part, work: &mut Work) {
+    pub(super) fn apply(&self, block: &mut Block<'_>, part: Components, work: &mut Work) {
         let count = block.classes.elements().len();
-        if part == Part::Even {
+        if part == Components::Even {
             // One component after the other, in half the scratch.
             for kind in 0..PLANE {
                 self.apply_to(block, part, kind, [kind * count, count], work);
@@ -134,7 +134,7 @@ impl Level {
     fn apply_to(
         &self,
         block: &mut Block<'_>,
-        part: Part,
+        part: Components,
         kind: usize,
         [first, components]: [usize; 2],
         work: &mut Work,
@@ -172,7 +172,7 @@ impl Level {
     fn multiply(
         &self,
         classes: &PairClasses,
-        part: Part,
+        part: Components,
         kind: usize,
         components: usize,
         work: &mut Work,
@@ -206,14 +206,14 @@ impl Level {
             for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
                 for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
                     match part {
-                        Part::Even => add(1.0, &self.spectra[kind], class, q, p),
-                        Part::Coupling => {}
-                        Part::All => {
+                        Components::Even => add(1.0, &self.spectra[kind], class, q, p),
+                        Components::Coupling => {}
+                        Components::All => {
                             add(1.0, normal, class, q, p);
                             add(1.0, tangential, class, count + q, count + p);
                         }
                     }
-                    if part != Part::Even && sign != 0.0 && !coupling.is_empty() {
+                    if part != Components::Even && sign != 0.0 && !coupling.is_empty() {
                         add(sign, coupling, class, count + q, p);
                         add(-sign, coupling, class, q, count + p);
                     }

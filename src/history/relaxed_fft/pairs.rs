@@ -5,7 +5,7 @@ use std::sync::Arc;
 use realfft::RealFftPlanner;
 
 use super::coefficients::{Blocks, Coefficients, PARTS, Scatter};
-use super::level::{Block, Class, LEAF, Level, Part, Ring, Tables, Work, widened};
+use super::level::{Block, Class, Components, LEAF, Level, Ring, Tables, Work, widened};
 use super::wave_level::{Levels, SharedSpectra};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
@@ -206,9 +206,13 @@ impl Blocks for Pairs {
         let far = self.levels.iter().rfind(|level| self.couples(level.size));
         let (rows, stride) = (&mut self.rows[..], self.stride);
         let mut block = Block { rows, stride, ring, now, classes: &coefficients.classes };
-        level.apply(&mut block, if couples { Part::All } else { Part::Even }, &mut self.work);
+        level.apply(
+            &mut block,
+            if couples { Components::All } else { Components::Even },
+            &mut self.work,
+        );
         if let Some(level) = far.filter(|_| !couples) {
-            level.apply(&mut block, Part::Coupling, &mut self.work);
+            level.apply(&mut block, Components::Coupling, &mut self.work);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::level::{Level, Part, Ring, Tables, WaveNumbers};
+use super::level::{Components, Level, Ring, Tables, WaveNumbers};
 use crate::error::Result;
 use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
@@ -119,7 +119,7 @@ impl WaveLevel {
         rows: &mut [Complex<f64>],
         stride: usize,
         (ring, now): (Ring, usize),
-        part: Part,
+        part: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
@@ -127,7 +127,7 @@ impl WaveLevel {
         // Rows may end before the block does.
         let (before, begin) = (ring.before(now, size), ring.place(now));
         let ahead = begin..stride.min(begin + size);
-        if part == Part::Even {
+        if part == Components::Even {
             // One component at a time: the largest blocks are the coupling's, or half as many.
             let block = &mut blocks[..2 * size];
             for (kind, rows) in rows.chunks_exact_mut(self.waves.all * stride).enumerate() {
@@ -155,7 +155,7 @@ impl WaveLevel {
         rows: &mut [Complex<f64>],
         stride: usize,
         [before, ahead]: [Range<usize>; 2],
-        part: Part,
+        part: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
@@ -166,7 +166,7 @@ impl WaveLevel {
                 let row = &rows[begin(component)..][..stride];
                 self.take(&row[before.clone()], block, scratch);
             }
-            if part == Part::All {
+            if part == Components::All {
                 let spectra = kinds::<N>().map(|row| row.map(|kind| self.spectrum(kind, wave)));
                 multiply_all(blocks, spectra);
             } else {

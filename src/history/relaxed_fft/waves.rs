@@ -10,7 +10,7 @@ use rustfft::FftPlanner;
 use super::coefficients::{Blocks, PARTS};
 use super::lattice::Lattice;
 use super::leaf::{PlanLeaf, StripLeaf};
-use super::level::{LEAF, Part, Ring, widened};
+use super::level::{Components, LEAF, Ring, widened};
 use super::wave_level::{COUPLING, Levels, Near, SharedSpectra, WaveLevel};
 use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
@@ -164,13 +164,14 @@ impl Waves {
             }
         }
         let number = ring.level(now, self.levels.len());
-        let part = if self.levels[number].has(COUPLING) { Part::All } else { Part::Even };
+        let part =
+            if self.levels[number].has(COUPLING) { Components::All } else { Components::Even };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
         levels[number].apply(rows, *stride, (ring, now), part, blocks, scratch);
-        if part == Part::Even
+        if part == Components::Even
             && let Some(level) = levels.iter().rfind(|level| level.has(COUPLING))
         {
-            level.apply(rows, *stride, (ring, now), Part::Coupling, blocks, scratch);
+            level.apply(rows, *stride, (ring, now), Components::Coupling, blocks, scratch);
         }
         let begin = ring.place(now);
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {

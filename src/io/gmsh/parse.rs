@@ -58,7 +58,7 @@ impl Raw {
 }
 
 pub(super) fn read(source: impl Read) -> Reason<Raw> {
-    let mut fields = Fields::new(source);
+    let mut fields = Words::new(source);
     let mut raw = Raw::default();
     let mut seen = Vec::new();
     while let Some(section) = fields.section()? {
@@ -89,7 +89,7 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
     Ok(raw)
 }
 
-fn format(fields: &mut Fields<impl Read>) -> Reason<()> {
+fn format(fields: &mut Words<impl Read>) -> Reason<()> {
     let version: String = fields.next("version of the format")?;
     let binary: u8 = fields.next("0 for ASCII")?;
     let _: u8 = fields.next("size of a number")?;
@@ -101,7 +101,7 @@ fn format(fields: &mut Fields<impl Read>) -> Reason<()> {
     Ok(())
 }
 
-fn physical_names(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+fn physical_names(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     let count: usize = fields.next("number of names")?;
     for _ in 0..count {
         let key = (fields.next("dimension")?, fields.next("tag of a group")?);
@@ -115,7 +115,7 @@ fn physical_names(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 }
 
 /// The parts into which a mesh was cut: entities of their own, with the groups of their parents.
-fn partitioned_entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+fn partitioned_entities(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     let _: u64 = fields.next("number of partitions")?;
     let ghosts: u64 = fields.next("number of ghost entities")?;
     for _ in 0..ghosts {
@@ -125,7 +125,7 @@ fn partitioned_entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason
     entities(fields, raw, true)
 }
 
-fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw, partitioned: bool) -> Reason<()> {
+fn entities(fields: &mut Words<impl Read>, raw: &mut Raw, partitioned: bool) -> Reason<()> {
     let mut counts = [0_usize; 4];
     for count in &mut counts {
         *count = fields.next("number of entities")?;
@@ -168,7 +168,7 @@ fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw, partitioned: bool) ->
     Ok(())
 }
 
-fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+fn nodes(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     let (blocks, announced) = counts(fields, "number of nodes")?;
     for _ in 0..blocks {
         let dimension: usize = fields.next("dimension of an entity")?;
@@ -197,7 +197,7 @@ fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 }
 
 /// Numbers of blocks and of what is in them; then come the smallest and the largest tag.
-fn counts(fields: &mut Fields<impl Read>, what: &'static str) -> Reason<(u64, u64)> {
+fn counts(fields: &mut Words<impl Read>, what: &'static str) -> Reason<(u64, u64)> {
     let counts = (fields.next("number of blocks")?, fields.next(what)?);
     for tag in ["smallest tag", "largest tag"] {
         let _: u64 = fields.next(tag)?;
@@ -220,7 +220,7 @@ fn size_of(kind: u32) -> Result<usize, MeshFileError> {
     Err(MeshFileError::Unsupported { text: format!("elements of type {kind} ({what})") })
 }
 
-fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+fn elements(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     let (blocks, announced) = counts(fields, "number of elements")?;
     let mut found = 0;
     for _ in 0..blocks {
@@ -244,7 +244,7 @@ fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 }
 
 /// The fields of a text, one after the other, with the line that they stand in.
-struct Fields<R: Read> {
+struct Words<R: Read> {
     source: Lines<R>,
     text: String,
     /// Start of the next field in `text`.
@@ -253,7 +253,7 @@ struct Fields<R: Read> {
     line: usize,
 }
 
-impl<R: Read> Fields<R> {
+impl<R: Read> Words<R> {
     fn new(source: R) -> Self {
         Self { source: Lines::new(source), text: String::new(), at: 0, line: 0 }
     }

@@ -2,7 +2,7 @@
 
 use super::rigid_links::{RigidLinks, describe};
 use crate::error::{Error, Result, at_least, in_bounds, positive, require};
-use crate::fem::{Direction, MassKind, Mesh, Numbering, Quantity, assemble};
+use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
 use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
@@ -264,7 +264,7 @@ impl FemModel {
     }
 
     /// Adds matrices of all elements, each times its factor, in the degrees of freedom that remain.
-    pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(Quantity, f64)]) {
+    pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
         let fill = |matrix: &mut Triplets| {
             for &(quantity, factor) in parts {
                 assemble(&self.mesh, &self.numbering, quantity, factor, |_| true, matrix);
@@ -295,12 +295,12 @@ impl Structure for FemModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add(matrix, &[(Quantity::Mass(self.mass_kind), 1.0)]);
+        self.add(matrix, &[(MatrixKind::Mass(self.mass_kind), 1.0)]);
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add(matrix, &[(Quantity::Stiffness, 1.0), (Quantity::GeometricStiffness, 1.0)]);
+        self.add(matrix, &[(MatrixKind::Stiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)]);
         Ok(())
     }
 
@@ -315,9 +315,9 @@ impl Structure for FemModel {
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         let mut parts = vec![
-            (Quantity::Mass(self.mass_kind), self.damping.mass()),
-            (Quantity::Stiffness, self.damping.stiffness()),
-            (Quantity::Damping, 1.0),
+            (MatrixKind::Mass(self.mass_kind), self.damping.mass()),
+            (MatrixKind::Stiffness, self.damping.stiffness()),
+            (MatrixKind::Damping, 1.0),
         ];
         parts.retain(|(_, factor)| *factor > 0.0);
         self.add(matrix, &parts);

@@ -1,7 +1,7 @@
 //! P–Δ of finite-element models: axial forces from the weight, and when they buckle the structure.
 
 use crate::error::{Error, Result, not_negative};
-use crate::fem::{Direction, Quantity, set_static_state};
+use crate::fem::{Direction, MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::restricted;
 use crate::structure::{FemModel, Structure, Triplets};
@@ -144,7 +144,7 @@ impl HeldStructure {
             restricted(HELD, &all, free.len(), |dof| place[dof])
         };
         let (elastic, geometric) =
-            (part(Quantity::Stiffness)?, part(Quantity::GeometricStiffness)?);
+            (part(MatrixKind::Stiffness)?, part(MatrixKind::GeometricStiffness)?);
         Ok(Self { free, elastic, geometric })
     }
 

@@ -1,7 +1,7 @@
 //! Forces that pass through a horizontal cut, and those of a finite-element model.
 
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive, require_part};
-use crate::fem::{Direction, Quantity, assemble};
+use crate::fem::{Direction, MatrixKind, assemble};
 use crate::structure::{DofCombination, FemModel, Triplets};
 
 /// Linear function of displacement, velocity and acceleration, as sparse rows.
@@ -93,9 +93,12 @@ impl FemModel {
             matrix
         };
         let matrices = [
-            vec![sum(Quantity::Stiffness, 1.0), sum(Quantity::GeometricStiffness, 1.0)],
-            vec![sum(Quantity::Stiffness, self.damping.stiffness()), sum(Quantity::Damping, 1.0)],
-            vec![sum(Quantity::Mass(self.mass_kind), 1.0)],
+            vec![sum(MatrixKind::Stiffness, 1.0), sum(MatrixKind::GeometricStiffness, 1.0)],
+            vec![
+                sum(MatrixKind::Stiffness, self.damping.stiffness()),
+                sum(MatrixKind::Damping, 1.0),
+            ],
+            vec![sum(MatrixKind::Mass(self.mass_kind), 1.0)],
         ];
         // The work of the cut's forces on a rigid motion is their resultant.
         let rows = |direction: Direction, sign: f64| {

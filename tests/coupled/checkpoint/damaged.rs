@@ -56,9 +56,7 @@ fn the_sum_is_that_of_the_form() {
     let (_, checkpoint) = saved();
     let form = serde_json::to_value(&checkpoint).unwrap();
     assert_eq!(form["sum"], Value::from(sum(&form)));
-    assert!(
-        form["state_variables"].as_array().unwrap().iter().any(|number| number.as_u64() != Some(0))
-    );
+    assert!(form["laws"].as_array().unwrap().iter().any(|number| number.as_u64() != Some(0)));
 }
 
 #[test]

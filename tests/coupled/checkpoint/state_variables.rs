@@ -84,7 +84,7 @@ fn damaged_memories_are_refused() {
     let good = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
     for damage in 0..3 {
         let mut value = good.clone();
-        let list = value["state_variables"].as_array_mut().unwrap();
+        let list = value["laws"].as_array_mut().unwrap();
         match damage {
             0 => list.truncate(list.len() - 1),
             1 => list.push(Value::from(0_u64)),

@@ -8,12 +8,12 @@ use serde_json::Value;
 use basemat_problems::check_sum::{check_sum, text_words};
 
 const FIELDS: [&str; 8] =
-    ["format", "identity", "steps", "modes", "state_variables", "state", "ground", "structure"];
+    ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure"];
 const IDENTITY: [&str; 9] = [
     "dofs",
     "energy_balance",
     "probes",
-    "state_variables",
+    "laws",
     "steps",
     "elements",
     "structure",

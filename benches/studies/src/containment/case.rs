@@ -21,7 +21,7 @@ pub(crate) struct Outcome {
     pub(crate) case: Case,
     pub(crate) run: Run,
     /// With the probes of [`Containment::probes`], and "foundation", the acceleration of the foundation's top.
-    pub(crate) histories: TimeSeries,
+    pub(crate) time_series: TimeSeries,
     /// Of the superstructure, kg/m.
     pub(crate) superstructure_mass: f64,
     /// Largest base shear at the foundation–superstructure interface, N/m.
@@ -76,9 +76,9 @@ impl Case {
             Some(friction) => builder.interface(Coulomb::new(friction)?),
         }
         .build()?;
-        let mut histories = Recorder::new().start(&simulation)?;
-        histories.reserve(steps);
-        let run = simulation.run(steps, |state| histories.record(state))?;
+        let mut time_series = Recorder::new().start(&simulation)?;
+        time_series.reserve(steps);
+        let run = simulation.run(steps, |state| time_series.record(state))?;
         Ok(Outcome {
             case: self.clone(),
             superstructure_mass: scene.superstructure_mass(),
@@ -87,7 +87,7 @@ impl Case {
             peak_lift: run.probe("roof y")?.highest.value,
             peak_sway: run.probe("sway")?.magnitude(),
             run,
-            histories,
+            time_series,
         })
     }
 }
@@ -95,7 +95,7 @@ impl Case {
 impl Outcome {
     /// Times and values of a probe, multiplied by a factor.
     pub(crate) fn curve(&self, probe: &str, factor: f64) -> basemat::Result<Vec<(f64, f64)>> {
-        let values = self.histories.probe(probe)?.iter().map(|value| factor * value);
-        Ok(self.histories.times().iter().copied().zip(values).collect())
+        let values = self.time_series.probe(probe)?.iter().map(|value| factor * value);
+        Ok(self.time_series.times().iter().copied().zip(values).collect())
     }
 }

@@ -24,8 +24,8 @@ fn change(value: f64, other: f64) -> String {
 /// Shear of a superstructure that moves as the foundation's top does: difference from the computed
 /// one, root mean square over that of the computed one.
 fn rigid_difference(outcome: &Outcome) -> Result<f64, AnyError> {
-    let shear = outcome.histories.probe("base shear")?;
-    let foundation = outcome.histories.probe("foundation")?;
+    let shear = outcome.time_series.probe("base shear")?;
+    let foundation = outcome.time_series.probe("foundation")?;
     let apart = shear.iter().zip(foundation);
     let apart = apart.map(|(shear, a)| shear + outcome.superstructure_mass * a);
     Ok(size(apart) / size(shear.iter().copied()))
@@ -158,9 +158,9 @@ pub(crate) fn compare_meshes(
     );
     let mut rows = Vec::new();
     for (coarse, fine) in coarse.iter().zip(fine) {
-        let times = fine.histories.times();
+        let times = fine.time_series.times();
         let apart = |probe: &str| -> Result<f64, AnyError> {
-            let values = fine.histories.probe(probe)?;
+            let values = fine.time_series.probe(probe)?;
             let at = |time: f64| {
                 let next = times.partition_point(|t| *t < time).clamp(1, times.len() - 1);
                 let part = (time - times[next - 1]) / (times[next] - times[next - 1]);
@@ -207,9 +207,9 @@ pub(crate) fn draw(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
         let lines = lines.collect::<basemat::Result<Vec<_>>>()?;
         curves(title, "time, s", unit, &lines)?.save(folder.join(format!("{file}.svg")))?;
     }
-    let lines: Vec<_> = both().map(|o| (o.case.name.as_str(), &o.histories)).collect();
+    let lines: Vec<_> = both().map(|o| (o.case.name.as_str(), &o.time_series)).collect();
     let title = "Displacement of the base relative to the soil";
-    basemat::plot::history(title, &lines, Quantity::MeanSlip)?
+    basemat::plot::time_series(title, &lines, Quantity::MeanSlip)?
         .save(folder.join("base_slip.svg"))?;
     Ok(())
 }

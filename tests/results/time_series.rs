@@ -15,17 +15,17 @@ fn farthest_slip(state: &State) -> f64 {
 /// Everything once more, from the states and by other means.
 #[test]
 fn histories_and_peaks_are_those_of_the_states() {
-    let Recorded { simulation, states, histories, run } = recorded(Recorder::new().contact(1));
+    let Recorded { simulation, states, time_series, run } = recorded(Recorder::new().contact(1));
     let elements = simulation.ground().elements();
     let times: Vec<f64> = states.iter().map(|s| s.time).collect();
-    assert_eq!(histories.times(), times);
+    assert_eq!(time_series.times(), times);
     let shear: Vec<f64> = states.iter().map(|s| s.base_shear).collect();
-    assert_eq!(histories.series(Quantity::BaseShear), shear);
+    assert_eq!(time_series.series(Quantity::BaseShear), shear);
     let rotation: Vec<f64> = states.iter().map(|s| s.base_rotation).collect();
-    assert_eq!(histories.series(Quantity::BaseRotation), rotation);
+    assert_eq!(time_series.series(Quantity::BaseRotation), rotation);
     let top: Vec<f64> = states.iter().map(|s| s.probes[0]).collect();
-    assert_eq!(histories.probe("top").unwrap(), top);
-    assert_eq!(histories.energy_balances()[STEPS], states[STEPS].energy_balance);
+    assert_eq!(time_series.probe("top").unwrap(), top);
+    assert_eq!(time_series.energy_balances()[STEPS], states[STEPS].energy_balance);
 
     let peak = (0..=STEPS).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
     let found = run.whole.base_shear.highest;
@@ -100,7 +100,7 @@ fn histories_and_peaks_are_those_of_the_states() {
         for (quantity, known) in
             [(Quantity::SlidingSafety, sliding), (Quantity::OverturningSafety, overturning)]
         {
-            let found = histories.series(quantity)[k];
+            let found = time_series.series(quantity)[k];
             if state.normal_force == 0.0 {
                 assert!(found.is_nan());
                 continue;
@@ -125,29 +125,32 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert!(share(EnergyTerm::Soil) > 0.05 && share(EnergyTerm::Contact) > 0.05);
 
     // Frames are the states.
-    let frames: Vec<_> = histories.contact_frames().collect();
+    let frames: Vec<_> = time_series.contact_frames().collect();
     assert_eq!(frames.len(), STEPS + 1);
     assert!(frames.iter().zip(&states).all(|(f, s)| f.states == s.contact && f.modes == s.modes));
 }
 
 #[test]
 fn thinned_histories_are_every_seventh_state() {
-    let Recorded { states, histories, .. } =
+    let Recorded { states, time_series, .. } =
         recorded(Recorder::new().every(7).contact(20).motion(50));
-    let all = recorded(Recorder::new()).histories;
-    assert_eq!(histories.times().len(), 1 + STEPS / 7);
-    for (k, &shear) in histories.series(Quantity::BaseShear).iter().enumerate() {
+    let all = recorded(Recorder::new()).time_series;
+    assert_eq!(time_series.times().len(), 1 + STEPS / 7);
+    for (k, &shear) in time_series.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
     // Time, 11 scalars, 2 probes, 12 terms of the energy balance and its largest energy.
     assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 13) * (STEPS + 1));
-    assert!(histories.bytes() < all.bytes());
-    assert_eq!(histories.contact_frames().count(), 21);
-    let frames: Vec<_> = histories.motion_frames().collect();
+    assert!(time_series.bytes() < all.bytes());
+    assert_eq!(time_series.contact_frames().count(), 21);
+    let frames: Vec<_> = time_series.motion_frames().collect();
     assert_eq!(frames.len(), 9);
     for (k, frame) in frames.iter().enumerate() {
         assert_eq!(frame.displacement, states[50 * k].displacement());
         assert_eq!(frame.velocity, states[50 * k].velocity());
     }
-    assert!(matches!(histories.acceleration_record("top acceleration"), Err(Error::Scene { .. })));
+    assert!(matches!(
+        time_series.acceleration_record("top acceleration"),
+        Err(Error::Scene { .. })
+    ));
 }
