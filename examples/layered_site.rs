@@ -102,7 +102,7 @@ fn main() -> Result<()> {
     let mut spectra = Vec::new();
     for (name, (run, spectrum)) in names.into_iter().zip([rock, clay, elastic, damped]) {
         let peak = spectrum.iter().fold(0.0_f64, |m, o| m.max(o.pseudo_acceleration));
-        let soil = 100.0 * run.energy_balance.share(EnergyTerm::Soil).unwrap_or(f64::NAN);
+        let soil = 100.0 * run.energy_balance.fraction(EnergyTerm::Soil).unwrap_or(f64::NAN);
         println!(
             "{name:<16} roof's spectrum {:.1} g, {soil:.0} % of the energy to the soil",
             peak / STANDARD_GRAVITY

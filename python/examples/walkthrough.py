@@ -208,8 +208,8 @@ print({name: f"{1e3 * own.magnitude:.1f} mm" for name, own in run.probes.items()
 
 # %%
 for name, run in runs.items():
-    shares = run.energy_shares or {}
-    print(f"{name:>13}: " + ", ".join(f"{key} {100.0 * own:.1f} %" for key, own in shares.items()))
+    fractions = run.energy_fractions or {}
+    print(f"{name:>13}: " + ", ".join(f"{key} {100.0 * own:.1f} %" for key, own in fractions.items()))
 
 # %% [markdown]
 # ## Many cases

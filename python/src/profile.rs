@@ -32,10 +32,10 @@ members! {
     #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0))]
     constant_q(ratio: f64, band: [f64; 2], reference: f64) =
         damping(GeneralizedMaxwell::constant_q(ratio, band, reference));
-    /// Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``shares`` of the rest
+    /// Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``ratios`` of the rest
     /// (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
-    maxwell(long_term: f64, shares: Numbers, rates: Numbers) =
-        damping(GeneralizedMaxwell::new(long_term, shares.0, rates.0));
+    maxwell(long_term: f64, ratios: Numbers, rates: Numbers) =
+        damping(GeneralizedMaxwell::new(long_term, ratios.0, rates.0));
     /// Kelvin–Voigt body with the damping ``ratio`` at ``frequency`` (Hz).
     kelvin_voigt(ratio: f64, frequency: f64) = damping(KelvinVoigt::with_ratio(ratio, frequency));
     /// Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;

@@ -172,13 +172,13 @@ impl EnergyBalance {
     }
 
     /// The parts relative to the input; `None` if that is not positive.
-    pub fn shares(&self) -> Option<Vec<(&'static str, f64)>> {
-        let share = |(name, energy)| (name, energy / self.input);
-        (self.input > 0.0).then(|| self.parts().into_iter().map(share).collect())
+    pub fn fractions(&self) -> Option<Vec<(&'static str, f64)>> {
+        let fraction = |(name, energy)| (name, energy / self.input);
+        (self.input > 0.0).then(|| self.parts().into_iter().map(fraction).collect())
     }
 
     /// A term relative to the input; `None` if that is not positive.
-    pub fn share(&self, term: EnergyTerm) -> Option<f64> {
+    pub fn fraction(&self, term: EnergyTerm) -> Option<f64> {
         (self.input > 0.0).then(|| self.term(term) / self.input)
     }
 
@@ -256,13 +256,13 @@ mod tests {
             ..EnergyBalance::default()
         };
         assert_eq!(energy_balance.residual(), 0.0);
-        let shares = energy_balance.shares().unwrap();
-        assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-15);
-        assert_eq!(shares.len(), 8);
-        assert!(shares.contains(&("kinetic and strain", 3.0 / 376.0)));
-        assert_eq!(energy_balance.share(EnergyTerm::Soil), Some(16.0 / 376.0));
+        let fractions = energy_balance.fractions().unwrap();
+        assert!((fractions.iter().map(|(_, fraction)| fraction).sum::<f64>() - 1.0).abs() < 1e-15);
+        assert_eq!(fractions.len(), 8);
+        assert!(fractions.contains(&("kinetic and strain", 3.0 / 376.0)));
+        assert_eq!(energy_balance.fraction(EnergyTerm::Soil), Some(16.0 / 376.0));
         for input in [0.0, -1.0, f64::NAN] {
-            assert_eq!(EnergyBalance { input, ..energy_balance }.shares(), None);
+            assert_eq!(EnergyBalance { input, ..energy_balance }.fractions(), None);
         }
     }
 

@@ -211,7 +211,7 @@ pub enum Error {
     /// A structure with stiffness to a fixed point: the ground alone must hold it up.
     #[error(
         "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
-         {force:.2e} N at degree of freedom {dof}, {share:.1e} of the stiffness around (entries of a \
+         {force:.2e} N at degree of freedom {dof}, {ratio:.1e} of the stiffness around (entries of a \
          stiffness matrix in a file need eleven digits or more)"
     )]
     Restrained {
@@ -223,7 +223,7 @@ pub enum Error {
         /// The degree of freedom where the force is largest beside the stiffness around.
         dof: usize,
         /// Size of that part relative to the whole.
-        share: f64,
+        ratio: f64,
     },
     /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on
     /// the ground nor move.

@@ -111,13 +111,13 @@ pub struct ThinLayer {
     ratio: f64,
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     friction: f64,
-    #[cfg_attr(feature = "serde", serde(rename = "debonded_share"))]
+    #[cfg_attr(feature = "serde", serde(rename = "debonded_ratio"))]
     debonded: f64,
     #[cfg_attr(feature = "serde", serde(rename = "friction_limit"))]
     limit: FrictionLimit,
     #[cfg_attr(feature = "serde", serde(rename = "slip_sense"))]
     sense: SlipSense,
-    #[cfg_attr(feature = "serde", serde(rename = "slip_stiffness_share"))]
+    #[cfg_attr(feature = "serde", serde(rename = "slip_stiffness_ratio"))]
     slip_stiffness: f64,
 }
 
@@ -127,17 +127,17 @@ validated! {
         thickness_ratio: f64,
         #[serde(with = "crate::text::words::number")]
         friction: f64,
-        debonded_share: f64,
+        debonded_ratio: f64,
         friction_limit: FrictionLimit,
         slip_sense: SlipSense,
-        slip_stiffness_share: f64,
+        slip_stiffness_ratio: f64,
     }
     => {
         let [normal, shear] = reference_stiffness;
         let layer = ThinLayer::from_stiffness(normal, shear, friction)?
             .with_thickness_ratio(thickness_ratio)?
-            .with_debonded_ratio(debonded_share)?
-            .with_slip_stiffness_ratio(slip_stiffness_share)?;
+            .with_debonded_ratio(debonded_ratio)?
+            .with_slip_stiffness_ratio(slip_stiffness_ratio)?;
         Ok(layer.with_friction_limit(friction_limit).with_slip_sense(slip_sense))
     }
 }
@@ -192,8 +192,8 @@ impl ThinLayer {
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
-    pub fn with_debonded_ratio(mut self, share: f64) -> Result<Self> {
-        self.debonded = share_of_one("share of stiffness left in debonding", share)?;
+    pub fn with_debonded_ratio(mut self, ratio: f64) -> Result<Self> {
+        self.debonded = fraction_of_one("ratio of stiffness left in debonding", ratio)?;
         Ok(self)
     }
 
@@ -216,8 +216,8 @@ impl ThinLayer {
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
-    pub fn with_slip_stiffness_ratio(mut self, share: f64) -> Result<Self> {
-        self.slip_stiffness = share_of_one("share of shear stiffness left in slip", share)?;
+    pub fn with_slip_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
+        self.slip_stiffness = fraction_of_one("ratio of shear stiffness left in slip", ratio)?;
         Ok(self)
     }
 
@@ -238,7 +238,7 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// ± τ = limit + share · k_s (±Δs), written so that infinite friction has its limit (see
+    /// ± τ = limit + ratio · k_s (±Δs), written so that infinite friction has its limit (see
     /// [`super::Coulomb`]).
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let drag = self.slip_stiffness * self.stiffness()[1];
@@ -270,7 +270,7 @@ impl ThinLayer {
 }
 
 /// `value` if it is from 0 to 1.
-fn share_of_one(quantity: &'static str, value: f64) -> Result<f64> {
+fn fraction_of_one(quantity: &'static str, value: f64) -> Result<f64> {
     not_negative(quantity, value)?;
     require(quantity, value, value <= 1.0, "from 0 to 1")
 }
@@ -281,8 +281,8 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let share = if mode == Mode::Open { self.debonded } else { 1.0 };
-        let [normal, shear] = self.stiffness().map(|k| share * k);
+        let ratio = if mode == Mode::Open { self.debonded } else { 1.0 };
+        let [normal, shear] = self.stiffness().map(|k| ratio * k);
         let layer = Condition { gap: normal, ..Condition::pressure_is(0.0) };
         let along = match mode {
             Mode::SlipRight => self.slip_condition(1.0, start),

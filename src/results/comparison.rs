@@ -122,10 +122,10 @@ fn lines(of: &[bool]) -> Vec<Line> {
     lines.extend(EnergyTerm::ALL.into_iter().filter(|term| term.is_lost()).map(|term| Line {
         name: format!("  {}", term.name()),
         unit: "%",
-        column: format!("energy_share_{term}"),
+        column: format!("energy_fraction_{term}"),
         factor: 100.0,
         value: Box::new(move |run: &Run| {
-            run.energy_balance.share(term).filter(|share| *share != 0.0)
+            run.energy_balance.fraction(term).filter(|fraction| *fraction != 0.0)
         }),
     }));
     lines

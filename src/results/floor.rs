@@ -62,34 +62,34 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
     positive("last of the numbers", last)?;
     let needed = "from two to a million";
     require("count of numbers", count as f64, (2..=1_000_000).contains(&count), needed)?;
-    let share = |k: usize| k as f64 / (count - 1) as f64;
+    let fraction = |k: usize| k as f64 / (count - 1) as f64;
     let mut numbers: Vec<f64> =
-        (0..count).map(|k| first.powf(1.0 - share(k)) * last.powf(share(k))).collect();
+        (0..count).map(|k| first.powf(1.0 - fraction(k)) * last.powf(fraction(k))).collect();
     numbers[0] = first;
     numbers[count - 1] = last;
     Ok(numbers)
 }
 
-/// A spectrum whose peaks are broadened to frequencies `share` lower and higher, for what is not
+/// A spectrum whose peaks are broadened to frequencies `fraction` lower and higher, for what is not
 /// known of soil and structure: 0.15 in U.S. NRC Regulatory Guide 1.122, rev. 1 (1978).
 ///
-/// The ordinate at every frequency f is spread over (1 − share) f to (1 + share) f, and the largest
+/// The ordinate at every frequency f is spread over (1 − fraction) f to (1 + fraction) f, and the largest
 /// that is spread to a frequency counts: at the period T that of the given spectrum between
-/// (1 − share) T and (1 + share) T. Between the given periods the spectrum is linear in the
+/// (1 − fraction) T and (1 + fraction) T. Between the given periods the spectrum is linear in the
 /// logarithm of the period.
 ///
 /// # Errors
-/// [`Error::Input`] unless 0 ≤ `share` < 1 and the periods increase.
-pub fn broadened(spectrum: &[SpectralOrdinate], share: f64) -> Result<Vec<SpectralOrdinate>> {
-    not_negative("share of broadening", share)?;
-    require("share of broadening", share, share < 1.0, "below one")?;
+/// [`Error::Input`] unless 0 ≤ `fraction` < 1 and the periods increase.
+pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<SpectralOrdinate>> {
+    not_negative("fraction of broadening", fraction)?;
+    require("fraction of broadening", fraction, fraction < 1.0, "below one")?;
     let mut last = 0.0;
     for ordinate in spectrum {
         positive("step to the next period of a spectrum", ordinate.period - last)?;
         last = ordinate.period;
     }
     let widen = |centre: &SpectralOrdinate| {
-        let (from, to) = (centre.period * (1.0 - share), centre.period * (1.0 + share));
+        let (from, to) = (centre.period * (1.0 - fraction), centre.period * (1.0 + fraction));
         let largest = |value: &dyn Fn(&SpectralOrdinate) -> f64| {
             let inside = spectrum.iter().filter(|o| o.period >= from && o.period <= to);
             let ends = [from, to].map(|period| between(spectrum, period, value));

@@ -31,9 +31,9 @@
 //! assert!((run.whole.static_normal_force / weight - 1.0).abs() < 1e-9);
 //! // Coulomb's limit: the factor of safety never falls below one.
 //! assert!(run.whole.sliding_safety.lowest.value > 1.0 - 1e-9);
-//! // The shares of the energy add up to all of it.
-//! let shares = run.energy_balance.shares().unwrap_or_default();
-//! assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
+//! // The fractions of the energy add up to all of it.
+//! let fractions = run.energy_balance.fractions().unwrap_or_default();
+//! assert!((fractions.iter().map(|(_, fraction)| fraction).sum::<f64>() - 1.0).abs() < 1e-9);
 //!
 //! // A history, and the response spectrum of the roof.
 //! assert_eq!(time_series.series(Quantity::BaseShear).len(), 501);

@@ -16,7 +16,7 @@ use crate::linalg::Complex;
 #[cfg_attr(feature = "serde", serde(try_from = "GeneralizedMaxwellForm"))]
 pub struct GeneralizedMaxwell {
     long_term: f64,
-    shares: Vec<f64>,
+    ratios: Vec<f64>,
     rates: Vec<f64>,
     /// Damping ratio and band (Hz), if it was fitted.
     fitted: Option<[f64; 3]>,
@@ -25,12 +25,12 @@ pub struct GeneralizedMaxwell {
 validated! {
     GeneralizedMaxwell as GeneralizedMaxwellForm {
         long_term: f64,
-        shares: Vec<f64>,
+        ratios: Vec<f64>,
         rates: Vec<f64>,
         #[serde(default)]
         fitted: Option<[f64; 3]>,
     }
-    => GeneralizedMaxwell::new(long_term, shares, rates).map(|body| Self { fitted: fitted.filter(is_band), ..body })
+    => GeneralizedMaxwell::new(long_term, ratios, rates).map(|body| Self { fitted: fitted.filter(is_band), ..body })
 }
 
 /// Whether these are a damping ratio and a band.
@@ -49,19 +49,19 @@ const MARGIN: f64 = 1.8;
 const WORST: f64 = 0.15;
 
 impl GeneralizedMaxwell {
-    /// Body with the long-term modulus ratio m, the shares yᵢ and the relaxation rates ωᵢ (1/s).
+    /// Body with the long-term modulus ratio m, the ratios yᵢ and the relaxation rates ωᵢ (1/s).
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless m and all ωᵢ are positive and no yᵢ is negative;
     /// [`Error::Size`](crate::Error::Size) for lists of different lengths.
-    pub fn new(long_term: f64, shares: Vec<f64>, rates: Vec<f64>) -> Result<Self> {
+    pub fn new(long_term: f64, ratios: Vec<f64>, rates: Vec<f64>) -> Result<Self> {
         positive("long-term modulus ratio of a layer", long_term)?;
-        same_length("rates of a generalised Maxwell body", rates.len(), shares.len())?;
-        for (&share, &rate) in shares.iter().zip(&rates) {
-            not_negative("share of a Maxwell mechanism", share)?;
+        same_length("rates of a generalised Maxwell body", rates.len(), ratios.len())?;
+        for (&ratio, &rate) in ratios.iter().zip(&rates) {
+            not_negative("ratio of a Maxwell mechanism", ratio)?;
             positive("rate of a Maxwell mechanism", rate)?;
         }
-        Ok(Self { long_term, shares, rates, fitted: None })
+        Ok(Self { long_term, ratios, rates, fitted: None })
     }
 
     /// Body with the damping `ratio` ξ over `band` (lowest and highest frequency, Hz) and
@@ -110,8 +110,8 @@ impl GeneralizedMaxwell {
                 matrix.push(0.5 * omega * rate / (ratio * size) - omega * omega / size);
             }
         }
-        let shares = least_squares(&matrix, count, &[1.0; SAMPLES]);
-        let body = Self::new(1.0, shares, rates)?;
+        let ratios = least_squares(&matrix, count, &[1.0; SAMPLES]);
+        let body = Self::new(1.0, ratios, rates)?;
         let size = body.modulus(Complex::new(0.0, std::f64::consts::TAU * reference)).re;
         let body = Self { long_term: 1.0 / size, fitted: Some([ratio, band[0], band[1]]), ..body };
         let worst = (0..SAMPLES)
@@ -130,8 +130,8 @@ impl GeneralizedMaxwell {
 impl Relaxation for GeneralizedMaxwell {
     fn modulus(&self, s: Complex) -> Complex {
         let mut sum = Complex::real(1.0);
-        for (share, rate) in self.shares.iter().zip(&self.rates) {
-            sum += s.scale(*share) / (s + Complex::real(*rate));
+        for (ratio, rate) in self.ratios.iter().zip(&self.rates) {
+            sum += s.scale(*ratio) / (s + Complex::real(*rate));
         }
         sum.scale(self.long_term)
     }
@@ -148,7 +148,7 @@ impl Relaxation for GeneralizedMaxwell {
 
     fn identity(&self) -> Option<Vec<f64>> {
         let sizes = [self.long_term, self.rates.len() as f64];
-        Some(Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.shares).chain(&self.rates)))
+        Some(Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.ratios).chain(&self.rates)))
     }
 }
 
@@ -254,7 +254,7 @@ mod tests {
             assert!(worst < 0.05, "{ratio} {worst}");
             let omega = |f: f64| Complex::new(0.0, std::f64::consts::TAU * f);
             assert!((body.modulus(omega(1.0)).re - 1.0).abs() < 1e-14);
-            assert!(body.shares.iter().all(|y| *y >= 0.0));
+            assert!(body.ratios.iter().all(|y| *y >= 0.0));
             let speed = |f: f64| 1.0 / body.modulus(omega(f)).sqrt().inverse().re;
             let grows = (speed(4.0) / speed(1.0) - 1.0)
                 / (2.0 * ratio / std::f64::consts::PI * 4.0_f64.ln());

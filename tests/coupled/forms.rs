@@ -118,7 +118,7 @@ fn soils_materials_and_their_damping() {
     let fitted = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
     kept(&fitted);
     let bad = json!({"long_term": 1.0, "shares": [-0.1], "rates": [1.0]});
-    refused::<GeneralizedMaxwell>(bad, "share of a Maxwell mechanism");
+    refused::<GeneralizedMaxwell>(bad, "ratio of a Maxwell mechanism");
     let bad = json!({"long_term": 1.0, "shares": [0.1], "rates": []});
     refused::<GeneralizedMaxwell>(bad, "rates of a generalised Maxwell body");
 }
@@ -212,7 +212,7 @@ fn interface_laws() {
     let mut form = kept(&layer.with_friction_limit(FrictionLimit::Lagged));
     form["thickness_ratio"] = json!(0.0);
     refused::<ThinLayer>(form.clone(), "thickness ratio");
-    (form["thickness_ratio"], form["debonded_share"]) = (json!(0.1), json!(2.0));
+    (form["thickness_ratio"], form["debonded_ratio"]) = (json!(0.1), json!(2.0));
     refused::<ThinLayer>(form, "left in debonding");
 }
 

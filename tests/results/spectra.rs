@@ -74,17 +74,17 @@ fn broadened_peaks_are_plateaus() {
     let spike = 200;
     lonely[spike] = ordinate(periods[spike], 1.0);
     for (wide, &period) in broadened(&lonely, 0.15).unwrap().iter().zip(&periods) {
-        let share = periods[spike] / period;
-        if (0.851..1.149).contains(&share) {
-            assert_eq!(wide.displacement, 1.0, "{share}");
-        } else if !(0.83..1.17).contains(&share) {
-            assert_eq!(wide.displacement, 0.0, "{share}");
+        let fraction = periods[spike] / period;
+        if (0.851..1.149).contains(&fraction) {
+            assert_eq!(wide.displacement, 1.0, "{fraction}");
+        } else if !(0.83..1.17).contains(&fraction) {
+            assert_eq!(wide.displacement, 0.0, "{fraction}");
         }
     }
     assert_eq!(broadened(&spectrum, 0.0).unwrap(), spectrum);
     assert!(broadened(&[], 0.15).unwrap().is_empty());
-    for share in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
-        assert!(broadened(&spectrum, share).is_err());
+    for fraction in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
+        assert!(broadened(&spectrum, fraction).is_err());
     }
     assert!(broadened(&[spectrum[1], spectrum[0]], 0.1).is_err());
     assert!(broadened(&[ordinate(f64::NAN, 1.0)], 0.1).is_err());

@@ -112,17 +112,17 @@ fn histories_and_peaks_are_those_of_the_states() {
     let least = run.whole.sliding_safety.lowest;
     assert!((least.value - 1.0).abs() < 1e-9);
 
-    // Energy: shares of the last energy balance, which close.
+    // Energy: fractions of the last energy balance, which close.
     let energy_balance = states[STEPS].energy_balance;
     assert_eq!(run.energy_balance, energy_balance);
-    let shares = energy_balance.shares().unwrap();
-    assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
-    let share = |term| energy_balance.share(term).unwrap();
+    let fractions = energy_balance.fractions().unwrap();
+    assert!((fractions.iter().map(|(_, fraction)| fraction).sum::<f64>() - 1.0).abs() < 1e-9);
+    let fraction = |term| energy_balance.fraction(term).unwrap();
     assert!(
-        (share(EnergyTerm::Contact) * energy_balance.input / energy_balance.contact - 1.0).abs()
+        (fraction(EnergyTerm::Contact) * energy_balance.input / energy_balance.contact - 1.0).abs()
             < 1e-12
     );
-    assert!(share(EnergyTerm::Soil) > 0.05 && share(EnergyTerm::Contact) > 0.05);
+    assert!(fraction(EnergyTerm::Soil) > 0.05 && fraction(EnergyTerm::Contact) > 0.05);
 
     // Frames are the states.
     let frames: Vec<_> = time_series.contact_frames().collect();

@@ -390,8 +390,8 @@ class ThinLayer(InterfaceLaw):
     """The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
 
     ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
-    coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_share``: of the
-    stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_share``: when
+    coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
+    stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
     it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
     step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
     ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
@@ -405,8 +405,8 @@ class ThinLayer(InterfaceLaw):
         friction: float,
         *,
         thickness_ratio: float | None = None,
-        debonded_share: float | None = None,
-        slip_stiffness_share: float | None = None,
+        debonded_ratio: float | None = None,
+        slip_stiffness_ratio: float | None = None,
         friction_limit: _FrictionLimit | None = None,
         slip_sense: _SlipSense | None = None,
     ) -> Self: ...
@@ -416,13 +416,13 @@ class ThinLayer(InterfaceLaw):
         shear: float,
         friction: float,
         *,
-        debonded_share: float | None = None,
-        slip_stiffness_share: float | None = None,
+        debonded_ratio: float | None = None,
+        slip_stiffness_ratio: float | None = None,
         friction_limit: _FrictionLimit | None = None,
         slip_sense: _SlipSense | None = None,
     ) -> ThinLayer:
-        """Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
-        ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+        """Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
+        ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
         four if given.
         """
     @property
@@ -565,8 +565,8 @@ class Spectrum:
     @property
     def acceleration(self) -> NDArray[np.float64]:
         """Largest total accelerations: array of shape (m,), m/s²."""
-    def broadened(self, share: float = 0.15) -> Spectrum:
-        """Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
+    def broadened(self, fraction: float = 0.15) -> Spectrum:
+        """Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
         by default (U.S. NRC R.G. 1.122).
         """
     def to_frame(self) -> Any:
@@ -867,8 +867,8 @@ class DampingLaw:
         default): the usual choice in time.
         """
     @staticmethod
-    def maxwell(long_term: float, shares: ArrayLike, rates: ArrayLike) -> DampingLaw:
-        """Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``shares`` of the rest
+    def maxwell(long_term: float, ratios: ArrayLike, rates: ArrayLike) -> DampingLaw:
+        """Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``ratios`` of the rest
         (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
         """
     @staticmethod
@@ -1290,7 +1290,7 @@ class Run(Summary):
     def energy_error(self) -> float:
         """Largest residual of the energy balance, relative to the largest energy; NaN if none is kept."""
     @property
-    def energy_shares(self) -> dict[str, Any] | None:
+    def energy_fractions(self) -> dict[str, Any] | None:
         """Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
         is not positive.
         """

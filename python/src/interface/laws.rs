@@ -80,8 +80,8 @@ members! {
 /// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
 ///
 /// ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
-/// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_share``: of the
-/// stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_share``: when
+/// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
+/// stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
 /// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
 /// step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
 /// ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
@@ -94,14 +94,14 @@ extends!(PyThinLayer, own => PyInterfaceLaw::copied(own.0));
 impl PyThinLayer {
     fn of(
         law: basemat::Result<ThinLayer>,
-        debonded_share: Option<f64>,
-        slip_stiffness_share: Option<f64>,
+        debonded_ratio: Option<f64>,
+        slip_stiffness_ratio: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
     ) -> PyResult<Self> {
         let law = law
-            .with(debonded_share, ThinLayer::with_debonded_ratio)
-            .with(slip_stiffness_share, ThinLayer::with_slip_stiffness_ratio)
+            .with(debonded_ratio, ThinLayer::with_debonded_ratio)
+            .with(slip_stiffness_ratio, ThinLayer::with_slip_stiffness_ratio)
             .with(friction_limit, |law, limit| Ok(law.with_friction_limit(limit.parse()?)))
             .with(slip_sense, |law, sense| Ok(law.with_slip_sense(sense.parse()?)));
         law.or_raise().map(Self)
@@ -110,37 +110,37 @@ impl PyThinLayer {
 
 members! {
     PyThinLayer, own;
-    #[pyo3(signature = (soil, neighbour_height, friction, *, thickness_ratio=None, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
+    #[pyo3(signature = (soil, neighbour_height, friction, *, thickness_ratio=None, debonded_ratio=None, slip_stiffness_ratio=None, friction_limit=None, slip_sense=None))]
     new(
         soil: &PySoil,
         neighbour_height: f64,
         friction: f64,
         thickness_ratio: Option<f64>,
-        debonded_share: Option<f64>,
-        slip_stiffness_share: Option<f64>,
+        debonded_ratio: Option<f64>,
+        slip_stiffness_ratio: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
     ) = {
         let law = ThinLayer::new(soil.0, neighbour_height, friction)
             .with(thickness_ratio, ThinLayer::with_thickness_ratio);
-        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)?
+        Self::of(law, debonded_ratio, slip_stiffness_ratio, friction_limit, slip_sense)?
             .initializer()
     };
-    /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
-    /// ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+    /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
+    /// ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
     /// four if given.
-    #[pyo3(signature = (normal, shear, friction, *, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
+    #[pyo3(signature = (normal, shear, friction, *, debonded_ratio=None, slip_stiffness_ratio=None, friction_limit=None, slip_sense=None))]
     from_stiffness(
         normal: f64,
         shear: f64,
         friction: f64,
-        debonded_share: Option<f64>,
-        slip_stiffness_share: Option<f64>,
+        debonded_ratio: Option<f64>,
+        slip_stiffness_ratio: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
     ) = {
         let law = ThinLayer::from_stiffness(normal, shear, friction);
-        Self::of(law, debonded_share, slip_stiffness_share, friction_limit, slip_sense)
+        Self::of(law, debonded_ratio, slip_stiffness_ratio, friction_limit, slip_sense)
     };
     /// Normal and shear stiffness, Pa/m.
     stiffness: [f64; 2] = own.0.stiffness();

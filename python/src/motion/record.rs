@@ -263,11 +263,11 @@ members! {
 
 #[pymethods]
 impl PySpectrum {
-    /// Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
+    /// Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
     /// by default (U.S. NRC R.G. 1.122).
-    #[pyo3(signature = (share=0.15))]
-    fn broadened(&self, share: f64) -> PyResult<Self> {
-        Ok(Self(basemat::results::broadened(&self.0, share).or_raise()?))
+    #[pyo3(signature = (fraction=0.15))]
+    fn broadened(&self, fraction: f64) -> PyResult<Self> {
+        Ok(Self(basemat::results::broadened(&self.0, fraction).or_raise()?))
     }
 
     fn __len__(&self) -> usize {

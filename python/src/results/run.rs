@@ -46,7 +46,11 @@ pub(crate) struct PyRun {
 extends!(PyRun, own => PySummary(own.run.whole.clone()));
 
 impl PyRun {
-    pub(crate) fn new(run: Run, time_series: Option<TimeSeries>, names: Option<Vec<String>>) -> Self {
+    pub(crate) fn new(
+        run: Run,
+        time_series: Option<TimeSeries>,
+        names: Option<Vec<String>>,
+    ) -> Self {
         Self { run, time_series, names }
     }
 
@@ -142,8 +146,8 @@ members! {
     };
     /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
     /// is not positive.
-    energy_shares: Option<Named<&'static str, f64>> = {
-        own.run.energy_balance.shares().map(|shares| shares.into_iter().collect())
+    energy_fractions: Option<Named<&'static str, f64>> = {
+        own.run.energy_balance.fractions().map(|fractions| fractions.into_iter().collect())
     };
     /// Peaks of all scalar quantities of each foundation.
     _foundation_peaks: Vec<Named<String, Option<f64>>> = {

@@ -79,7 +79,10 @@ pub(super) fn contact<'py>(
 }
 
 /// Snapshots of the structure: times, and arrays of shape (frames, n).
-pub(super) fn motion<'py>(py: Python<'py>, time_series: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
+pub(super) fn motion<'py>(
+    py: Python<'py>,
+    time_series: &TimeSeries,
+) -> PyResult<Bound<'py, PyDict>> {
     let frames: Vec<_> = time_series.motion_frames().collect();
     let Some(first) = frames.first() else {
         return Err(refuse("no motion was kept: give `motion_every` to `run`"));

@@ -65,8 +65,8 @@ pub(crate) fn check(
     for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
         let resistance = Resistance::new(stiffness, translation);
         if resistance.holds(lag) {
-            let Resistance { force, dof, share, .. } = resistance;
-            return Err(Error::Restrained { direction, force, dof, share });
+            let Resistance { force, dof, ratio, .. } = resistance;
+            return Err(Error::Restrained { direction, force, dof, ratio });
         }
         if resistance.is_free {
             for r in translation.iter_mut() {
@@ -137,16 +137,16 @@ pub(crate) fn joined_by_force(
                 let scale = distance.abs() * around[dof] + before.abs();
                 let rounding = f64::EPSILON * stiffest * distance.abs();
                 if force.is_nan() || force.abs() > ROW * scale + rounding {
-                    let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
-                    return Ok(Some((force, dof, share)));
+                    let ratio = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
+                    return Ok(Some((force, dof, ratio)));
                 }
             }
         }
         Ok(None)
     };
     for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
-        if let Some((force, dof, share)) = resistance(translation)? {
-            return Err(Error::Restrained { direction, force, dof, share });
+        if let Some((force, dof, ratio)) = resistance(translation)? {
+            return Err(Error::Restrained { direction, force, dof, ratio });
         }
     }
     if parts.len() > 1 {
@@ -171,7 +171,7 @@ struct Resistance {
     /// Largest force relative to the stiffness around it, its row, and that ratio.
     force: f64,
     dof: usize,
-    share: f64,
+    ratio: f64,
 }
 
 impl Resistance {
@@ -188,8 +188,8 @@ impl Resistance {
         let over = |scale: f64| if scale > 0.0 { work.abs() / scale } else { 0.0 };
         let is_free = (0..translation.len())
             .all(|i| force[i].abs() <= ROW * around[i] + DIAGONAL * diagonal[i].abs());
-        let share = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
-        let dof = (0..translation.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
+        let ratio = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
+        let dof = (0..translation.len()).fold(0, |a, b| if ratio(b) > ratio(a) { b } else { a });
         Self {
             work: over(scale),
             reaction: over(stiffest(stiffness, &diagonal)),
@@ -197,7 +197,7 @@ impl Resistance {
             is_free: is_whole && is_free,
             force: force.get(dof).copied().unwrap_or(0.0),
             dof,
-            share: share(dof),
+            ratio: ratio(dof),
         }
     }
 

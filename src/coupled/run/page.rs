@@ -267,13 +267,13 @@ impl Run {
             return write!(f, "\n{}", self.energy_balance);
         }
         let (input, unit) = (1e-3 * self.energy_balance.input, of_body("kJ/m", self.in_plan));
-        let shares = self.energy_balance.shares();
-        let ending = if shares.is_some() { ", of which" } else { "" };
+        let fractions = self.energy_balance.fractions();
+        let ending = if fractions.is_some() { ", of which" } else { "" };
         writeln!(f, "\nEnergy: input {input:.4} {unit}{ending}")?;
-        for (name, share) in shares.into_iter().flatten() {
+        for (name, fraction) in fractions.into_iter().flatten() {
             // Not those that would print as nothing.
-            if share.abs() >= 5e-5 {
-                writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * share)?;
+            if fraction.abs() >= 5e-5 {
+                writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * fraction)?;
             }
         }
         write!(

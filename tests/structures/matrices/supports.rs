@@ -12,7 +12,7 @@ use basemat::structure::{CraigBampton, FemModel, MatrixModel, Structure, Triplet
 use basemat::{Result, Simulation, Soil};
 
 /// The model by its matrices: every entry of K through `change`, and a spring to a fixed point, of a
-/// `share` of the largest stiffness.
+/// `ratio` of the largest stiffness.
 fn by_matrices(
     model: &FemModel,
     change: impl Fn(f64) -> f64,
@@ -33,8 +33,8 @@ fn by_matrices(
             stiffness.add(column, row, change(value));
         }
     }
-    if let Some((dof, share)) = support {
-        stiffness.add(dof, dof, share * largest);
+    if let Some((dof, ratio)) = support {
+        stiffness.add(dof, dof, ratio * largest);
     }
     MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap()
 }
@@ -74,24 +74,24 @@ fn weak_supports_are_refused_and_named() {
         let mut entries = Triplets::new(block.dofs());
         stiffest.stiffness(&mut entries).unwrap();
         let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
-        for share in [1e-9, 1e-7, 1e-5] {
-            let held = by_matrices(&block, |value| value, Some((dof, share)));
+        for ratio in [1e-9, 1e-7, 1e-5] {
+            let held = by_matrices(&block, |value| value, Some((dof, ratio)));
             match on_soil(held).build().err() {
-                Some(Error::Restrained { direction, force, dof: found, share: beside }) => {
-                    assert_eq!((direction, found), (name, dof), "{share:e}");
-                    assert!((force / (share * largest) - 1.0).abs() < 1e-3, "{share:e}: {force}");
-                    assert!(beside > 0.2 * share && beside < 5.0 * share, "{share:e}: {beside:e}");
+                Some(Error::Restrained { direction, force, dof: found, ratio: beside }) => {
+                    assert_eq!((direction, found), (name, dof), "{ratio:e}");
+                    assert!((force / (ratio * largest) - 1.0).abs() < 1e-3, "{ratio:e}: {force}");
+                    assert!(beside > 0.2 * ratio && beside < 5.0 * ratio, "{ratio:e}: {beside:e}");
                 }
-                other => panic!("{share:e}: {other:?}"),
+                other => panic!("{ratio:e}: {other:?}"),
             }
         }
     }
     let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
-    for share in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
-        let held = by_matrices(&wall(), |value| value, Some((top, share)));
+    for ratio in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
+        let held = by_matrices(&wall(), |value| value, Some((top, ratio)));
         let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
         for built in [wall_on_soil(held), wall_on_soil(reduced)] {
-            assert!(matches!(built, Err(Error::Restrained { .. })), "{share:e}: {:?}", built.err());
+            assert!(matches!(built, Err(Error::Restrained { .. })), "{ratio:e}: {:?}", built.err());
         }
     }
 }
@@ -116,8 +116,8 @@ fn rounding_is_no_support() {
 fn matrices_of_few_digits_are_refused() {
     for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {
         match on_soil(by_matrices(&tower(6, 20), digits(count), None)).build().err() {
-            Some(Error::Restrained { share, .. }) => {
-                assert!(share < size && share > 1e-3 * size, "{count}: {share:e}");
+            Some(Error::Restrained { ratio, .. }) => {
+                assert!(ratio < size && ratio > 1e-3 * size, "{count}: {ratio:e}");
             }
             other => panic!("{count}: {other:?}"),
         }
