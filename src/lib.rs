@@ -231,7 +231,7 @@ struct Readme;
 #[doc = include_str!("../docs/tutorial.md")]
 struct Tutorial;
 
-/// And those of the guide.
+/// Runs the programs of the guide.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/guide.md")]
 struct Guide;

@@ -42,7 +42,7 @@ fn check_interrupt(py: Python<'_>) -> PyResult<()> {
 /// Looks at Python every 50 ms.
 pub(crate) struct Ticker {
     last: Instant,
-    /// Whether it has looked for somebody who hears Ctrl-C.
+    /// Whether the ticker has looked for somebody who hears Ctrl-C.
     asked: bool,
     /// Called with what is done and with all that there is to do.
     progress: Option<Py<PyAny>>,

@@ -47,8 +47,8 @@ use crate::soil::Soil;
 
 /// A soil as the time integrator sees it: implement this for a ground of your own.
 ///
-/// A ground answers with the mean displacement of every element at the end of a step, as the sum
-/// of an instantaneous part (a matrix times the tractions of this step, which are constant over
+/// A ground responds with the mean displacement of every element at the end of a step, as the sum
+/// of a part by the step compliance (a matrix times the tractions of this step, which are constant over
 /// the step) and a history part (all earlier tractions). Tractions here are **changes** against
 /// the static state, and so are displacements.
 ///
@@ -146,7 +146,7 @@ pub trait Ground: Any + Send {
     }
 
     /// Bound on what is wrong with the change of any element's displacement over the next step,
-    /// m; zero (the default) for a ground that answers exactly.
+    /// m; zero (the default) for a ground whose response is exact.
     fn increment_error_bound(&self) -> f64 {
         0.0
     }

@@ -127,7 +127,7 @@ impl SpringGround {
         })
     }
 
-    /// With dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
+    /// Adds dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both are finite and not below zero.
@@ -138,7 +138,7 @@ impl SpringGround {
         Ok(self)
     }
 
-    /// With another θ, from ½ to 1.
+    /// Replaces θ of the integration in time, from ½ to 1.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) outside this range.

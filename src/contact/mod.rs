@@ -83,13 +83,13 @@ words_with_numbers! {
 /// The contact problem of one step after another, condensed to the tractions of Q elements.
 ///
 /// Jumps (soil minus structure, 2Q numbers as in [`crate::bem`]: Q normal components down, then Q
-/// tangential ones) at the end of a step answer to changes of traction τ against the static state by
+/// tangential ones) at the end of a step respond to changes of traction τ against the static state by
 ///
 /// ```text
 /// jump = j_free + W τ,        W = G¹ + B K_eff⁻¹ Bᵀ A
 /// ```
 ///
-/// with W the Delassus operator: the ground's instantaneous operator
+/// with W the Delassus operator: the ground's step compliance
 /// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and what unit tractions on the
 /// structure move its base by, within the step of the host's scheme. `j_free` is the free field, plus
 /// the convolution history of the ground, less the base displacement without changes of traction.
@@ -213,7 +213,7 @@ impl ContactProblem {
         })
     }
 
-    /// With tractions (2Q, Pa) in the static state, against which changes count.
+    /// Sets the tractions (2Q, Pa) of the static state, against which changes count.
     ///
     /// # Errors
     /// [`Error::Size`] for a list of another length, [`Error::Input`] for values not finite.

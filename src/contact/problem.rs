@@ -18,14 +18,14 @@ use crate::interface::{
 };
 use crate::linalg::{DenseFactor, dense_condition, largest};
 
-/// What the search for the modes of a step takes an element's bond for.
+/// State of an element's bond in the search for the modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
-    /// The law decides: it has none, or the search does not care.
+    /// The law decides: there is no bond, or the search does not distinguish.
     Free,
-    /// It holds the element in its mode of rest, whatever the tractions.
+    /// The bond holds the element in its mode of rest, whatever the tractions.
     Held,
-    /// It has broken in this step.
+    /// The bond has broken in this step.
     Broken,
 }
 
@@ -186,7 +186,7 @@ impl ContactSolver {
         }
     }
 
-    /// Whether it is the problem of a ground in plan.
+    /// Whether the problem is that of a ground in plan.
     pub(super) fn is_plan(&self) -> bool {
         self.layout.components() != PLANE
     }

@@ -86,7 +86,7 @@ impl ModeSearch {
         }
     }
 
-    /// As [`ModeSearch::solve`]; the solver knows whether a law was at fault.
+    /// Searches the modes for [`ModeSearch::solve`]; the solver knows whether a law was at fault.
     fn find(
         &mut self,
         solver: &mut ContactSolver,

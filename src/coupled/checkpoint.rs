@@ -27,7 +27,7 @@ const SAME: f64 = 1e-9;
 ///
 /// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers
 /// are written as their bits (integers of 64 bits), so that none is rounded on the way, and a check
-/// sum over all contents goes with them: [`Simulation::resume`](crate::Simulation::resume) refuses
+/// sum over all contents goes with them: [`Simulation::resume`](crate::Simulation::resume) returns an error for
 /// whatever has been changed since.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -72,7 +72,7 @@ struct Identity {
     /// Sums over the structure's matrices, and one that knows the signs of its modes.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
-    /// Sum over the ground's instantaneous operator.
+    /// Sum over the ground's step compliance.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     ground: Vec<f64>,
     /// Sum over the static tractions.

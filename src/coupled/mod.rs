@@ -33,7 +33,7 @@
 //! 1. forcing: free field, its translation y, convolution history, load (`step/forcing.rs`);
 //! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
 //! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
-//! 4. increment: the answer of Δu to τ; nothing is committed so far;
+//! 4. increment: the response Δu to τ; nothing is committed so far;
 //! 5. energy balance (`books.rs`), state (`advance.rs`), ground and structure take over the increment.
 //!
 //! For a linear structure W is computed once. For a nonlinear one Newton's method goes around

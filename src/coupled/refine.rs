@@ -17,7 +17,7 @@ const ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 /// Mesh and step of each run, in halvings of the element length and of the time step.
 const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
 
-/// One setting of [`Refinement`].
+/// Setting of a [`Refinement`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -97,7 +97,7 @@ pub(crate) struct Resolution {
     shear_wave_speed: Option<f64>,
     /// The foundation with the fewest elements.
     foundation: usize,
-    /// Its elements, shear and moment along x, and in plan along y.
+    /// Elements, shear and moment of the foundation along x, and in plan along y.
     axes: [Axis; 2],
     steps: usize,
     last_step: usize,

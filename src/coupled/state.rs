@@ -66,13 +66,13 @@ impl PartialEq for Context {
 pub(crate) struct Origin(u64);
 
 impl Origin {
-    /// One that no other simulation has.
+    /// Identity that no other simulation has.
     pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
-    /// Whether both are of one simulation.
+    /// Whether both identities are of one simulation.
     pub(crate) fn is(self, other: Self) -> bool {
         self.0 == other.0
     }
@@ -258,7 +258,7 @@ impl Sequence {
         to.serialize_f64(self.end)
     }
 
-    /// Whether `state` is of the same simulation and later; it is the last one then.
+    /// Whether `state` is of the same simulation and later; `state` is the last one then.
     pub(crate) fn takes(&mut self, state: &State) -> bool {
         // Its fields are public: somebody may have changed them.
         let takes = state.origin.is(self.origin)

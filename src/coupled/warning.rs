@@ -59,7 +59,7 @@ pub enum Warning {
         period: f64,
         /// The time step, s.
         time_step: f64,
-        /// One that resolves it, s.
+        /// Time step that resolves the motion, s.
         needed: f64,
         /// Estimated error of the largest base shear, relative, from frequencies alone: half the true
         /// one or more in nine cases of ten. Half the time step tells it.
@@ -71,7 +71,7 @@ pub enum Warning {
         frequency: f64,
         /// The time step, s.
         time_step: f64,
-        /// One that resolves it, s.
+        /// Time step that resolves the motion, s.
         needed: f64,
         /// Estimated error of the largest base shear, relative: see
         /// [`UnresolvedPeriod`](Self::UnresolvedPeriod).
@@ -84,7 +84,7 @@ pub enum Warning {
         crossing: f64,
         /// The time step, s.
         time_step: f64,
-        /// One that resolves it, s.
+        /// Time step that resolves the motion, s.
         needed: f64,
     },
     /// Fewer elements under a foundation than its rocking stiffness takes.

@@ -36,7 +36,7 @@ pub enum RecordError {
     /// The time column does not advance by equal steps.
     #[error("time advances by {found} s, but by {expected} s before")]
     UnequalStep {
-        /// This step, s.
+        /// Step that was found, s.
         found: f64,
         /// The first step, s.
         expected: f64,
@@ -44,7 +44,7 @@ pub enum RecordError {
     /// The steps of the time column are nearly equal, but drift away from equal ones.
     #[error("time is {found} s, but would be {expected} s with equal steps")]
     DriftingStep {
-        /// This time, s.
+        /// Time that was found, s.
         found: f64,
         /// The time with equal steps, s.
         expected: f64,
@@ -52,7 +52,7 @@ pub enum RecordError {
     /// The time column does not increase.
     #[error("time advances by {found} s, but must advance")]
     TimeNotIncreasing {
-        /// This step, s.
+        /// Step that was found, s.
         found: f64,
     },
     /// The number of samples is not the one that was asked for.

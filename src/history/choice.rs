@@ -39,7 +39,7 @@ pub enum HistoryMethod {
     /// [`ExponentialHistory`](super::ExponentialHistory): memory that does not grow, small
     /// checkpoints. The kernel has to know its [late lags](super::ConvolutionWeights::late_weights).
     Exponentials,
-    /// One of the above, chosen when the number of steps is known or the first step is made:
+    /// Choice of one of the above, when the number of steps is known or the first step is made:
     ///
     /// 1. the exponentials, if they are estimated to take less time over the run than the
     ///    transforms, their making included: with the tolerance of [`HistoryOptions`](super::HistoryOptions),

@@ -17,7 +17,7 @@ const AHEAD: usize = 64;
 ///
 /// An exact one may take the memory allowed, or what it needs for the steps that were announced.
 /// Where steps go on beyond, it gives way to the exponentials if it was chosen and not asked for,
-/// at a step that depends on options and announcement alone; otherwise the step is refused.
+/// at a step that depends on options and announcement alone; otherwise the step returns [`Error::Memory`].
 pub(crate) struct ChosenHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     options: HistoryOptions,
@@ -372,7 +372,7 @@ impl HistoryOptions {
         self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE)
     }
 
-    /// As many of these steps as a history of this kind holds in the memory allowed: a larger number
+    /// Number of these steps that a history of this kind holds in the memory allowed: a larger number
     /// may stand for a run without end.
     pub(crate) fn prepared_steps(
         self,

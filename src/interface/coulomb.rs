@@ -262,19 +262,19 @@ impl VariableFriction {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::frictionless() }
     }
 
-    /// As [`Coulomb::with_tensile_strength`].
+    /// Sets the tensile strength, as [`Coulomb::with_tensile_strength`] does.
     ///
     /// # Errors
-    /// The same.
+    /// Those of [`Coulomb::with_tensile_strength`].
     pub fn with_tensile_strength(mut self, strength: f64) -> Result<Self> {
         self.contact = self.contact.with_tensile_strength(strength)?;
         Ok(self)
     }
 
-    /// As [`Coulomb::with_unilateral_condition`].
+    /// Sets the unilateral condition, as [`Coulomb::with_unilateral_condition`] does.
     ///
     /// # Errors
-    /// The same.
+    /// Those of [`Coulomb::with_unilateral_condition`].
     pub fn with_unilateral_condition(mut self, activation: UnilateralCondition) -> Result<Self> {
         self.contact = self.contact.with_unilateral_condition(activation)?;
         Ok(self)

@@ -367,7 +367,7 @@ pub trait InterfaceLaw: Send {
     }
 
     /// This law without friction and adhesion, for setting the structure down on the ground; hard
-    /// and smooth contact unless the law says otherwise.
+    /// and frictionless contact unless the law says otherwise.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Coulomb::frictionless())
     }

@@ -59,7 +59,8 @@ impl SparseFactor {
         probe.iter().all(|x| x.is_finite()).then_some(self)
     }
 
-    /// Or the row at which the matrix is found not to be positive definite.
+    /// Factors the matrix by Cholesky's method, or returns the row at which the matrix is found not to be positive
+    /// definite.
     fn cholesky(matrix: &SparseColMat<usize, f64>) -> std::result::Result<Self, usize> {
         let symbolic = factorize_symbolic_cholesky(
             matrix.symbolic(),

@@ -198,7 +198,7 @@ impl TimeSeries {
         columns
     }
 
-    /// Their values.
+    /// Values of the columns.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::of(self.in_plan()).map(|quantity| self.series(quantity));
         let probes = self.probe_values.iter().map(Vec::as_slice);

@@ -41,8 +41,8 @@ pub enum Base {
 
 /// Horizontal layers, from the surface down, on a half-plane or a rigid base.
 ///
-/// With the feature `serde` profiles with the crate's damping laws are written and read; a law of your own is
-/// refused.
+/// With the feature `serde` profiles with the crate's damping laws are written and read; writing a law of your own
+/// returns an error.
 ///
 /// ```
 /// use basemat::Soil;

@@ -18,9 +18,9 @@ pub(super) struct Content {
 /// Permitted endings of a file.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Ending {
-    /// With a whole line, as files do that were written to their end.
+    /// End with a whole line, as of files that were written to their end.
     Whole,
-    /// Within a line or before the first one, as the process was killed.
+    /// End within a line or before the first one, as the process was killed.
     Anywhere,
 }
 

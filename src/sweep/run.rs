@@ -52,7 +52,7 @@ short_debug! {
     stride: self.stride
 }
 
-/// One case of a [`Sweep`], while it runs.
+/// Case of a [`Sweep`], while it runs.
 #[non_exhaustive]
 pub struct SweepCase<'a> {
     /// Number of the case in the whole sweep, from 0.
@@ -163,7 +163,7 @@ impl<'a> Sweep<'a> {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
-    /// As [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
+    /// Runs all cases like [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
     /// it is there, in whatever order cases end, one at a time.
     ///
     /// # Panics

@@ -83,7 +83,7 @@ impl Table {
         lines.join("\n")
     }
 
-    /// As Markdown; bars and backslashes in cells are escaped.
+    /// Writes the table as Markdown; bars and backslashes in cells are escaped.
     pub(crate) fn markdown(&self) -> String {
         let escaped = |cell: &str| one_line(cell).replace('\\', "\\\\").replace('|', "\\|");
         let line = |row: &Vec<String>| {
@@ -96,7 +96,7 @@ impl Table {
         lines.join("\n")
     }
 
-    /// As CSV (RFC 4180).
+    /// Writes the table as CSV (RFC 4180).
     pub(crate) fn csv(&self) -> String {
         let mut text = String::new();
         for row in std::iter::once(&self.heading).chain(&self.rows) {

@@ -163,7 +163,7 @@ members! {
             return Err(refuse("the coefficient must be a function of the start of a step"));
         }
         let function = Arc::new(coefficient.unbind());
-        // A strength that is refused is refused now.
+        // An invalid strength raises now, and not when a simulation is built.
         VariableFriction::new(|_| 0.0).with_tensile_strength(tensile_strength).or_raise()?;
         let make = move || {
             let function = Arc::clone(&function);

@@ -174,7 +174,7 @@ impl FreeField for InPlan {
     }
 }
 
-/// What a function returns: a pair, or a number to the right. NaN, which ends the step, if it raises.
+/// Value of a function: a pair, or a number to the right. NaN, which ends the step, if it raises.
 fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f64; 2] {
     error::asked([f64::NAN; 2], |py| {
         let found = call(py)?;

@@ -82,7 +82,7 @@ members! {
     PyServiceCheck, own;
     /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
     criterion: &'static str = own.0.criterion.name();
-    /// Its limit, in SI units.
+    /// Limit of the response, in SI units.
     limit: f64 = own.0.limit;
     /// The run's value furthest from zero, a :class:`Peak` in SI units.
     largest: PyPeak = PyPeak(own.0.largest);

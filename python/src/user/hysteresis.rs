@@ -14,7 +14,7 @@ use crate::array::real;
 use crate::error::{keep, kept, raise, refuse};
 use crate::recipe::Recipe;
 
-/// Its name in errors.
+/// Name of this kind of part in errors.
 const PART: &str = "hysteresis";
 
 /// Deformation that a difference quotient steps over, relative to the deformation.

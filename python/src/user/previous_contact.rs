@@ -59,7 +59,7 @@ impl PyPreviousContact {
         Py::new(py, base.add_subclass(Self { own, memory: start.memory.to_vec() }))
     }
 
-    /// The same for a law of the core.
+    /// Previous contact as a law of the core takes it.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
         let mut start = self.own;
         start.memory = &self.memory;

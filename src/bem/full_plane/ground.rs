@@ -19,8 +19,8 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// discretised.
 ///
 /// In every step the displacements of the traction-free elements are eliminated from
-/// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The instantaneous
-/// operator is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
+/// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The step
+/// compliance is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
 /// no free surface and is always stable, this ground serves for comparison with the paper and for
 /// boundaries that are not flat.
 ///
@@ -123,7 +123,7 @@ impl FullPlaneGround {
         }
     }
 
-    /// With other coefficients than [`TimeKernel`]'s: `make` is called with the elements, the soil
+    /// Replaces the coefficients of [`TimeKernel`]: `make` is called with the elements, the soil
     /// and the time step once that is known. The soil being homogeneous, coefficients may depend on
     /// where two elements are to each other only: one pair of each kind is asked for.
     #[must_use]
@@ -143,7 +143,7 @@ impl FullPlaneGround {
         self
     }
 
-    /// Without assessment, where its cost counts and the answer is known.
+    /// Leaves out the assessment of stability, where its cost counts and its result is known.
     #[must_use]
     pub fn skip_assessment(mut self) -> Self {
         self.assessment = Assessment::Skipped;
@@ -203,7 +203,7 @@ impl FullPlaneGround {
         Ok(&self.stability.insert((time_step, found)).1)
     }
 
-    /// With waves from below, which the boundary scatters (eq. 21). They take the place of the
+    /// Adds waves from below, which the boundary scatters (eq. 21). They take the place of the
     /// scene's ground motion, which must then be at rest.
     #[must_use]
     pub fn with_incident_field(mut self, field: impl IncidentField + 'static) -> Self {

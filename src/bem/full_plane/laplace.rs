@@ -317,7 +317,7 @@ mod static_limit_tests {
     use super::*;
     use crate::bem::full_plane::step_integrals::{Medium, step_integrals};
 
-    /// The answer to a load that was switched on long ago, but for its growth in time.
+    /// Response to a load that was switched on long ago, but for its growth in time.
     #[test]
     fn a_held_load_tends_to_the_static_limit() {
         let soil = Soil::new(1.0, 0.2, 1.0).unwrap();

@@ -12,7 +12,7 @@ use crate::soil::Soil;
 /// An element from a collocation point at the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct View {
-    /// Its ends, (x, z), m.
+    /// Ends of the element, (x, z), m.
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
     /// Whether the point is this element's own midpoint.

@@ -86,7 +86,7 @@ pub trait BoundaryKernel: Send + Sync {
     fn segments(&self) -> &[Segment];
 
     /// Overwrites `g` and `h` (each 2E × 2E, row-major: m/Pa, and pure numbers) with the
-    /// coefficients of `lag`: the answer at the end of a step to values held during the step that
+    /// coefficients of `lag`: the response at the end of a step to values held during the step that
     /// ended `lag` steps before. `h` of lag 0 includes the free term ½.
     ///
     /// # Errors

@@ -310,7 +310,7 @@ impl BoundaryMarch {
         self.history.reserve(steps)
     }
 
-    /// One step with the given values: tractions during it, displacements at its end.
+    /// Makes one step with the given values: tractions during it, displacements at its end.
     ///
     /// # Errors
     /// [`Error::Size`] for the wrong number of values, and what the kernel says.

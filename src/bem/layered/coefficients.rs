@@ -84,9 +84,9 @@ impl Block {
 /// Samples of a block, as its observer hears of them.
 pub(crate) struct Samples<'w, 'a> {
     watch: &'w mut Watch<'a>,
-    /// Those of the blocks before, and with this block: as expected.
+    /// Expected numbers of samples up to the blocks before and up to the end of this block.
     expected: Range<usize>,
-    /// Those of this block so far.
+    /// Samples made of this block so far.
     done: usize,
 }
 

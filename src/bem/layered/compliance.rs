@@ -69,7 +69,7 @@ const THIN: f64 = 0.2;
 const SMALL: f64 = 1e-18;
 
 impl Layer {
-    /// Whether its waves hardly turn or decay over it at the wavenumber `k`.
+    /// Whether the layer's waves hardly turn or decay over its thickness at the wavenumber `k`.
     fn is_thin(&self, k: f64) -> bool {
         let turn = (k * k + self.q2.abs()).sqrt() * self.thickness;
         turn < THIN

@@ -1,4 +1,4 @@
-//! What the coefficients of a layered ground cost, before it is paid.
+//! Estimate of the cost of a layered ground's convolution weights, before they are computed.
 //!
 //! Work is counted and not timed. Where the contours are sampled is told by what panels look like. What samples cost
 //! is found at some of them, by all that an integral needs but its pairs.
@@ -29,7 +29,7 @@ const PRODUCT: f64 = 0.25;
 const WIDE: f64 = 2500.0;
 const POINT: f64 = 170.0;
 
-/// One sample more for so many: errors of the integrals keep panels from being resolved that look so. Measured
+/// Samples per additional sample: errors of the integrals keep panels from being resolved that look so. Measured
 /// (`cost/tests.rs`).
 const MISJUDGED: usize = 5;
 /// Samples for each that a look stands for.
@@ -101,7 +101,8 @@ fn distinct(met: &[Met]) -> f64 {
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
-    /// Where shares of the eigenvalues in the mobility will be evaluated, as far as one wavenumber tells.
+    /// Panels in which contributions of the eigenvalues to the mobility will be evaluated, as far as one wavenumber
+    /// tells.
     pub(crate) fn outlook(
         &self,
         missing: Range<usize>,

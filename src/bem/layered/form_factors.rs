@@ -89,7 +89,7 @@ pub(crate) struct Panel {
 }
 
 impl Panel {
-    /// Its two halves.
+    /// Halves of the panel.
     pub(crate) fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { level: self.level - 1, index: 2 * self.index + half })
     }

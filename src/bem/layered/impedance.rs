@@ -77,7 +77,7 @@ const TOLERANCE: f64 = 1e-9;
 const LOSSLESS: f64 = 1e-6;
 /// Points of the extrapolation.
 const PER_FREQUENCY: usize = 8;
-/// Their distance over ω, and over the inverse of the time that waves take.
+/// Distance of the points over ω, and over the inverse of the time that waves take.
 const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between 8 and 7 points.
 const SETTLED: f64 = 1e-3;

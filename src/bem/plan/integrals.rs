@@ -181,7 +181,7 @@ impl Integrals {
         Ok(integrals)
     }
 
-    /// The same integrals without their forms, until [`Compliances::make_ready`] tabulates them.
+    /// Integrals without their forms, until [`Compliances::make_ready`] tabulates them.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
@@ -272,7 +272,7 @@ impl Integrals {
         Ok(())
     }
 
-    /// How much less forms count at a wavenumber than at zero.
+    /// Ratio of the forms' weight at a wavenumber to that at zero.
     fn share(&self, k: f64) -> f64 {
         (2.0 / (k * self.finest)).powi(2).min(1.0)
     }

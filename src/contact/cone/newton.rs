@@ -81,7 +81,7 @@ impl Newton {
         (all, false)
     }
 
-    /// One attempt, by its number.
+    /// Makes one attempt, by its number.
     fn attempt(&mut self, problem: &mut Problem, number: u64) -> (usize, bool) {
         let mut state = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
         self.kinds.clear();

@@ -24,7 +24,7 @@ const BLOCK: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE: f64 = 4.0;
 
-/// What an element does by its trial.
+/// Behaviour of an element by its trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Status {
     pub(super) normal: Normal,
@@ -56,19 +56,19 @@ pub(super) enum Tangential {
 }
 
 impl Status {
-    /// The same without its numbers.
+    /// Kind of the status, without its numbers.
     pub(super) fn kind(&self) -> (Normal, Discriminant<Tangential>) {
         (self.normal, discriminant(&self.tangential))
     }
 
-    /// Whether friction that is less than this lets it slip.
+    /// Whether friction below `friction` lets the element slip.
     pub(super) fn is_held_by(&self, friction: f64) -> bool {
         matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
     }
 
     /// Closed without slip.
     pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
-    /// Without any force.
+    /// Open, without any force.
     pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
 
     /// p, unless closed.

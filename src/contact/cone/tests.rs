@@ -41,7 +41,7 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
 /// Angles from which a direction is looked for.
 const GRID: usize = 24;
 
-/// What an element may be: open, closed or at its cap; sticking or sliding in a direction.
+/// State that an element may have: open, closed or at its cap; sticking or sliding in a direction.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Open,

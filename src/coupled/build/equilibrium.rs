@@ -169,7 +169,7 @@ impl Standing<'_> {
             };
             let current = compliance.insert(current);
             // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
-            // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
+            // would sink by 1/PROXIMAL_SHARE settlements; so the response to τ₀ is put in by the columns
             // that take out τ₁, and only what is out of balance is solved for.
             let mut displacement = out_of_balance(assembled, structure, load, &state)?;
             current.factor.solve(&mut displacement);
@@ -343,7 +343,7 @@ impl Measure {
     }
 }
 
-/// K + D + εM, factored, its answer to unit tractions, and the static Delassus operator.
+/// Factored K + D + εM, its response to unit tractions, and the static Delassus operator.
 struct Compliance {
     matrix: SparseMatrix,
     factor: SparseFactor,

@@ -234,7 +234,7 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     Ok(())
 }
 
-/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has answered.
+/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let (model, at_rest) = (&scene.model, &scene.static_state);
     let mut force = vec![0.0; model.coordinates];

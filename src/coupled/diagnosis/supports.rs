@@ -36,7 +36,7 @@ const LAG: f64 = 1e-6;
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
 const ROW: f64 = 3e-10;
-/// The same relative to the diagonal, for rows in which all entries are rounding.
+/// Largest force of a row of K s relative to the diagonal, for rows in which all entries are rounding.
 const DIAGONAL: f64 = 1e-13;
 /// Work r·K r that is rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
 const WORK: f64 = 1e-15;

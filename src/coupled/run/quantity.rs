@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::text::column::{column, of_body, printed};
 use crate::text::words::{plain, unknown};
 
-/// One row: how a quantity is called, and where it is shown beside its time series.
+/// Row of the table: how a quantity is called, and where it is shown beside its time series.
 struct Row {
     word: &'static str,
     name: &'static str,
@@ -23,7 +23,7 @@ struct Row {
     value: fn(&Base) -> f64,
 }
 
-/// How a quantity is drawn and printed.
+/// Scale by which a quantity is drawn and printed.
 #[derive(Clone, Copy, PartialEq)]
 enum Scale {
     /// In the unit of engineers.
@@ -34,7 +34,7 @@ enum Scale {
     Safety(&'static str),
 }
 
-/// Where the summary of a quantity is shown.
+/// Place where the summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
     /// Nowhere but in plan.
@@ -45,7 +45,7 @@ pub(crate) enum Place {
     Foundations,
     /// Largest (or least) value in a comparison of runs.
     Comparison,
-    /// Its time beside it.
+    /// Time of the value, in a comparison of runs.
     ComparisonTime,
 }
 
@@ -88,9 +88,9 @@ macro_rules! quantities {
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
         pub struct Summary {
-            /// Its elements, as indices of all.
+            /// Elements of the foundation, as indices of all.
             pub elements: Range<usize>,
-            /// Its left and right end, m; in plan those of its outline.
+            /// Left and right end of the foundation, m; in plan those of its outline.
             pub ends: [f64; 2],
             /// In plan: its front and back end along y, m; zeros in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
@@ -252,7 +252,7 @@ impl Quantity {
         &TABLE[self as usize]
     }
 
-    /// Its name, for tables and axes.
+    /// Name of the quantity, for tables and axes.
     pub fn name(self) -> &'static str {
         self.row().name
     }
@@ -272,7 +272,8 @@ impl Quantity {
         of_body(self.row().unit, in_plan)
     }
 
-    /// Its column in files: the word and the unit, `base_shear_n_per_m` in the plane and `base_shear_n` in plan.
+    /// Column of the quantity in files: the word and the unit, `base_shear_n_per_m` in the plane and `base_shear_n` in
+    /// plan.
     pub fn column(self, in_plan: bool) -> String {
         column(self.row().word, self.unit(in_plan))
     }
@@ -299,7 +300,7 @@ impl Quantity {
         Self::of(in_plan).filter(move |own| own.is_shown(place))
     }
 
-    /// Whether it is shown at `place`.
+    /// Whether the quantity is shown at `place`.
     pub(crate) fn is_shown(self, place: Place) -> bool {
         self.row().places.contains(&place)
     }

@@ -51,7 +51,7 @@ pub(crate) struct Scene {
     pub(crate) start_motion: Vec<f64>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// What results of its states need.
+    /// Data that results of the scene's states need.
     pub(crate) context: Arc<Context>,
 }
 

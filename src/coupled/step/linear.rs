@@ -1,5 +1,5 @@
-//! The linear part of a step: one solve with the factored operators, the contact problem, and what
-//! the tractions answer.
+//! Linear part of a step: one solve with the factored operators, the contact problem, and the response
+//! to the tractions.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -271,7 +271,7 @@ impl WithSimd for Answer<'_> {
     }
 }
 
-/// Takes the answer to the tractions' force out of Δu and u₁.
+/// Takes the response to the tractions' force out of Δu and u₁.
 #[inline(always)]
 fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();

@@ -1,4 +1,4 @@
-//! One step: what acts in it, and the increment that answers.
+//! Forcing of one step, and the increment in response to it.
 
 mod linear;
 pub(crate) mod newton;
@@ -27,13 +27,13 @@ use crate::structure::Structure;
 pub(crate) struct Forcing {
     /// External load at t*, less that of the static state, in stepped coordinates.
     pub(crate) load: Vec<f64>,
-    /// Whether there is any.
+    /// Whether there is any load.
     pub(crate) loaded: bool,
     /// Free field at the end of the step, less that at t = 0, 2Q or 3Q.
     pub(crate) free_field: Vec<f64>,
-    /// The same less the translation y of the part above, likewise.
+    /// Free field less the translation y of the part above, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
-    /// Convolution history of the soil at the end of the step, likewise.
+    /// Convolution history of the soil at the end of the step, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
@@ -120,7 +120,7 @@ impl Forcing {
     }
 }
 
-/// What a step after `state` is solved from.
+/// Data from which a step after `state` is solved.
 #[derive(Clone, Copy)]
 pub(crate) struct StepData<'a> {
     pub(crate) scene: &'a Scene,
@@ -131,7 +131,7 @@ pub(crate) struct StepData<'a> {
 
 // Changes of one step.
 
-/// The answer to a [`Forcing`]; nothing of it is committed yet.
+/// Response to a [`Forcing`]; nothing of it is committed yet.
 pub(crate) struct Increment {
     /// Δu relative to the free field's translation, in stepped coordinates.
     pub(crate) displacement: Vec<f64>,
@@ -144,7 +144,7 @@ pub(crate) struct Increment {
     pub(crate) acceleration: Vec<f64>,
     /// Change of traction against the static state, 2Q or 3Q.
     pub(crate) traction: Vec<f64>,
-    /// The same as tractions of whole elements, for the ground.
+    /// Change of traction spread over whole elements, for the ground.
     pub(crate) spread: Vec<f64>,
     /// Openings and total tractions at the end, per element.
     pub(crate) contact: Vec<ContactState>,

@@ -15,7 +15,7 @@ use crate::structure::Tangent;
 const ITERATIONS: usize = 40;
 /// Out-of-balance force at which the iteration ends, relative to the largest force.
 const TOLERANCE: f64 = 1e-12;
-/// The same if the iteration gets no further.
+/// Out-of-balance force that is accepted if the iteration gets no further.
 const ENOUGH: f64 = 1e3 * TOLERANCE;
 /// Rounding errors of a displacement, in units of its last digit, that a force may come from.
 const ROUNDINGS: f64 = 32.0;

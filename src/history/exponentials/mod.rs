@@ -231,7 +231,7 @@ impl ExponentialHistory {
         }
     }
 
-    /// One step on, without the window.
+    /// Makes one step, without the window.
     fn accept(&mut self, input: impl FnOnce(&mut [f64])) {
         let slot = self.slot(self.steps);
         let kept = &mut self.recent[slot];
@@ -296,7 +296,7 @@ impl Fit {
             }
             let Margin { least, frequency } =
                 passivity::margin(kernel, &exact, &tail, horizon as f64);
-            // A NaN is refused as well.
+            // A NaN is an error as well.
             if least.is_nan() || least < 0.0 {
                 refusal = Some(Error::NotPassive { margin: least, frequency });
                 continue;

@@ -62,7 +62,7 @@ impl Work {
 pub(super) enum Part {
     /// Pressure moves down, shear along.
     Even,
-    /// Each moves the other.
+    /// Normal and tangential tractions each move the other component.
     Coupling,
     /// All of it.
     All,

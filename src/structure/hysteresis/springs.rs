@@ -126,7 +126,7 @@ impl NonlinearForce for Springs {
 
 /// Any structure with hysteretic springs between its degrees of freedom.
 ///
-/// Each spring sees a deformation, a weighted sum of degrees of freedom, and answers with the force of its
+/// Each spring sees a deformation, a weighted sum of degrees of freedom, and responds with the force of its
 /// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that shall
 /// have the spring alone must have no stiffness of its own there. Damping is that of the structure by
 /// itself: what is proportional to its stiffness knows nothing of the springs. For storeys of a shear

@@ -15,7 +15,7 @@ const MOST: f64 = 1e6;
 const ACCURACY: f64 = 1e-9;
 
 impl FemModel {
-    /// The same structure with the P–Δ effect of its own weight: beams and trusses get the
+    /// Adds the P–Δ effect of the structure's own weight: beams and trusses get the
     /// geometric stiffness of the axial forces that they carry at rest.
     ///
     /// The forces are those of first-order statics under `gravity` (m/s², downwards) with the
@@ -139,7 +139,7 @@ impl HeldStructure {
         let part = |quantity| {
             let mut all = Triplets::new(n);
             model.add(&mut all, &[(quantity, 1.0)]);
-            // Through the full matrix, which refuses indices out of range.
+            // Through the full matrix, which returns an error for indices out of range.
             let all = SparseMatrix::new(HELD, &all)?;
             restricted(HELD, &all, free.len(), |dof| place[dof])
         };

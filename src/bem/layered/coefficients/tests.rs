@@ -129,7 +129,7 @@ fn bits_of_a_block_are_its_own() {
     }
 }
 
-/// Each eigenvalue's own share goes round the half circle without a jump.
+/// Contribution of each eigenvalue, which goes round the half circle without a jump.
 #[test]
 fn eigenvalues_keep_their_numbers() {
     for stages in [Stages::Two, Stages::Three] {
