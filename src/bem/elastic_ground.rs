@@ -235,7 +235,7 @@ impl ElasticGround {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
-    /// Step coefficients for steps of `time_step` seconds, none computed yet: those that the ground's history sums,
+    /// Convolution weights for steps of `time_step` seconds, none computed yet: those that the ground's history sums,
     /// of its contact elements or of the cells of its plan, without shared kernels.
     ///
     /// ```
@@ -271,7 +271,7 @@ impl ElasticGround {
         self.source.kernel(self.elements(), time_step)
     }
 
-    /// Cost of the step coefficients for `steps` steps of `time_step` seconds, before the first of them, to a
+    /// Cost of the convolution weights for `steps` steps of `time_step` seconds, before the first of them, to a
     /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
     /// ```

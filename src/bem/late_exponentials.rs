@@ -1,6 +1,6 @@
 //! Late lags of the half-plane as sums of decaying exponentials.
 //!
-//! Behind the Rayleigh wave the step coefficients are (see `PairInfluence`)
+//! Behind the Rayleigh wave the convolution weights are (see `PairInfluence`)
 //!
 //! * G = 1/(πμ) · (1/l) ∫∫ Σ `c_k` (ξ−η)^(2k) ∫ t^(−2k−1) dt dξ dη
 //! * t^(−2k−1) = 1/(2k)! ∫₀^∞ s^(2k) e^(−st) ds

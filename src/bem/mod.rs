@@ -208,7 +208,7 @@ pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     Patch::new(ground.directions(), elements, depths, inside)
 }
 
-/// A soil that knows its step coefficients and its static compliance: all that
+/// A soil that knows its convolution weights and its static compliance: all that
 /// [`WeightsGround`] needs.
 pub trait WeightsSource: Any + Send {
     /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`

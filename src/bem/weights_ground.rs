@@ -12,7 +12,7 @@ use crate::history::{
     HistoryOptions, SavedChoice,
 };
 
-/// Any soil that knows its step coefficients and its static compliance, as a ground.
+/// Any soil that knows its convolution weights and its static compliance, as a ground.
 ///
 /// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
 /// [`WeightsSource`] and its [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels

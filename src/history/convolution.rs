@@ -93,7 +93,7 @@ pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<
 // The kernel of a convolution history: a ground's coefficients, lag by lag, and late ones as
 // exponentials.
 
-/// Step coefficients Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
+/// Convolution weights Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
 /// one length.
 ///
 /// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the

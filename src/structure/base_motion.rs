@@ -30,8 +30,8 @@ impl DofCombination {
     ///
     /// // Nothing bends in a rigid block.
     /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
-    /// let sway = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
-    /// assert!(sway.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
+    /// let drift = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
+    /// assert!(drift.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
     ///
     /// // A roof at 6 m that has moved by 0.1 m, on a base that has moved by 0.02 m and turned by
     /// // 0.01 to the left.

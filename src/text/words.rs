@@ -260,7 +260,7 @@ pub(crate) mod seconds {
 
 // Traits of parts that are made of another part of the same kind.
 
-/// Methods that a part answers by asking another one: `forward! { place; signatures }`, the place
+/// Methods that a part implements by calling those of another one: `forward! { place; signatures }`, the place
 /// and the signatures as they would stand in the `impl` block.
 ///
 /// `tests/plugin/forwarding` finds any method that a list of signatures has forgotten.

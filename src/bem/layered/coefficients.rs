@@ -1,4 +1,4 @@
-//! Step coefficients of a layered ground by Runge–Kutta convolution quadrature.
+//! Convolution weights of a layered ground by Runge–Kutta convolution quadrature.
 //!
 //! The mobility Y(s) = s F(s) is discretised with the traction held constant over all stages of a step
 //! and the stage velocities averaged with the weights b,
@@ -222,7 +222,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             // The ends of the circle are real.
             [input[0].im, input[length / 2].im] = [0.0; 2];
             transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
-                |_| Error::Singular { matrix: "spectrum of step coefficients", order: length },
+                |_| Error::Singular { matrix: "spectrum of convolution weights", order: length },
             )?;
             let lags = output[first..].iter().zip(&growth);
             values.push(lags.map(|(value, scale)| value * scale).collect());

@@ -39,7 +39,7 @@ const LOOKED_AT: usize = 16;
 /// Halving makes no integral so many times as long as its panels, as a rule.
 pub(in crate::bem) const MOST_HALVING: f64 = 50.0;
 
-/// Cost of step coefficients before the first step: by counting, not by a clock, so that it is the same
+/// Cost of convolution weights before the first step: by counting, not by a clock, so that it is the same
 /// everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

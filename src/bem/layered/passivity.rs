@@ -1,4 +1,4 @@
-//! Whether the step coefficients of a layered ground can give energy away.
+//! Whether the convolution weights of a layered ground can give energy away.
 
 use realfft::num_complex::Complex64;
 

@@ -33,7 +33,7 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Scratch of one thread.
     type Workspace: Default;
 
-    /// Errors of late step coefficients, summed, over the 2/3 power of the tolerance and the sum of all coefficients.
+    /// Errors of late convolution weights, summed, over the 2/3 power of the tolerance and the sum of all coefficients.
     const LATE_ERROR: f64 = 0.0;
 
     /// Makes what all compliances share, unless it is there.

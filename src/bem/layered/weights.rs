@@ -141,7 +141,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
             let counts = outlook.iter().flat_map(Outlook::counts);
             expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);
             let total = passivity::POINTS + expected.iter().sum::<usize>();
-            watch = Watch::new("step coefficients of layered ground", total, observer);
+            watch = Watch::new("convolution weights of layered ground", total, observer);
         }
         let fingerprint = self.admit(0..last + 1, outlook.as_ref(), &mut watch)?;
         let complete = self.kept.missing(0..last + 1).is_empty();

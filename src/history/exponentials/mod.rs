@@ -31,7 +31,7 @@ const ATTEMPTS: usize = 10;
 
 /// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
 ///
-/// The step coefficients of the lags 2 to W are used as they are, by the blocks of
+/// The convolution weights of the lags 2 to W are used as they are, by the blocks of
 /// [`RelaxedFftHistory`](super::RelaxedFftHistory) up to length W; later ones are sums of decaying
 /// exponentials with a common set of poles, carried by a few functions over the patch. What is
 /// kept of all tractions before the last 2W are a few hundred numbers, however many steps there were.

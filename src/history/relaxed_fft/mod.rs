@@ -212,7 +212,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn reserve_observed(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let mut watch = Watch::new("spectra of step coefficients", PARTS, observer);
+        let mut watch = Watch::new("spectra of convolution weights", PARTS, observer);
         self.grow(self.hinted(steps), &mut watch)?;
         watch.reach(PARTS)
     }
