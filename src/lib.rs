@@ -164,7 +164,7 @@
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
-//! | soil that knows its convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
+//! | soil that has convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
 //! | damping law of a soil | [`soil::Relaxation`] | 1 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |

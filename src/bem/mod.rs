@@ -122,7 +122,7 @@ pub trait Ground: Any + Send {
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
-    /// Speed of shear waves in it, m/s, which tells what elements resolve; `None` (the default) for
+    /// Speed of shear waves in the soil, m/s, which decides what elements resolve; `None` (the default) for
     /// a ground without waves.
     fn shear_wave_speed(&self) -> Option<f64> {
         None
@@ -208,7 +208,7 @@ pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     Patch::new(ground.directions(), elements, depths, inside)
 }
 
-/// A soil that knows its convolution weights and its static compliance: all that
+/// A soil that has convolution weights and a static compliance: all that
 /// [`WeightsGround`] needs.
 pub trait WeightsSource: Any + Send {
     /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`

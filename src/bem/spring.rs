@@ -1,4 +1,4 @@
-//! Winkler's spring bed: a ground without memory.
+//! Winkler's spring bed: a ground without history.
 
 use super::plan::Plan;
 use super::{Grading, Ground, NOT_PREPARED, Strip};
@@ -26,9 +26,9 @@ pub struct SpringGround {
     elements: Vec<ContactElement>,
     /// Front and back end of each along y, m, in plan.
     depths: Option<Vec<[f64; 2]>>,
-    /// Down, along x and in plan along y, Pa/m.
+    /// Stiffness downwards, along x and in plan along y, Pa/m.
     stiffness: [f64; SPACE],
-    /// Down, along x and in plan along y, Pa·s/m.
+    /// Dashpots downwards, along x and in plan along y, Pa·s/m.
     dashpot: [f64; SPACE],
     theta: f64,
     time_step: f64,

@@ -273,7 +273,7 @@ impl Overlap {
 /// their segments of w.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Covered {
-    /// Both limits lie in the same segment.
+    /// Whether both limits lie in the same segment.
     same: bool,
     span: f64,
     begin: f64,

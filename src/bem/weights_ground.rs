@@ -1,4 +1,4 @@
-//! A ground made of coefficients.
+//! Grounds made of convolution weights.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::history::{
     HistoryOptions, SavedChoice,
 };
 
-/// Any soil that knows its convolution weights and its static compliance, as a ground.
+/// Any soil that has convolution weights and a static compliance, as a ground.
 ///
 /// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
 /// [`WeightsSource`] and its [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels
@@ -193,7 +193,7 @@ impl WeightsGround {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
-    /// Before the first step, with a history where none is to be chosen.
+    /// Prepares the ground before the first step, with a history where none is to be chosen.
     fn begin(&self, kernel: Arc<dyn ConvolutionWeights>) -> Result<Prepared> {
         let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
         let mut prepared = Prepared { kernel, history };

@@ -53,9 +53,9 @@ pub enum SearchMethod {
     GaussSeidel,
     /// The solution was followed from a known one, or found among all sets of modes.
     Path,
-    /// In plan: Newton's method was needed.
+    /// Newton's method, in plan.
     Newton,
-    /// In plan: the proximal point method was needed.
+    /// Proximal point method, in plan.
     Proximal,
 }
 
@@ -122,9 +122,9 @@ pub struct ContactProblem {
     solver: ContactSolver,
     search: ModeSearch,
     modes: Vec<Mode>,
-    /// Where the memory of each element's law ends; empty if no law has any.
+    /// Ends of the state variables of each element's law; empty if no law has any.
     memory_ends: Vec<usize>,
-    /// Memories at the end of a step, until they are committed.
+    /// State variables at the end of a step, until they are committed.
     memory: Vec<f64>,
     steps: usize,
 }
@@ -165,11 +165,11 @@ short_debug! {
 
 impl ContactSolution<'_> {
     /// Accepts the step: moves `start`, from which it was solved, to the start of the next one, and
-    /// has the laws commit it to their memories. A step that is to be solved anew is not committed.
+    /// has the laws commit it to their state variables. A step that is to be solved anew is not committed.
     ///
     /// # Errors
-    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a law remembers a number
-    /// that is not finite; `start` is then as it was.
+    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a state variable of a
+    /// law is not finite; `start` is then as it was.
     pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
         check_start(start, self.states.len(), self.memory_ends)?;
         let Self { laws, states, modes, memory, step, time, .. } = self;
@@ -188,7 +188,7 @@ impl ContactProblem {
     /// # Errors
     /// [`Error::Size`] unless the operator is that of one element or more and the laws fit,
     /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
-    /// laws that remember more than ten million numbers.
+    /// laws that keep more than ten million state variables.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
         let count = delassus.len().isqrt() / PLANE;
         let layout = ContactLayout::new(PLANE, count);
@@ -240,7 +240,7 @@ impl ContactProblem {
     /// `memory` is empty gets what its law begins with.
     ///
     /// # Errors
-    /// [`Error::Size`] for a list or a memory of another length, [`Error::Input`] for time steps that
+    /// [`Error::Size`] for a list or state variables of another length, [`Error::Input`] for time steps that
     /// are not above zero or not all the same, and for numbers that are not finite;
     /// [`Error::Law`] if these are a law's.
     pub fn start(&self, elements: &[PreviousContact<'_>]) -> Result<PreviousContacts> {
@@ -308,7 +308,7 @@ impl ContactProblem {
     }
 }
 
-/// Whether a start is that of `count` elements whose memories end where those of the laws do.
+/// Whether a start is that of `count` elements whose state variables end where those of the laws do.
 fn check_start(start: &PreviousContacts, count: usize, memory_ends: &[usize]) -> Result<()> {
     same_length("starts of the step", start.len(), count)?;
     if start.memory_ends() == memory_ends {

@@ -42,7 +42,7 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) start: &'a PreviousContacts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
-    /// Largest displacement that went into j₀: its rounding is the finest gap that can be told.
+    /// Largest displacement that went into j₀: its rounding is the finest gap that can be distinguished.
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
@@ -96,7 +96,7 @@ impl ContactInput<'_> {
         Ok(pair)
     }
 
-    /// The mode that its law wants next, which must be one of its own.
+    /// Mode that the element's law gives next, which must be one of its own.
     pub(super) fn next_mode(
         &self,
         element: usize,

@@ -17,7 +17,7 @@ enum Side {
     Beside,
 }
 
-/// From rows in the order of columns: the terms as an enum, and the energy balance that holds them.
+/// Declares the terms as an enum, and the energy balance that holds them, from rows in the order of columns.
 macro_rules! energies {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $side:ident, $name:literal;)+) => {
         /// A term of the [`EnergyBalance`].
@@ -74,10 +74,10 @@ macro_rules! energies {
 }
 
 energies! {
-    /// ½ v·M v.
+    /// Kinetic energy ½ v·M v.
     Kinetic kinetic, Balance, "kinetic and strain";
-    /// ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
-    /// does not tell stored from dissipated energy.
+    /// Strain energy ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
+    /// does not separate stored from dissipated energy.
     Strain strain, Balance, "kinetic and strain";
     /// Heat of hysteretic parts of the structure
     /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less

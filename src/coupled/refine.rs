@@ -228,7 +228,7 @@ const HALVINGS: usize = 10;
 /// `make` builds runs for `duration` (s) without [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`];
 /// `None` if the tenth halving fails, too.
 ///
-/// A simulation cannot change its step: the soil's coefficients and its memory belong to one. So
+/// A simulation cannot change its step: the soil's convolution weights and its history belong to one. So
 /// this runs whole simulations, each twice as long as the one before. Give the time of the failed step
 /// as `duration`.
 ///

@@ -215,7 +215,7 @@ impl Simulation {
         Ok(self.end_run(run))
     }
 
-    /// An empty run that begins at the present state, for a loop of one's own: with
+    /// Empty run that begins at the present state, for a loop of your own: with
     /// [`Run::record`] after every step and [`Simulation::end_run`] it becomes what
     /// [`Simulation::run`] returns. As an observer it spans several calls of that.
     ///

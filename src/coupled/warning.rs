@@ -62,7 +62,7 @@ pub enum Warning {
         /// Time step that resolves the motion, s.
         needed: f64,
         /// Estimated error of the largest base shear, relative, from frequencies alone: half the true
-        /// one or more in nine cases of ten. Half the time step tells it.
+        /// one or more in nine cases of ten. A run with half the time step shows it.
         error: f64,
     },
     /// The ground moves faster than the time step resolves, and the base shear with it.
@@ -188,7 +188,7 @@ impl Warning {
         period: f64,
     ) -> Vec<Self> {
         let mut warnings: Vec<_> = Self::of_soils(&ground.soils()).collect();
-        // A model not to scale has been told so.
+        // A model not to scale has its own warning.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }

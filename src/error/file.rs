@@ -11,7 +11,7 @@ pub enum RecordError {
     /// The file could not be read.
     #[error("cannot be read: {0}")]
     Unreadable(std::io::ErrorKind),
-    /// There are too few samples.
+    /// Too few samples.
     #[error("{found} samples, at least {needed} needed")]
     TooShort {
         /// Samples found.
@@ -99,7 +99,7 @@ pub enum RecordError {
         /// The file's own description of its numbers, cut to 60 characters.
         text: String,
     },
-    /// There is no channel of this number.
+    /// No channel of this number.
     #[error("{found} channels, but channel {needed} was asked for (they count from 1)")]
     Channel {
         /// Channels found.
@@ -255,7 +255,7 @@ pub enum MatrixFileError {
         /// Column, from 1.
         column: usize,
     },
-    /// There are fewer or more entries than the size line says.
+    /// Fewer or more entries than the size line says.
     #[error("entry {found} of {needed}: the size line and the entries do not agree")]
     Entries {
         /// Entries found.

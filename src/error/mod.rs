@@ -94,7 +94,7 @@ pub enum Error {
     /// A name that nothing has.
     #[error("there is no {quantity} called '{name}'{}", names(.known))]
     Name {
-        /// Item looked for.
+        /// Item that was sought.
         quantity: &'static str,
         /// The name that was given.
         name: String,

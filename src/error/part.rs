@@ -70,7 +70,7 @@ pub enum LawError {
         /// Value of the quantity.
         value: f64,
     },
-    /// A number that is not finite, for a reason that the law knows
+    /// A number that is not finite, for a reason that the law gives
     /// ([`InterfaceLaw::check_start`](crate::interface::InterfaceLaw::check_start)).
     #[error("interface law of element {element}, mode {mode}: {reason}")]
     Refused {

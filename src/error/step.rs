@@ -1,4 +1,4 @@
-//! Errors of a run: steps that fail, checkpoints that cannot be taken up.
+//! Errors of a run: steps that fail, checkpoints that cannot be resumed.
 
 use super::{Error, LawError, not_finite};
 

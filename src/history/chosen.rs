@@ -184,7 +184,7 @@ impl ConvolutionHistory for ChosenHistory {
         fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
     }
 
-    /// Only for steps that it is kept for.
+    /// Reserves memory, only for the steps for which the history is kept.
     fn reserve(&mut self, steps: usize) -> Result<()> {
         let ready = self.ready(steps)?;
         self.any_mut().reserve(ready)
@@ -277,7 +277,7 @@ impl HistoryOptions {
         kernel: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<(Kept, HistoryChoice)> {
-        // No run lasts so long: an observer is meant to stop it, nobody knows when.
+        // No run lasts so long: an observer is meant to stop it at an unknown time.
         let steps = steps.filter(|steps| *steps < LONGEST);
         let expected = steps.unwrap_or(UNKNOWN_STEPS);
         let estimate = |kind| Estimate::new(kind, &**kernel, expected);

@@ -24,7 +24,7 @@ pub enum UnilateralCondition {
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
 /// Signorini's conditions normal to the base, |τ| ≤ friction · p along it, slip in the direction
-/// of the shear traction. Infinite friction is "uplift only", zero friction a smooth base. For a
+/// of the shear traction. Infinite friction is "uplift only", zero friction a frictionless base. For a
 /// coefficient that changes there is [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
@@ -218,7 +218,7 @@ impl InterfaceLaw for Coulomb {
 type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
 /// [`Coulomb`]'s law with a friction coefficient for each step: of the speed of sliding, of the
-/// way slid, of the pressure, whatever [`PreviousContact`] knows.
+/// way slid, of the pressure, whatever [`PreviousContact`] holds.
 ///
 /// The coefficient is that of the start of the step, so that it cannot change while the modes of
 /// the step are searched for, and what it depends on lags by a step.

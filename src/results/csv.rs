@@ -154,7 +154,7 @@ pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contac
 /// A number of an element after a step.
 type Number = fn(&ContactState) -> f64;
 
-/// Motion frames.
+/// Columns of motion frames.
 pub(super) const MOTION: [&str; 5] = [
     "motion_time_s",
     "motion_displacement",

@@ -316,7 +316,7 @@ pub(super) struct MotionFrames {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     free_field: Vec<[f64; 2]>,
-    /// One for each frame.
+    /// Mean displacement of the free field along y, m, one for each frame; none if the file that was read has none.
     #[cfg_attr(feature = "serde", serde(default))]
     free_field_across: Vec<f64>,
 }

@@ -49,7 +49,7 @@ const MARGIN: f64 = 1.8;
 const WORST: f64 = 0.15;
 
 impl GeneralizedMaxwell {
-    /// Body with the long-term modulus ratio m, the shares yᵢ and the relaxation rates ωᵢ (1/s).
+    /// Body with the long-term modulus ratio m, the fractions yᵢ and the relaxation rates ωᵢ (1/s).
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless m and all ωᵢ are positive and no yᵢ is negative;

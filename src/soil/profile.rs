@@ -8,7 +8,7 @@ use super::relaxation::{Elastic, Relaxation};
 use crate::error::{LayeredError, Result, SiteError, at_least, positive, require};
 use crate::linalg::Complex;
 
-/// One layer: an elastic soil, its thickness and its damping.
+/// Layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

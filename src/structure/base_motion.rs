@@ -15,8 +15,8 @@ impl DofCombination {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
     /// [`Error::Input`](crate::Error::Input) for contact nodes at one place, [`Error::Scene`](crate::Error::Scene)
-    /// in plan: a row does not tell x from y, so a displacement of [`DofCombination::of_base`] is to be taken from
-    /// it.
+    /// in plan: a row does not distinguish x from y, so a displacement of [`DofCombination::of_base`] is to be taken
+    /// from it.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         let [translation, _, _] = in_the_plane(structure, 0.0)?;
         Ok(self.clone() - translation)

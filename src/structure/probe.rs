@@ -1,4 +1,4 @@
-//! Quantities that are read off at every step.
+//! Quantities recorded at every step.
 
 use crate::error::{Error, Result};
 use crate::structure::{DofCombination, SectionRows};

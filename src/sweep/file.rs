@@ -1,4 +1,4 @@
-//! Files of cases, read so that nothing is mistaken.
+//! Files of cases, read so that a damaged row is never taken for a whole one.
 
 use std::path::Path;
 

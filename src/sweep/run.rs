@@ -118,7 +118,7 @@ impl<'a> Sweep<'a> {
         Self { grid: Arc::new(grid), first: 0, stride: NonZeroUsize::MIN, progress }
     }
 
-    /// Only every `of`-th case, from case `index` on: share `index` of `of` equal ones, from 0. Cases keep their
+    /// Keeps every `of`-th case only, from case `index` on: part `index` of `of` equal ones, from 0. Cases keep their
     /// numbers. A shard may be cut into shards again.
     ///
     /// # Errors

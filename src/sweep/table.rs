@@ -20,7 +20,7 @@ use crate::text::table::{LONGEST_LINE, Table, in_columns};
 pub struct CaseTable {
     pub(super) grid: Arc<Grid>,
     pub(super) columns: Vec<String>,
-    /// Ascending by case.
+    /// Rows, ascending by case.
     pub(super) rows: Vec<Row>,
 }
 

@@ -20,7 +20,7 @@ pub(crate) const LONGEST_LINE: usize = 99;
 /// Characters of the first column and of others that are repeated, at most, in a table that breaks.
 const WIDEST_NAME: usize = 47;
 const WIDEST_REPEATED: usize = 20;
-/// Between columns.
+/// Blanks between columns.
 const GAP: usize = 2;
 
 /// A heading and rows of cells; the first column holds names.
@@ -66,7 +66,7 @@ impl Table {
         blocks.iter().map(|block| self.block(block, &widths)).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// Some of the columns.
+    /// Block of a table with some of its columns.
     fn block(&self, columns: &[usize], widths: &[usize]) -> String {
         let line = |row: &Vec<String>| {
             let cells = columns.iter().filter_map(|&k| Some((k, row.get(k)?, widths[k])));

@@ -82,12 +82,12 @@ macro_rules! words_with_numbers {
     };
 }
 
-/// In lower case, without blanks around, underscores for spaces and hyphens.
+/// Converts to lower case, without blanks around, with underscores for spaces and hyphens.
 pub(crate) fn plain(text: &str) -> String {
     text.trim().to_lowercase().replace([' ', '-'], "_")
 }
 
-/// The refusal of a word.
+/// Error of a word that does not exist.
 pub(crate) fn unknown(quantity: &'static str, text: &str, known: &'static [&'static str]) -> Error {
     Error::Word { quantity, text: excerpt(text), known }
 }

@@ -394,7 +394,7 @@ class ThinLayer(InterfaceLaw):
     stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_share``: when
     it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
     step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
-    ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
+    ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
     default), "velocity" or "last velocity" (of this step or the one before).
     """
 
@@ -947,7 +947,7 @@ class Summary:
         """
     @property
     def ends(self) -> list[float]:
-        """x of its two ends, m."""
+        """x of the foundation's two ends, m."""
     @property
     def depth(self) -> list[float]:
         """In plan: y of its front and its back, m; zeros in the plane."""
@@ -974,10 +974,10 @@ class Summary:
         """Time with uplift, s."""
     @property
     def mean_slip(self) -> Extremes:
-        """Slip averaged over it, m: its :class:`Extremes`."""
+        """Slip averaged over the foundation, m: its :class:`Extremes`."""
     @property
     def residual_slip(self) -> float:
-        """Slip averaged over it at the end, m."""
+        """Slip averaged over the foundation at the end, m."""
     @property
     def largest_slip(self) -> Peak:
         """Largest slip of any element, m: its :class:`Peak`."""
@@ -997,7 +997,7 @@ class Summary:
         """
     @property
     def residual_slip_across(self) -> float:
-        """In plan: slip along y averaged over it at the end, m."""
+        """In plan: slip along y averaged over the foundation at the end, m."""
 
 @final
 class ServiceCheck:
@@ -1386,7 +1386,7 @@ class Checkpoint:
     def __new__(cls, data: bytes) -> Self: ...
     @property
     def steps(self) -> int:
-        """Steps made before it."""
+        """Steps made before the checkpoint."""
     def to_bytes(self) -> bytes:
         """All of it as bytes, for a file."""
     def __getnewargs__(self) -> tuple[bytes]: ...
@@ -1593,7 +1593,7 @@ class Load:
 
 @final
 class TimeScheme:
-    """A time scheme of the structure: the midpoint rule unless told otherwise."""
+    """A time scheme of the structure: the midpoint rule unless given."""
 
     @staticmethod
     def midpoint() -> TimeScheme:
@@ -1741,10 +1741,10 @@ class FoundationState:
         """Ratio of its open length to its length, in plan of areas."""
     @property
     def mean_slip(self) -> float:
-        """Slip averaged over it, m."""
+        """Slip averaged over the foundation, m."""
     @property
     def rotation(self) -> float:
-        """Rotation of its chord, rad."""
+        """Rotation of the foundation's chord, rad."""
     @property
     def shear_across(self) -> float:
         """In plan: force on the soil along y, positive away, N."""
@@ -1756,7 +1756,7 @@ class FoundationState:
         """In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m."""
     @property
     def mean_slip_across(self) -> float:
-        """In plan: slip along y averaged over it, m."""
+        """In plan: slip along y averaged over the foundation, m."""
     @property
     def rotation_across(self) -> float:
         """In plan: rotation about x, rad."""
@@ -2593,7 +2593,7 @@ class Tolerance:
 
 @final
 class PreviousContact(ContactState):
-    """An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
+    """An element at the start of a step: its :class:`ContactState`, and the rest of its past.
 
     A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
     its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state

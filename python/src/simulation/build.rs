@@ -1,4 +1,4 @@
-//! From Python's arguments to a simulation of the core.
+//! Conversion of Python's arguments to a simulation of the core.
 
 use basemat::Simulation;
 use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};

@@ -69,7 +69,7 @@ members! {
 #[pyclass(name = "Mesh", module = "basemat", dict)]
 pub(crate) struct PyMesh(pub(super) Mesh);
 
-/// One number for all elements, or one each.
+/// Number for all elements, or one each.
 struct PerElement(Vec<f64>);
 
 extracts!(PerElement, object => match object.extract::<f64>() {

@@ -253,7 +253,7 @@ pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
 /// also mirror images.
 #[derive(Debug, Clone)]
 pub(super) struct PairClasses {
-    /// One (receiver, source) per class.
+    /// Representative (receiver, source) of each class.
     pub(super) classes: Vec<(usize, usize)>,
     /// Per class, how its element looks from the midpoint: which of `views`.
     view_of: Vec<usize>,

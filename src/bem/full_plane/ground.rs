@@ -34,7 +34,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// with the base uplifted and bonded, and ends with [`Error::Unstable`] if perturbations grow by
 /// more than 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of
 /// a thousand factorisations of complex matrices of order 2E, ten times that if modes grow: with
-/// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is paid for once per step
+/// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is computed once per step
 /// size, and [`FullPlaneGround::skip_assessment`] saves it.
 ///
 /// ```
@@ -58,7 +58,7 @@ pub struct FullPlaneGround {
     make_kernel: Box<MakeKernel>,
     incident: Option<Box<dyn IncidentField>>,
     assessment: Assessment,
-    /// Growth per step that is looked for.
+    /// Growth per step that is searched for.
     smallest_growth: f64,
     /// The assessment, and the time step that it is for.
     stability: Option<(f64, GroundStability)>,
@@ -83,12 +83,12 @@ enum Assessment {
     Required,
     /// Growth is reported.
     Reported,
-    /// Nothing is assessed.
+    /// Stability is not assessed.
     Skipped,
 }
 
 impl FullPlaneGround {
-    /// One strip over `range` (m) of `count` equal elements on a flat surface, with `free`
+    /// Ground of one strip over `range` (m) of `count` equal elements on a flat surface, with `free`
     /// traction-free elements of the same length on either side (the paper has 5).
     ///
     /// # Errors
@@ -275,7 +275,7 @@ impl Ground for FullPlaneGround {
         }
     }
 
-    /// Not symmetric.
+    /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let size = ContactLayout::new(PLANE, self.boundary.contact().len()).square();
@@ -307,8 +307,8 @@ impl Ground for FullPlaneGround {
         }
     }
 
-    /// On a flat boundary that of the half-plane, whose free surface has no end; otherwise from the
-    /// static limit of the same boundary equation (not symmetric).
+    /// Overwrites `matrix` with the static compliance: on a flat boundary that of the half-plane, whose free surface
+    /// has no end; otherwise from the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
         let size = ContactLayout::new(PLANE, elements.len()).square();

@@ -129,10 +129,10 @@ impl LaplacePlane {
 /// Complex number of double precision.
 pub(super) type Complex64 = Complex<f64>;
 
-/// Up to this |z| the series has all digits: it loses the factor I₀/|K₀|, below 20.
+/// Largest |z| at which the series has all digits: it loses the factor I₀/|K₀|, below 20.
 pub(super) const SERIES_REACH: f64 = 2.0;
 
-/// Beyond this real part, K is below 1e-30 and counts as zero.
+/// Real part beyond which K is below 1e-30 and counts as zero.
 const NOTHING: f64 = 70.0;
 
 /// Terms of the series: (q^k/k!²) below 1e-17 at |z| = 2.

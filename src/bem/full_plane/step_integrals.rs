@@ -52,7 +52,7 @@ pub(super) struct Medium {
     pub(super) lame: f64,
 }
 
-/// One wave at one end of the element.
+/// Front of a wave at one end of the element.
 #[derive(Clone, Copy)]
 struct Front {
     /// Whether the wave has passed the point of the element's line that is nearest to the load.

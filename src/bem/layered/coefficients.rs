@@ -81,7 +81,7 @@ impl Block {
     }
 }
 
-/// Samples of a block, as its observer hears of them.
+/// Samples of a block, as reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
     watch: &'w mut Watch<'a>,
     /// Expected numbers of samples up to the blocks before and up to the end of this block.
@@ -95,7 +95,7 @@ impl<'w, 'a> Samples<'w, 'a> {
         Self { watch, expected, done: 0 }
     }
 
-    /// Tells of so many more.
+    /// Reports so many more samples to the observer.
     fn reach(&mut self, more: usize) -> Result<()> {
         let done = self.expected.start + self.done + more;
         self.watch.reach(done.min(self.expected.end))
@@ -117,7 +117,7 @@ pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> 
     pub(crate) time_step: f64,
     /// Relative accuracy of F.
     pub(crate) tolerance: f64,
-    /// Of each eigenvalue.
+    /// Panels of each eigenvalue.
     pub(crate) panels: Vec<Panels>,
 }
 
@@ -169,7 +169,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         self.stages.nodes(z, rest)
     }
 
-    /// Adds the share of one of them to the mobility.
+    /// Adds the contribution of one sample to the mobility.
     pub(super) fn add(
         &self,
         node: Node,
@@ -324,7 +324,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(())
     }
 
-    /// The share of an eigenvalue in the mobility at each ln |z| and angle, class by class.
+    /// Contribution of an eigenvalue to the mobility at each ln |z| and angle, class by class.
     fn shares(
         &self,
         node: usize,

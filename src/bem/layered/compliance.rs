@@ -33,11 +33,11 @@ use crate::soil::{Base, SoilProfile};
 /// C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Surface {
-    /// To the right due to shear.
+    /// Displacement to the right due to shear.
     pub(crate) xx: Complex,
-    /// Down due to pressure.
+    /// Displacement downwards due to pressure.
     pub(crate) zz: Complex,
-    /// To the right due to pressure, and down due to shear.
+    /// Displacement to the right due to pressure, and downwards due to shear.
     pub(crate) xz: Complex,
 }
 

@@ -38,7 +38,7 @@ pub(crate) type FormRow = [[f64; LANES]; 2];
 pub(crate) struct PairShape {
     /// Lengths of source and receiver, m.
     pub(crate) lengths: [f64; 2],
-    /// From the source's centre to the receiver's, m.
+    /// Distance from the source's centre to the receiver's, m, positive to the right.
     pub(crate) offset: f64,
 }
 

@@ -111,7 +111,7 @@ impl ElasticGround {
     /// # Errors
     /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not finite, or 0 on
     /// a half-plane, whose static stiffness is 0; [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without
-    /// damping at a frequency at which guided waves begin; [`Error::Singular`] if the elements cannot be told apart.
+    /// damping at a frequency at which guided waves begin; [`Error::Singular`] if the elements cannot be distinguished.
     pub fn impedances(
         &self,
         frequencies: &[f64],
@@ -192,7 +192,7 @@ pub(in crate::bem) fn points(
 }
 
 /// K(iω) from its samples `at` the [`points`] of each frequency. Entries `judged` must agree between all samples and
-/// all but the last; `watch` hears of each sample.
+/// all but the last; `watch` is notified of each sample.
 ///
 /// # Errors
 /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they do not; as for `at`.

@@ -23,7 +23,7 @@ pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     pub(in crate::bem) classes: PairClasses,
     /// Elements that pass the gate in place of all.
     sample: Option<PairClasses>,
-    /// Numbers that tell the mesh from others.
+    /// Numbers that distinguish the mesh from others.
     mesh: Vec<f64>,
     kept: KeptBlocks,
     spectra: SharedSpectra,
@@ -127,7 +127,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
-    /// Computes the blocks of lags up to `lags`; without an observer, nobody counts beforehand.
+    /// Computes the blocks of lags up to `lags`; without an observer, nothing is counted beforehand.
     fn compute(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let last = last_block(lags.max(1))?;
         let missing = self.kept.missing(0..last + 1);

@@ -146,7 +146,8 @@ impl Plan {
 
     /// Unites the cells to contact elements that are rectangles of cells: `along` are the numbers of columns, `across`
     /// those of rows, which sum up to all of them. The ground stays that of the cells. Sixteen cells by
-    /// 1, 2, 2, 3, 3, 2, 2, 1 along each axis are as good for a rigid mat as all of them, with a quarter of the elements.
+    /// 1, 2, 2, 3, 3, 2, 2, 1 along each axis are as good for a rigid mat as all of them, with a quarter of the
+    /// elements.
     ///
     /// ```
     /// use basemat::bem::plan::Plan;

@@ -14,7 +14,7 @@ const ITERATIONS: usize = 15;
 const WANDERED: usize = 60;
 const LEAST: f64 = 0.2;
 
-/// Newton's method, with its memory.
+/// Newton's method, with its scratch.
 pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
     system: System,

@@ -31,23 +31,23 @@ pub(super) struct Status {
     pub(super) tangential: Tangential,
 }
 
-/// Along the normal.
+/// Status along the normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Normal {
-    /// Nothing presses, or the bond is at its strength.
+    /// No pressure, or a bond at its strength.
     Open,
     Closed,
     /// The pressure is at its cap.
     Capped,
 }
 
-/// Along the base.
+/// Status along the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Tangential {
-    /// There is no friction.
+    /// No friction.
     Free,
     Stick,
-    /// In this direction, with κ and the growth of the radius with p.
+    /// Slip in this direction, with κ and the growth of the radius with p.
     Slip {
         direction: [f64; 2],
         turn: f64,
@@ -205,7 +205,8 @@ impl System {
         problem.change.iter().all(|change| change.is_finite())
     }
 
-    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. It is made once it would have paid for itself.
+    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. W⁻¹ is made once it would have saved its own
+    /// cost.
     fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
         let dofs = statuses.iter().map(Status::dofs);
         let [forces, motions] = dofs.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);

@@ -211,7 +211,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
     found
 }
 
-/// By all methods.
+/// Solves the problem by all methods.
 fn solve(problem: &mut Problem) -> bool {
     let count = problem.count;
     let (mut newton, mut proximal) = (Newton::new(count), Proximal::new(count));

@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-9;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GravityStage {
-    /// The base is placed without friction and without adhesion, and sticks from then on. What
+    /// The base is placed without friction and without cohesion, and sticks from then on. What
     /// does not touch under weight alone starts open. Where no element's law ever opens, the base
     /// is bonded from the start.
     #[default]
@@ -152,7 +152,7 @@ impl SimulationBuilder {
 /// All parts of a simulation, and what follows from the ground and the time scheme by themselves.
 pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
-    /// Ready for steps.
+    /// The ground, prepared for steps.
     pub(crate) ground: Box<dyn Ground>,
     /// The builder, whose structure and ground have gone to the fields above.
     pub(crate) given: SimulationBuilder,

@@ -17,7 +17,7 @@ const SURELY_FREE: f64 = f64::EPSILON;
 const FIRM: f64 = 1e-6;
 /// Share of the largest displacement from which on a degree of freedom takes part in a mechanism.
 const TAKES_PART: f64 = 0.1;
-/// Independent mechanisms that are told, at most.
+/// Independent mechanisms that are reported, at most.
 const MOST_MOTIONS: usize = 32;
 /// Passes of inverse iteration for each.
 const ITERATIONS: usize = 3;

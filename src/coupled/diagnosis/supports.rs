@@ -10,7 +10,7 @@
 //! structure. Where the force is no longer large beside the largest stiffness (a weak support, or
 //! one on top of a slender tower), K s is the sharper test: row by row it compares the support with
 //! the stiffness around it. What is left there in a free structure is the rounding of the entries.
-//! Measured on walls of quadrilaterals, as shares of the row, with the largest |r − s|:
+//! Measured on walls of quadrilaterals, as fractions of the row, with the largest |r − s|:
 //!
 //! | | row | r − s |
 //! |---|---|---|

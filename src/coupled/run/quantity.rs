@@ -26,7 +26,7 @@ struct Row {
 /// Scale by which a quantity is drawn and printed.
 #[derive(Clone, Copy, PartialEq)]
 enum Scale {
-    /// In the unit of engineers.
+    /// Scale of the engineer's unit.
     Unit,
     /// A ratio, in percent.
     Percent,
@@ -49,7 +49,7 @@ pub(crate) enum Place {
     ComparisonTime,
 }
 
-/// From rows in the order of columns: the enum, its table, and the summary of a run or a foundation.
+/// Declares the enum, its table, and the summary of a run or a foundation, from rows in the order of columns.
 macro_rules! quantities {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $name:literal, $unit:literal, $scale:expr, [$($place:ident),*],
         $value:expr;)+) => {
@@ -92,7 +92,7 @@ macro_rules! quantities {
             pub elements: Range<usize>,
             /// Left and right end of the foundation, m; in plan those of its outline.
             pub ends: [f64; 2],
-            /// In plan: its front and back end along y, m; zeros in the plane.
+            /// Front and back end of the foundation along y, m, in plan; zeros in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub depth: [f64; 2],
             /// Normal force at the start, of weight and loads, N/m.
@@ -100,7 +100,7 @@ macro_rules! quantities {
             $($(#[$doc])* pub $field: Extremes,)+
             /// Mean slip at the end, m.
             pub residual_slip: f64,
-            /// In plan: that along y, m; zero in the plane.
+            /// Mean slip along y at the end, m, in plan; zero in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub residual_slip_across: f64,
             /// Duration of uplift.
@@ -122,7 +122,7 @@ macro_rules! quantities {
         }
 
         impl Summary {
-            /// At the start of a run, of the whole base or of its foundation number `foundation`.
+            /// Summary at the start of a run, of the whole base or of its foundation number `foundation`.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
                 let extremes = |value: fn(&Base) -> f64| Extremes::of(value(&base), state.time);
@@ -189,7 +189,7 @@ quantities! {
         |base| base.state.free_field[1];
     /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
     /// flight, and throughout if an element's law has no friction coefficient and the builder was
-    /// told none ([`safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
+    /// given none ([`safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
     ///
     /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
     /// and never falls below. On a bonded base it may, and says what the interface would have lacked.

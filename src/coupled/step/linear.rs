@@ -160,7 +160,7 @@ impl LinearStep {
 // | 1/k_eff | reciprocals of the effective stiffness |
 // | u, v, a | coordinates at the beginning of the step |
 // | Δu, u₁, v₁, a₁ | increment, and coordinates at the end |
-// | R Δy, R ẏ | share of the free field's translation |
+// | R Δy, R ẏ | part of the free field's translation |
 //
 // The loops are functions of their own, since the compiler knows of an argument, and not of a
 // field, that nothing else points to what is written.

@@ -39,7 +39,7 @@ pub(crate) struct Forcing {
     pub(crate) translations: Vec<Translation>,
     /// R Δy, in stepped coordinates.
     pub(crate) carried: Vec<f64>,
-    /// R ẏ at v*, likewise; zero without damping.
+    /// R ẏ at v*, in stepped coordinates; zero without damping.
     pub(crate) dragged: Vec<f64>,
     dofs: Vec<f64>,
 }
@@ -135,9 +135,9 @@ pub(crate) struct StepData<'a> {
 pub(crate) struct Increment {
     /// Δu relative to the free field's translation, in stepped coordinates.
     pub(crate) displacement: Vec<f64>,
-    /// Displacement at the end of the step, relative likewise.
+    /// Displacement at the end of the step, relative to the free field's translation.
     pub(crate) end: Vec<f64>,
-    /// Total Δu, with the share R Δy of the free field's translation.
+    /// Total Δu, with the part R Δy of the free field's translation.
     pub(crate) total: Vec<f64>,
     /// Total velocity and acceleration at the end of the step.
     pub(crate) velocity: Vec<f64>,
@@ -152,7 +152,7 @@ pub(crate) struct Increment {
     pub(crate) modes: Vec<Mode>,
     /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
     pub(crate) compliance: Vec<[f64; 2]>,
-    /// Memory of the laws at the end.
+    /// State variables of the laws at the end.
     pub(crate) memory: Vec<f64>,
     /// Linear solves of the mode search, and how far it had to go.
     pub(crate) trials: usize,
@@ -210,8 +210,8 @@ impl Increment {
         SchemeCoefficients::combine(coefficients, total, velocity, acceleration, new_acceleration);
     }
 
-    /// Asks the laws for the compliance that the step after `state` ends with and what they
-    /// remember of it.
+    /// Asks the laws for the compliance that the step after `state` ends with, and for
+    /// their state variables.
     pub(crate) fn ask_laws(&mut self, scene: &Scene, state: &State) -> Result<(), LawError> {
         for (e, compliance) in self.compliance.iter_mut().enumerate() {
             *compliance = scene.compliance(e, self.modes[e], &state.start)?;

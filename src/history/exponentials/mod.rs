@@ -17,7 +17,7 @@ use crate::history::exponentials::passivity::{Cut, Lags};
 
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
-/// Most bytes that are taken, unless told otherwise.
+/// Most bytes that are taken, unless given otherwise.
 pub(super) const MEMORY: usize = 1 << 30;
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
@@ -55,7 +55,7 @@ const ATTEMPTS: usize = 10;
 ///
 /// The exact operator gives no energy away, and a fit that did could make a run unstable. When the
 /// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
-/// exponentials in closed form, is looked for. If it is negative, more poles are taken, closer
+/// exponentials in closed form, is computed. If it is negative, more poles are taken, closer
 /// together, until it is not; a fit that stays active is [`Error::NotPassive`]. The
 /// discrete operator has plenty to spare ([`ExponentialFit::passivity_margin`]): a tenth or
 /// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly

@@ -37,7 +37,7 @@ pub(super) struct Lattice {
     lengths: [usize; 2],
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Along y.
+    /// Transforms along y.
     across: [Arc<dyn Fft<f64>>; 2],
     /// Rows of cells.
     real: Vec<f64>,

@@ -9,7 +9,7 @@ use crate::structure::{FemModel, Structure, Triplets};
 const HELD: &str = "stiffness matrix with the contact nodes held";
 /// Forces left over by a solve, relative to the weight: more are those of a mechanism.
 const EQUILIBRIUM: f64 = 1e-6;
-/// Buckling is looked for up to this multiple of the axial forces.
+/// Multiple of the axial forces up to which buckling is searched for.
 const MOST: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
 const ACCURACY: f64 = 1e-9;
@@ -24,7 +24,7 @@ impl FemModel {
     /// Held is every degree of freedom that moves a contact node: a rigid basemat is clamped, a column that
     /// ends on a contact node is hinged there, as on the ground. A force given by
     /// [`Beam::with_compression`](crate::fem::Beam::with_compression) stays;
-    /// [`Element::compression`](crate::fem::Element::compression) tells what was found. Solids have no
+    /// [`Element::compression`](crate::fem::Element::compression) returns what was found. Solids have no
     /// geometric stiffness. The mass is that of the moment: call
     /// [`with_mass`](FemModel::with_mass) before. Rigid links may come later, and the forces are then
     /// found anew.

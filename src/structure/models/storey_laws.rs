@@ -24,7 +24,7 @@ impl ShearBuilding {
     /// Replaces the columns' stiffness of `storey` (0: the lowest) by `law`, which sees the storey's drift.
     ///
     /// Stiffness-proportional damping stays that of the stiffness in [`Storey`], however far the columns
-    /// yield. Where it shall not act in a yielding storey, leave
+    /// yield. Where it must not act in a yielding storey, leave
     /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping) out and give the others
     /// dashpots ([`Storey::damping`]) of ζ k/(π f₁).
     ///

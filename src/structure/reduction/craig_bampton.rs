@@ -68,7 +68,7 @@ pub struct ReducedModel {
     load: Mutex<FullLoad>,
 }
 
-/// The full model, which knows its loads, and room for them.
+/// Full model, which gives its loads, and scratch for them.
 struct FullLoad {
     structure: Box<dyn Structure>,
     values: Vec<f64>,
@@ -158,7 +158,7 @@ impl CraigBampton {
     }
 }
 
-/// Who is kept and who is not.
+/// Degrees of freedom that are kept, and the interior ones.
 struct Parts {
     kept: Vec<usize>,
     interior: Vec<usize>,
@@ -251,7 +251,7 @@ impl ReducedModel {
         self.frequencies.iter().map(|frequency| frequency / std::f64::consts::TAU).collect()
     }
 
-    /// The way back to the degrees of freedom of the full model. It can be cloned, and kept when the model
+    /// Recovery of the degrees of freedom of the full model. It can be cloned, and kept when the model
     /// has gone into a simulation.
     pub fn recovery(&self) -> Recovery {
         Recovery::new(Arc::clone(&self.basis))

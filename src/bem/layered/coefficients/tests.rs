@@ -17,7 +17,8 @@ fn block(quadrature: &Quadrature, number: usize, threads: usize) -> Block {
     quadrature.block(number, threads, Samples::new(&mut Watch::nobody(), 0..0)).unwrap()
 }
 
-/// At every seventh point of circles, relative to the own mobility of each pair's elements.
+/// Panels give what points give, at every seventh point of circles, relative to the own mobility of each pair's
+/// elements.
 #[test]
 fn panels_give_what_points_give() {
     for (name, profile) in [
@@ -60,7 +61,7 @@ fn panels_give_what_points_give() {
     }
 }
 
-/// By a quarter at least in short runs of undamped layers: few panels are sampled in vain.
+/// Panels take a quarter fewer samples at least in short runs of undamped layers: few are sampled in vain.
 #[test]
 fn panels_take_fewer_samples_than_points() {
     for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", p3(Elastic))] {
