@@ -120,8 +120,8 @@
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
-//! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any step coefficients |
-//! | [`bem::layered`] | step coefficients of layered ground, impedances of strips on it |
+//! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any convolution weights |
+//! | [`bem::layered`] | convolution weights of layered ground, impedances of strips on it |
 //! | [`bem::plan`] | mats in three dimensions: cells of a ground, impedances |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::SoilColumn`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
@@ -164,7 +164,7 @@
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
-//! | soil that knows its step coefficients | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
+//! | soil that has convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
 //! | damping law of a soil | [`soil::Relaxation`] | 1 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
@@ -231,7 +231,7 @@ struct Readme;
 #[doc = include_str!("../docs/tutorial.md")]
 struct Tutorial;
 
-/// And those of the guide.
+/// Runs the programs of the guide.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/guide.md")]
 struct Guide;

@@ -127,7 +127,7 @@ impl<'py> IntoPyObject<'py> for Rows {
     }
 }
 
-/// What Python gets as a dict, in this order.
+/// Pairs of keys and values that Python gets as a dict, in this order.
 pub(crate) struct Named<K, V>(pub(crate) Vec<(K, V)>);
 
 impl<K, V> FromIterator<(K, V)> for Named<K, V> {
@@ -231,7 +231,7 @@ pub(crate) fn memory_limit() -> u64 {
 }
 
 /// Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
-/// Sizes are held against it before anything is allocated, and refused with what they would take.
+/// Sizes are held against it before anything is allocated, and raise an error that says what they would take.
 #[pyfunction]
 pub(crate) fn set_memory_limit(#[pyo3(from_py_with = whole)] bytes: u64) {
     basemat::set_memory_limit(bytes);

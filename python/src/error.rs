@@ -34,7 +34,7 @@ pub(crate) fn has_raised() -> bool {
     RAISED.with_borrow(Option::is_some)
 }
 
-/// What user code says, or `otherwise` (which ends the step) if it raises.
+/// Result of user code, or `otherwise` (which ends the step) if it raises.
 pub(crate) fn asked<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
     Python::attach(ask).unwrap_or_else(|error| {
         keep(error);
@@ -70,7 +70,7 @@ pub(crate) fn refuse(text: impl Into<String>) -> PyErr {
     classes::InputError::new_err(text.into())
 }
 
-/// What a function of the user's returned, taken as a `T`; `name` is that of the function.
+/// Value returned by a function of the user's, extracted as a `T`; `name` is the function's name.
 pub(crate) fn returned<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,

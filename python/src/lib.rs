@@ -71,7 +71,7 @@ macro_rules! extends {
     };
 }
 
-/// How an `$object` of Python is taken as a `$type`.
+/// Implements the extraction of a `$type` from an `$object` of Python.
 macro_rules! extracts {
     ($type:ty, $object:ident => $value:expr) => {
         impl<'py> pyo3::FromPyObject<'_, 'py> for $type {

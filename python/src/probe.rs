@@ -16,7 +16,7 @@ use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
 pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) Order);
 
-/// With a label of the unit, if one is given.
+/// Sets the label of a probe's unit, if one is given.
 fn labelled(probe: Probe, order: Order, unit: Option<String>) -> PyProbe {
     let probe = match unit {
         Some(unit) => probe.in_unit(unit),
@@ -52,7 +52,7 @@ members! {
     #[pyo3(signature = (name, section, *, unit=None))]
     section(name: String, section: &PySectionRows, unit: Option<String>) =
         Ok(labelled(Probe::section(name, &section.0), section.1, unit));
-    /// Its name, that of its time series.
+    /// Name of the probe and of its time series.
     name: &str = &own.0.name;
     /// Label of its unit; values are what the weights make of SI units.
     unit: &str = &own.0.unit;

@@ -57,9 +57,9 @@ members! {
     #[pyo3(signature = (soil, thickness, damping=None))]
     new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) =
         Ok(Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) }));
-    /// Its :class:`Soil`.
+    /// :class:`Soil` of the layer.
     soil: PySoil = PySoil(own.0.soil);
-    /// Its thickness, m.
+    /// Thickness of the layer, m.
     thickness: f64 = own.0.thickness;
 }
 

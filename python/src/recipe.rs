@@ -23,7 +23,7 @@ impl<T> Clone for Shared<T> {
     }
 }
 
-/// Methods that the shared structure answers.
+/// Methods that are forwarded to the shared structure.
 macro_rules! forward {
     ($($name:ident($($argument:ident: $type:ty),*) -> $out:ty;)+) => {
         $(fn $name(&self $(, $argument: $type)*) -> $out {

@@ -43,7 +43,7 @@ pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) Order);
 pub(crate) struct Order(pub(crate) Option<usize>);
 
 impl Order {
-    /// That of two rows for one structure.
+    /// Order common to two rows for one structure.
     pub(crate) fn and(self, other: Self) -> PyResult<Self> {
         match (self.0, other.0) {
             (Some(one), Some(two)) if one != two => {

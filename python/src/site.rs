@@ -135,7 +135,7 @@ members! {
     largest_strain: Array = own.0.layers.iter().map(|layer| layer.largest_strain).collect();
     /// Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,).
     effective_strain: Array = own.0.layers.iter().map(|layer| layer.effective_strain).collect();
-    /// Their largest absolute values: array of shape (layers + 1,), m/s².
+    /// Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s².
     peak_acceleration: Array = own.0.peak_accelerations.as_slice().into();
     /// Linear calculations made.
     iterations: usize = own.0.iterations;

@@ -42,7 +42,7 @@ fn check_interrupt(py: Python<'_>) -> PyResult<()> {
 /// Looks at Python every 50 ms.
 pub(crate) struct Ticker {
     last: Instant,
-    /// Whether it has looked for somebody who hears Ctrl-C.
+    /// Whether the ticker has checked whether Ctrl-C is handled.
     asked: bool,
     /// Called with what is done and with all that there is to do.
     progress: Option<Py<PyAny>>,
@@ -55,7 +55,7 @@ impl Ticker {
         Self { last: Instant::now(), asked: false, progress, told: None }
     }
 
-    /// After a part of the work, `done` of `total` in all; to be called without the GIL.
+    /// Reports a part of the work, `done` of `total` in all; to be called without the GIL.
     pub(crate) fn tick(&mut self, done: usize, total: usize) -> PyResult<()> {
         if self.last.elapsed() < INTERVAL {
             return Ok(());
@@ -87,7 +87,7 @@ impl Ticker {
     }
 }
 
-/// The function that is told of the progress: a line of the package's own for True, none for False.
+/// Function to which progress is reported: a line of the package's own for True, none for False.
 pub(crate) fn progress_function(
     given: Option<&Bound<'_, PyAny>>,
     items: &str,

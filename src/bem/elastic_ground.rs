@@ -151,13 +151,13 @@ impl ElasticGround {
         Self { ground: self.ground.with_source(self.source.clone()), used: None, ..self }
     }
 
-    /// With this number of stages instead of the rule's, and instead of the closed form.
+    /// Sets the number of Runge–Kutta stages, instead of the one by rule and instead of the closed form.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
         self.changed(|source| source.stages = Some(stages))
     }
 
-    /// With the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace domain; 1e-10 unless
+    /// Sets the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace domain; 1e-10 unless
     /// called. Coefficients are then good to about its power 2/3 at the last lag of a block, and better before. The
     /// closed form is exact.
     ///
@@ -169,10 +169,11 @@ impl ElasticGround {
         Ok(self.changed(|source| source.tolerance = tolerance))
     }
 
-    /// With step coefficients from the file `path`, and those that it lacks written to it. The closed form needs none.
+    /// Reads convolution weights from the file `path`, and writes to it those that it lacks. The closed form needs
+    /// none.
     ///
-    /// They are the same to the last bit. A file of another profile, mesh, step, accuracy, machine or
-    /// format is made anew; one that is damaged, or no such file at all, is refused and left as it is.
+    /// Weights from a file equal computed ones to the last bit. A file of another profile, mesh, step, accuracy,
+    /// machine or format is made anew; a damaged file, or one of something else, is left as it is and returns an error.
     ///
     /// ```
     /// use basemat::Soil;
@@ -196,11 +197,11 @@ impl ElasticGround {
         self.changed(|source| source.file = Some(path.into()))
     }
 
-    /// With at most so many `seconds` of a processor for step coefficients, by [`cost`](Self::cost) and not by
+    /// Limits the processor time for convolution weights to `seconds`, by [`cost`](Self::cost) and not by
     /// the clock, so that the limit is the same everywhere; 600 unless called, and no limit if it is
     /// infinite.
     ///
-    /// Beyond it, coefficients fail with [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) before anything
+    /// Beyond the limit, weights fail with [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) before anything
     /// is computed.
     ///
     /// # Errors
@@ -211,7 +212,7 @@ impl ElasticGround {
         Ok(self.changed(|source| source.limit = seconds))
     }
 
-    /// With other options of its history, or another method alone; only the closed form has exponentials.
+    /// Replaces the options of the ground's history, or its method alone; only the closed form has exponentials.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
@@ -219,7 +220,7 @@ impl ElasticGround {
         Ok(Self { ground: self.ground.with_history(options)?, ..self })
     }
 
-    /// As [`WeightsGround::with_own_history`].
+    /// Replaces the ground's history by one of the caller's: see [`WeightsGround::with_own_history`].
     #[must_use]
     pub fn with_own_history(
         self,
@@ -228,13 +229,13 @@ impl ElasticGround {
         Self { ground: self.ground.with_own_history(make), ..self }
     }
 
-    /// As [`WeightsGround::with_shared_kernels`].
+    /// Takes weights from a store shared with other grounds: see [`WeightsGround::with_shared_kernels`].
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
-    /// Step coefficients for steps of `time_step` seconds, none computed yet: those that the ground's history sums,
+    /// Convolution weights for steps of `time_step` seconds, none computed yet: those that the ground's history sums,
     /// of its contact elements or of the cells of its plan, without shared kernels.
     ///
     /// ```
@@ -270,7 +271,7 @@ impl ElasticGround {
         self.source.kernel(self.elements(), time_step)
     }
 
-    /// Cost of the step coefficients for `steps` steps of `time_step` seconds, before the first of them, to a
+    /// Cost of the convolution weights for `steps` steps of `time_step` seconds, before the first of them, to a
     /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
     ///
     /// ```

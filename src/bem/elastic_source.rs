@@ -1,4 +1,4 @@
-//! Elastic or viscoelastic soil as a source of step coefficients.
+//! Elastic or viscoelastic soil as a source of convolution weights.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -44,14 +44,14 @@ impl ElasticSource {
         (!closed).then(|| self.stages.unwrap_or_else(by_rule))
     }
 
-    /// Step coefficients of cells in plan.
+    /// Convolution weights of cells in plan.
     pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
         let stages = self.stages(time_step).unwrap_or_default();
         let (profile, file) = (self.profile.clone(), self.file.clone());
         LatticeKernel::in_plan(profile, plan, stages, self.sizes(time_step), file)
     }
 
-    /// Step coefficients of strips by convolution quadrature.
+    /// Convolution weights of strips by convolution quadrature.
     pub(super) fn layered(
         &self,
         elements: &[ContactElement],

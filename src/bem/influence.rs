@@ -72,7 +72,7 @@ impl InfluenceKernel {
         1.0 / (std::f64::consts::PI * self.modulus)
     }
 
-    /// Everything about a pair of elements that does not depend on the lag.
+    /// Data of a pair of elements that do not depend on the lag.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both elements have finite ends, the left one first.

@@ -1,6 +1,6 @@
 //! Late lags of the half-plane as sums of decaying exponentials.
 //!
-//! Behind the Rayleigh wave the step coefficients are (see `PairInfluence`)
+//! Behind the Rayleigh wave the convolution weights are (see `PairInfluence`)
 //!
 //! * G = 1/(πμ) · (1/l) ∫∫ Σ `c_k` (ξ−η)^(2k) ∫ t^(−2k−1) dt dξ dη
 //! * t^(−2k−1) = 1/(2k)! ∫₀^∞ s^(2k) e^(−st) ds
@@ -39,7 +39,7 @@ const DROPPED: f64 = 0.05;
 const DROPPED_ENERGY: f64 = 1e-4;
 
 impl LateWeights for PatchKernel {
-    /// Until the Rayleigh wave has crossed the patch three times.
+    /// Lags until the Rayleigh wave has crossed the patch three times.
     fn window(&self) -> usize {
         let InfluenceKernel { branches, step, .. } = &self.kernel;
         let lags = (CROSSINGS * branches.arrival * self.classes().span() / step).ceil();
@@ -82,7 +82,7 @@ fn tail(
             let s = (fastest - k as f64 * h).exp();
             let weight = -unit * h * (-s * step).exp_m1() * (-s * begin).exp();
             let mut pole = Pole::new(terms, &differences, s, s * half, weight);
-            // Largest share of this pole in the coefficient at its own time.
+            // Largest contribution of this pole to the coefficient at its own time.
             let share = if s * begin > 1.0 { s * begin * (1.0 - s * begin).exp() } else { 1.0 };
             let energy = h * (-s * begin).exp() / (s * step);
             pole.cut(terms, DROPPED * tolerance / share, DROPPED_ENERGY / energy);

@@ -47,8 +47,8 @@ use crate::soil::Soil;
 
 /// A soil as the time integrator sees it: implement this for a ground of your own.
 ///
-/// A ground answers with the mean displacement of every element at the end of a step, as the sum
-/// of an instantaneous part (a matrix times the tractions of this step, which are constant over
+/// A ground responds with the mean displacement of every element at the end of a step, as the sum
+/// of a part by the step compliance (a matrix times the tractions of this step, which are constant over
 /// the step) and a history part (all earlier tractions). Tractions here are **changes** against
 /// the static state, and so are displacements.
 ///
@@ -122,7 +122,7 @@ pub trait Ground: Any + Send {
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
-    /// Speed of shear waves in it, m/s, which tells what elements resolve; `None` (the default) for
+    /// Speed of shear waves in the soil, m/s, which decides what elements resolve; `None` (the default) for
     /// a ground without waves.
     fn shear_wave_speed(&self) -> Option<f64> {
         None
@@ -146,7 +146,7 @@ pub trait Ground: Any + Send {
     }
 
     /// Bound on what is wrong with the change of any element's displacement over the next step,
-    /// m; zero (the default) for a ground that answers exactly.
+    /// m; zero (the default) for a ground whose response is exact.
     fn increment_error_bound(&self) -> f64 {
         0.0
     }
@@ -208,7 +208,7 @@ pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     Patch::new(ground.directions(), elements, depths, inside)
 }
 
-/// A soil that knows its step coefficients and its static compliance: all that
+/// A soil that has convolution weights and a static compliance: all that
 /// [`WeightsGround`] needs.
 pub trait WeightsSource: Any + Send {
     /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`

@@ -73,7 +73,7 @@ impl Prepared {
         // As many as a history takes, by a power of two.
         let lags = lags.checked_next_power_of_two().unwrap_or(lags);
         let spectra = lags.saturating_mul(kernel.classes().count()) / SPECTRA + 1;
-        let mut whole = Progress { task: "step coefficients", done: 0, total: spectra };
+        let mut whole = Progress { task: "convolution weights", done: 0, total: spectra };
         // Exponentials have all weights that they need.
         let weights = if exponentials {
             Ok(())

@@ -1,4 +1,4 @@
-//! Coefficients that the grounds of many simulations share.
+//! Convolution weights shared by the grounds of many simulations.
 
 use std::any::{Any, TypeId};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -95,7 +95,7 @@ impl Kernels {
     }
 }
 
-/// A kernel that is being made; whatever comes of it, nobody waits for it after that.
+/// Kernel that is being made; whether it succeeds or fails, no thread waits for it after that.
 struct Making<'a> {
     store: &'a SharedKernels,
     key: &'a Arc<Key>,

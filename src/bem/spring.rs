@@ -1,4 +1,4 @@
-//! Winkler's spring bed: a ground without memory.
+//! Winkler's spring bed: a ground without history.
 
 use super::plan::Plan;
 use super::{Grading, Ground, NOT_PREPARED, Strip};
@@ -26,9 +26,9 @@ pub struct SpringGround {
     elements: Vec<ContactElement>,
     /// Front and back end of each along y, m, in plan.
     depths: Option<Vec<[f64; 2]>>,
-    /// Down, along x and in plan along y, Pa/m.
+    /// Stiffness downwards, along x and in plan along y, Pa/m.
     stiffness: [f64; SPACE],
-    /// Down, along x and in plan along y, Pa·s/m.
+    /// Dashpots downwards, along x and in plan along y, Pa·s/m.
     dashpot: [f64; SPACE],
     theta: f64,
     time_step: f64,
@@ -127,7 +127,7 @@ impl SpringGround {
         })
     }
 
-    /// With dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
+    /// Adds dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both are finite and not below zero.
@@ -138,7 +138,7 @@ impl SpringGround {
         Ok(self)
     }
 
-    /// With another θ, from ½ to 1.
+    /// Replaces θ of the integration in time, from ½ to 1.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) outside this range.

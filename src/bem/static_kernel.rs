@@ -106,7 +106,7 @@ impl StaticKernel {
     }
 }
 
-// Step coefficients of the half-plane under a patch of elements, each kind of pair once.
+// Convolution weights of the half-plane under a patch of elements, each kind of pair once.
 
 /// The [`ConvolutionWeights`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
 ///

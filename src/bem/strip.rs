@@ -146,7 +146,7 @@ impl Strip {
     }
 }
 
-/// One strip where several may be given.
+/// Allows one strip where several may be given.
 impl AsRef<[Strip]> for Strip {
     fn as_ref(&self) -> &[Strip] {
         std::slice::from_ref(self)
@@ -273,7 +273,7 @@ impl Overlap {
 /// their segments of w.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Covered {
-    /// Both limits lie in the same segment.
+    /// Whether both limits lie in the same segment.
     same: bool,
     span: f64,
     begin: f64,
@@ -281,7 +281,7 @@ pub(crate) struct Covered {
     base: f64,
     /// Node, width there and slope: of the segment that both limits share, or of the lower limit.
     low: [f64; 3],
-    /// The same of the upper limit.
+    /// Node, width there and slope of the upper limit.
     high: [f64; 3],
 }
 

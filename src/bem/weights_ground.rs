@@ -1,4 +1,4 @@
-//! A ground made of coefficients.
+//! Grounds made of convolution weights.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::history::{
     HistoryOptions, SavedChoice,
 };
 
-/// Any soil that knows its step coefficients and its static compliance, as a ground.
+/// Any soil that has convolution weights and a static compliance, as a ground.
 ///
 /// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
 /// [`WeightsSource`] and its [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels
@@ -126,7 +126,7 @@ short_debug! {
     prepared: self.prepared.is_some(),
 }
 
-/// Makes the history of a kernel.
+/// Makes the history of convolution weights.
 type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
 impl WeightsGround {
@@ -160,7 +160,7 @@ impl WeightsGround {
         }
     }
 
-    /// With other options of its history, or another method alone.
+    /// Replaces the options of the ground's history, or its method alone.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
@@ -169,7 +169,7 @@ impl WeightsGround {
         Ok(self)
     }
 
-    /// With a history of one's own: `make` is called with the coefficients once the time step is
+    /// Replaces the history by one of the caller's: `make` is called with the convolution weights once the time step is
     /// known.
     #[must_use]
     pub fn with_own_history(
@@ -180,20 +180,20 @@ impl WeightsGround {
         self
     }
 
-    /// With coefficients from a store that other grounds take them from as well: what is equal in
-    /// the cases of a sweep is then computed once.
+    /// Takes convolution weights from a store shared with other grounds: those that are equal in
+    /// the cases of a sweep are then computed once.
     #[must_use]
     pub fn with_shared_kernels(mut self, kernels: &SharedKernels) -> Self {
         self.shared = kernels.clone();
         self
     }
 
-    /// With other coefficients.
+    /// Replaces the source of convolution weights.
     pub(super) fn with_source(self, source: impl WeightsSource) -> Self {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
-    /// Before the first step, with a history where none is to be chosen.
+    /// Prepares the ground before the first step, with a history where none is to be chosen.
     fn begin(&self, kernel: Arc<dyn ConvolutionWeights>) -> Result<Prepared> {
         let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
         let mut prepared = Prepared { kernel, history };

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{dense_multiply_add, transposed_multiply_add};
 
-/// Largest rank of a structure's share that is multiplied apart from the soil's.
+/// Largest rank of the structure's part that is multiplied apart from the soil's.
 const RANK: usize = 64;
 
 /// W, row-major: that of the soil, G¹, and the compliance of the structure's base.
@@ -40,7 +40,8 @@ impl Deref for Delassus {
 }
 
 impl Delassus {
-    /// Of `values`, which are `soil` + B C with C given by its `columns`; `means` is B times a vector.
+    /// Delassus operator of `values`, which are `soil` + B C with C given by its `columns`; `means` is B times a
+    /// vector.
     pub(crate) fn new(
         values: Vec<f64>,
         soil: &Arc<Thinned>,

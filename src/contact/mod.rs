@@ -54,9 +54,9 @@ pub enum SearchMethod {
     GaussSeidel,
     /// The solution was followed from a known one, or found among all sets of modes.
     Path,
-    /// In plan: Newton's method was needed.
+    /// Newton's method, in plan.
     Newton,
-    /// In plan: the proximal point method was needed.
+    /// Proximal point method, in plan.
     Proximal,
 }
 
@@ -84,13 +84,13 @@ words_with_numbers! {
 /// The contact problem of one step after another, condensed to the tractions of Q elements.
 ///
 /// Jumps (soil minus structure, 2Q numbers as in [`crate::bem`]: Q normal components down, then Q
-/// tangential ones) at the end of a step answer to changes of traction τ against the static state by
+/// tangential ones) at the end of a step respond to changes of traction τ against the static state by
 ///
 /// ```text
 /// jump = j_free + W τ,        W = G¹ + B K_eff⁻¹ Bᵀ A
 /// ```
 ///
-/// with W the Delassus operator: the ground's instantaneous operator
+/// with W the Delassus operator: the ground's step compliance
 /// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and what unit tractions on the
 /// structure move its base by, within the step of the host's scheme. `j_free` is the free field, plus
 /// the convolution history of the ground, less the base displacement without changes of traction.
@@ -123,9 +123,9 @@ pub struct ContactProblem {
     solver: ContactSolver,
     search: ModeSearch,
     modes: Vec<Mode>,
-    /// Where the state variables of each element's law end; empty if no law has any.
+    /// Ends of the state variables of each element's law; empty if no law has any.
     state_variable_ends: Vec<usize>,
-    /// Memories at the end of a step, until they are committed.
+    /// State variables at the end of a step, until they are committed.
     state_variables: Vec<f64>,
     steps: usize,
 }
@@ -169,8 +169,8 @@ impl ContactSolution<'_> {
     /// has the laws commit it to their state variables. A step that is to be solved anew is not committed.
     ///
     /// # Errors
-    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a law remembers a number
-    /// that is not finite; `start` is then as it was.
+    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a state variable of a
+    /// law is not finite; `start` is then as it was.
     pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
         check_start(start, self.states.len(), self.state_variable_ends)?;
         let Self { laws, states, modes, state_variables, step, time, .. } = self;
@@ -189,7 +189,7 @@ impl ContactProblem {
     /// # Errors
     /// [`Error::Size`] unless the operator is that of one element or more and the laws fit,
     /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
-    /// laws that remember more than ten million numbers.
+    /// laws that keep more than ten million state variables.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
         let count = delassus.len().isqrt() / PLANE;
         let layout = ContactLayout::new(PLANE, count);
@@ -214,7 +214,7 @@ impl ContactProblem {
         })
     }
 
-    /// With tractions (2Q, Pa) in the static state, against which changes count.
+    /// Sets the tractions (2Q, Pa) of the static state, against which changes count.
     ///
     /// # Errors
     /// [`Error::Size`] for a list of another length, [`Error::Input`] for values not finite.

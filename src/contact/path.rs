@@ -1,4 +1,4 @@
-//! The last resort of the mode search: parametric pivoting.
+//! Parametric pivoting, the last resort of the mode search.
 //!
 //! The contact problem is embedded in a family j(λ) = j₀ + (1−λ) d. At λ = 0 the solution is
 //! known; at λ = 1 it is the problem to solve. For fixed modes the solution is linear in λ, so it is
@@ -13,7 +13,7 @@
 //! not be symmetric.
 //! With tensile strength the law is not monotone and the path may break. So it may where the modes at
 //! a change are nearly singular, at infinite friction in long steps (c₁Δt/l > 13): λ then does not
-//! tell the points of the path apart. A lost path is begun elsewhere, also with all elements
+//! distinguish the points of the path. A lost path is begun elsewhere, also with all elements
 //! pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
@@ -35,7 +35,7 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// so that the next mode may become admissible a little later.
 const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
 
-/// Memory of the path.
+/// Scratch of the path.
 pub(crate) struct Path {
     offset: Vec<f64>,
     jump: Vec<f64>,
@@ -145,7 +145,7 @@ impl Path {
         }
     }
 
-    /// All elements in the mode of rest, with pressures well above all that the step knows.
+    /// All elements in the mode of rest, with pressures well above all those of the step.
     fn begin_shut(
         &mut self,
         input: &ContactInput<'_>,

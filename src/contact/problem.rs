@@ -18,14 +18,14 @@ use crate::interface::{
 };
 use crate::linalg::{DenseFactor, dense_condition, largest};
 
-/// What the search for the modes of a step takes an element's bond for.
+/// State of an element's bond in the search for the modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
-    /// The law decides: it has none, or the search does not care.
+    /// The law decides: there is no bond, or the search does not distinguish.
     Free,
-    /// It holds the element in its mode of rest, whatever the tractions.
+    /// The bond holds the element in its mode of rest, whatever the tractions.
     Held,
-    /// It has broken in this step.
+    /// The bond has broken in this step.
     Broken,
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) start: &'a PreviousContacts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
-    /// Largest displacement that went into j₀: its rounding is the finest gap that can be told.
+    /// Largest displacement that went into j₀: its rounding is the finest gap that can be distinguished.
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
@@ -96,7 +96,7 @@ impl ContactInput<'_> {
         Ok(pair)
     }
 
-    /// The mode that its law wants next, which must be one of its own.
+    /// Mode that the element's law gives next, which must be one of its own.
     pub(super) fn next_mode(
         &self,
         element: usize,
@@ -186,7 +186,7 @@ impl ContactSolver {
         }
     }
 
-    /// Whether it is the problem of a ground in plan.
+    /// Whether the problem is that of a ground in plan.
     pub(super) fn is_plan(&self) -> bool {
         self.layout.components() != PLANE
     }

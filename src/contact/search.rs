@@ -12,7 +12,7 @@
 //! have broken. So bonds are held in all of them, and break in between: each time those whose overload
 //! is at least half of the largest, until none is overloaded. Each time the problem is one of Coulomb
 //! friction beside elements that stick, and at most as many times as there are bonds. If one of these
-//! problems is not solved, all bonds break: what glue carries where friction alone sticks is within its
+//! problems is not solved, all bonds break: what bonds carry where friction alone sticks is within its
 //! strength, so that the solution without bonds satisfies the law, too.
 
 use super::cone::Cone;
@@ -37,7 +37,7 @@ const MOST_SETS: usize = 1 << 16;
 /// spite of rounding.
 const SHARE: f64 = 0.5;
 
-/// Memory of the mode search.
+/// Scratch of the mode search.
 pub(crate) struct ModeSearch {
     visited: Vec<Mode>,
     next: Vec<Mode>,
@@ -45,15 +45,15 @@ pub(crate) struct ModeSearch {
     path: Path,
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
-    /// Number of all sets of modes, if the last search has tried them in vain.
+    /// Number of all sets of modes, if the last search has tried them without success.
     sets: Option<usize>,
     search: ContactSearch,
-    /// In plan: the search for forces.
+    /// Search for forces, in plan.
     cone: Option<Box<Cone>>,
 }
 
 impl ModeSearch {
-    /// For elements of these areas (m²), which a ground in the plane does not need.
+    /// Search for elements of these areas (m²), which a ground in the plane does not need.
     pub(crate) fn new(layout: ContactLayout, areas: &[f64], search: ContactSearch) -> Self {
         let is_plan = layout.components() != PLANE;
         let count = if is_plan { 0 } else { layout.elements() };
@@ -86,7 +86,7 @@ impl ModeSearch {
         }
     }
 
-    /// As [`ModeSearch::solve`]; the solver knows whether a law was at fault.
+    /// Searches the modes for [`ModeSearch::solve`]; the solver knows whether a law was at fault.
     fn find(
         &mut self,
         solver: &mut ContactSolver,

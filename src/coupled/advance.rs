@@ -1,4 +1,4 @@
-//! Moving the state to the end of an accepted step.
+//! Advance of the state to the end of an accepted step.
 
 use super::energy_balance::EnergyBalance;
 use super::foundation::{Foundation, Sums};

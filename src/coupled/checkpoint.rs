@@ -1,4 +1,4 @@
-//! Saving a run and going on with it later, to the last bit.
+//! Checkpoints: saving a run and resuming it later, to the last bit.
 
 use super::energy_accumulator::EnergyAccumulator;
 use super::energy_balance::EnergyBalance;
@@ -27,7 +27,7 @@ const SAME: f64 = 1e-9;
 ///
 /// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers
 /// are written as their bits (integers of 64 bits), so that none is rounded on the way, and a check
-/// sum over all contents goes with them: [`Simulation::resume`](crate::Simulation::resume) refuses
+/// sum over all contents goes with them: [`Simulation::resume`](crate::Simulation::resume) returns an error for
 /// whatever has been changed since.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -36,7 +36,7 @@ pub struct Checkpoint {
     format: u32,
     identity: Identity,
     steps: usize,
-    /// For each element, the number of its mode among its law's, and whether it has been open.
+    /// Number of each element's mode among those of its law, and whether the element has been open.
     modes: Vec<(usize, bool)>,
     /// State variables of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -47,7 +47,7 @@ pub struct Checkpoint {
     ground: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
-    /// Over all of the above; checkpoints of formats before the eighth have none.
+    /// Check sum over all of the above; checkpoints of formats before the eighth have none.
     #[cfg_attr(feature = "serde", serde(default))]
     sum: u64,
 }
@@ -69,10 +69,10 @@ struct Identity {
     /// Ends of the elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     elements: Vec<f64>,
-    /// Sums over the structure's matrices, and one that knows the signs of its modes.
+    /// Sums over the structure's matrices, and one that depends on the signs of its modes.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
-    /// Sum over the ground's instantaneous operator.
+    /// Sum over the ground's step compliance.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     ground: Vec<f64>,
     /// Sum over the static tractions.
@@ -81,7 +81,7 @@ struct Identity {
 }
 
 impl Checkpoint {
-    /// Steps made before it.
+    /// Steps made before the checkpoint.
     pub fn steps(&self) -> usize {
         self.steps
     }

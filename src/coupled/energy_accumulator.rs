@@ -42,7 +42,7 @@ pub(crate) struct EnergyAccumulator {
     scratch: Scratch,
 }
 
-/// Nothing in it outlives a step.
+/// Scratch of a step; nothing in it outlives the step.
 #[derive(Clone)]
 struct Scratch {
     vector: Vec<f64>,
@@ -51,7 +51,7 @@ struct Scratch {
 }
 
 impl EnergyAccumulator {
-    /// At the beginning of a run; the energy of an initial motion counts as input. `compliant` says
+    /// Accumulator at the beginning of a run; the energy of an initial motion counts as input. `compliant` says
     /// whether any law stores energy in its elements.
     pub(crate) fn new(
         scene: &Scene,
@@ -120,7 +120,7 @@ impl EnergyAccumulator {
         energy_balance.largest = energy_balance.scale().max(at_rest);
     }
 
-    /// Energy at rest in what the energy balance books against the static state: compliant interfaces, and
+    /// Energy at rest in parts whose energy the balance counts against the static state: compliant interfaces, and
     /// the nonlinear force where its energy is known. Changes are rounded in proportion to it.
     fn static_energy(&self, scene: &Scene) -> f64 {
         let at_rest = &scene.static_state;

@@ -4,12 +4,12 @@ use std::fmt;
 
 use crate::text::column::{column, number, of_body};
 
-/// Where a term stands.
+/// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
     /// Left-hand side of the balance: kept, or still to come.
     Balance,
-    /// The same, of what the structure has lost for good, or to the ground.
+    /// Left-hand side: energy that the structure has lost for good, or to the ground.
     Lost,
     /// Right-hand side.
     Input,
@@ -17,7 +17,7 @@ enum Side {
     Beside,
 }
 
-/// From rows in the order of columns: the terms as an enum, and the energy balance that holds them.
+/// Declares the terms as an enum, and the energy balance that holds them, from rows in the order of columns.
 macro_rules! energies {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $side:ident, $name:literal;)+) => {
         /// A term of the [`EnergyBalance`].
@@ -65,7 +65,7 @@ macro_rules! energies {
                 [$(self.$field),+]
             }
 
-            /// The same, to be overwritten.
+            /// All terms to be overwritten, in the order of [`EnergyTerm::ALL`].
             pub(crate) fn terms_mut(&mut self) -> [&mut f64; ROWS.len()] {
                 [$(&mut self.$field),+]
             }
@@ -74,10 +74,10 @@ macro_rules! energies {
 }
 
 energies! {
-    /// ½ v·M v.
+    /// Kinetic energy ½ v·M v.
     Kinetic kinetic, Balance, "kinetic and strain";
-    /// ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
-    /// does not tell stored from dissipated energy.
+    /// Strain energy ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
+    /// does not separate stored from dissipated energy.
     Strain strain, Balance, "kinetic and strain";
     /// Heat of hysteretic parts of the structure
     /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
@@ -118,19 +118,19 @@ energies! {
 }
 
 impl EnergyTerm {
-    /// Its name in tables and pictures. Terms of one name are shown as their sum.
+    /// Name of the term in tables and pictures. Terms of one name are shown as their sum.
     pub(crate) fn name(self) -> &'static str {
         ROWS[self as usize].2
     }
 
-    /// Its column in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
+    /// Column of the term in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
     pub(crate) fn column(self, in_plan: bool) -> String {
         let word = ROWS[self as usize].0;
         let name = if word.contains("bound") { word.to_owned() } else { format!("{word} energy") };
         column(&name, of_body("J/m", in_plan))
     }
 
-    /// Whether it is what the structure has lost for good, or to the ground.
+    /// Whether the term is energy that the structure has lost for good, or to the ground.
     pub(crate) fn is_lost(self) -> bool {
         self.side() == Side::Lost
     }
@@ -159,7 +159,7 @@ impl EnergyBalance {
         all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
     }
 
-    /// What the input has become, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
+    /// Parts of the input energy, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
     pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
         for (term, energy) in self.balance() {

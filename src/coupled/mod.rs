@@ -33,8 +33,8 @@
 //! 1. forcing: free field, its translation y, convolution history, load (`step/forcing.rs`);
 //! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
 //! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
-//! 4. increment: the answer of Δu to τ; nothing is committed so far;
-//! 5. energy balance (`books.rs`), state (`advance.rs`), ground and structure take over the increment.
+//! 4. increment: the response Δu to τ; nothing is committed so far;
+//! 5. energy balance (`energy_accumulator.rs`), state (`advance.rs`), ground and structure take over the increment.
 //!
 //! For a linear structure W is computed once. For a nonlinear one Newton's method goes around
 //! steps 2 and 3, with a new W whenever the tangent changes.
@@ -44,7 +44,7 @@
 //! Starting from the modes of the step before: solve the linear system that the modes define, let
 //! each [`crate::interface::InterfaceLaw`] say its next mode, repeat until nothing changes. A mode vector that
 //! comes back is a cycle; then Gauss–Seidel over the elements, each solved exactly by trying its
-//! modes, and at last a path of solutions followed from a known state. [`State::method`] tells what was
+//! modes, and at last a path of solutions followed from a known state. [`State::method`] names what was
 //! needed, [`State::trials`] how many linear solves. If nothing converges, the step is an
 //! [`crate::Error::Step`] and the simulation stays at the last accepted one.
 //!

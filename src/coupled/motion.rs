@@ -21,7 +21,7 @@ pub(crate) struct Translation {
     /// Velocity at v*, as the time scheme sees it, so that a structure that translates with the
     /// ground meets no damping force.
     pub(crate) velocity: [f64; 3],
-    /// Velocity and acceleration at the end of the step, likewise.
+    /// Velocity and acceleration of the translation at the end of the step.
     pub(crate) new_velocity: [f64; 3],
     pub(crate) new_acceleration: [f64; 3],
 }
@@ -84,7 +84,7 @@ impl Motion {
         }
     }
 
-    /// To be called when coordinates have changed.
+    /// Forgets the degrees of freedom that were transformed; to be called when coordinates have changed.
     pub(crate) fn changed(&mut self) {
         self.dofs.iter_mut().for_each(|seen| drop(seen.take()));
     }

@@ -17,7 +17,7 @@ const ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 /// Mesh and step of each run, in halvings of the element length and of the time step.
 const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
 
-/// One setting of [`Refinement`].
+/// Setting of a [`Refinement`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -228,7 +228,7 @@ const HALVINGS: usize = 10;
 /// `make` builds runs for `duration` (s) without [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`];
 /// `None` if the tenth halving fails, too.
 ///
-/// A simulation cannot change its step: the soil's coefficients and its memory belong to one. So
+/// A simulation cannot change its step: the soil's convolution weights and its history belong to one. So
 /// this runs whole simulations, each twice as long as the one before. Give the time of the failed step
 /// as `duration`.
 ///

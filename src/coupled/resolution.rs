@@ -16,7 +16,7 @@
 //! | follows the ground's acceleration | peaks fall between steps | r ≤ 0.6: 5 steps per period |
 //!
 //! A base shear that varies more than twice as fast as a ground that is resolved rings with vibrations
-//! of the contact that carry little mass; they do not count. Without ground motion nothing tells them
+//! of the contact that carry little mass; they do not count. Without ground motion nothing distinguishes them
 //! from others, and the time step is not judged.
 //!
 //! The largest base shear errs by the square of the step. With r of the ground's acceleration for a
@@ -69,7 +69,7 @@ const AS_THE_GROUND: [f64; 2] = [0.95, 1.1];
 const ERROR: f64 = 0.9;
 /// Estimated error that calls for a warning, and the one that the recommended step has.
 const ERRORS: [f64; 2] = [0.05, 0.03];
-/// Fewest steps that tell a frequency.
+/// Fewest steps from which a frequency is estimated.
 const LEAST_STEPS: usize = 8;
 /// Base shear, relative to the normal force, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
@@ -77,7 +77,7 @@ const ROUNDING: f64 = 1e-9;
 const AT_REST: f64 = 16.0 * f64::EPSILON;
 /// Elements per wavelength of the shear wave: fewest, and those that are asked for.
 const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
-/// Elements per wavelength in plan, likewise.
+/// Elements per wavelength of the shear wave in plan: fewest, and those that are asked for.
 const CELLS_PER_WAVELENGTH: [f64; 2] = [12.0, 12.0];
 /// Steps in which waves cross a base in plan: fewest, and those that are asked for.
 const CROSSING_STEPS: [f64; 2] = [4.0, 8.0];
@@ -97,7 +97,7 @@ pub(crate) struct Resolution {
     shear_wave_speed: Option<f64>,
     /// The foundation with the fewest elements.
     foundation: usize,
-    /// Its elements, shear and moment along x, and in plan along y.
+    /// Elements, shear and moment of the foundation along x, and in plan along y.
     axes: [Axis; 2],
     steps: usize,
     last_step: usize,
@@ -207,7 +207,7 @@ impl Resolution {
         }
     }
 
-    /// Takes in the next step.
+    /// Adds the next step to the statistics.
     pub(crate) fn see(&mut self, state: &State) {
         self.in_a_row = if state.step == self.last_step + 1 { self.in_a_row + 1 } else { 0 };
         self.last_step = state.step;

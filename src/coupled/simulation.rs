@@ -1,4 +1,4 @@
-//! The simulation: the loop over steps, and the answers of its observer.
+//! The simulation: the loop over steps, and what its observer returns.
 
 use std::ops::ControlFlow;
 
@@ -78,7 +78,7 @@ impl Simulation {
         Ok(&self.state)
     }
 
-    /// Free field, convolution history and the increment that answers; nothing is committed.
+    /// Free field, convolution history and the increment in response; nothing is committed.
     fn solve(&mut self, time: f64) -> std::result::Result<(), StepError> {
         let Self { scene, structure, ground, motion, forcing, solver, increment, state, .. } = self;
         let structure = structure.as_ref();
@@ -215,7 +215,7 @@ impl Simulation {
         Ok(self.end_run(run))
     }
 
-    /// An empty run that begins at the present state, for a loop of one's own: with
+    /// Empty run that begins at the present state, for a loop of your own: with
     /// [`Run::record`] after every step and [`Simulation::end_run`] it becomes what
     /// [`Simulation::run`] returns. As an observer it spans several calls of that.
     ///

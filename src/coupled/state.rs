@@ -66,13 +66,13 @@ impl PartialEq for Context {
 pub(crate) struct Origin(u64);
 
 impl Origin {
-    /// One that no other simulation has.
+    /// Identity that no other simulation has.
     pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
-    /// Whether both are of one simulation.
+    /// Whether both identities are of one simulation.
     pub(crate) fn is(self, other: Self) -> bool {
         self.0 == other.0
     }
@@ -170,7 +170,7 @@ impl State {
         self.motion.dofs(DofResponse::Acceleration)
     }
 
-    /// The value of the probe called `name`: looked for by its name at every call; by its place,
+    /// The value of the probe called `name`: found by its name at every call; by its place,
     /// [`State::probes`] has it at once.
     ///
     /// ```
@@ -204,9 +204,9 @@ impl State {
         probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
     }
 
-    /// The numbers that the law of an element remembers
-    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no such numbers,
-    /// or if there is no such element.
+    /// State variables of the law of an element
+    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no such
+    /// variables, or if there is no such element.
     pub fn state_variables(&self, element: usize) -> &[f64] {
         if element < self.start.len() { self.start.state_variables_of(element) } else { &[] }
     }
@@ -225,7 +225,7 @@ pub(crate) struct Sequence {
 }
 
 impl Sequence {
-    /// Beginning with `state`.
+    /// Sequence of states that begins with `state`.
     pub(crate) fn new(state: &State) -> Self {
         Self {
             origin: state.origin,
@@ -236,13 +236,13 @@ impl Sequence {
         }
     }
 
-    /// One that takes no state: that of a run read from a file.
+    /// Sequence that takes no state: that of a run read from a file.
     #[cfg(feature = "serde")]
     pub(crate) fn closed() -> Self {
         Self::ended(f64::INFINITY)
     }
 
-    /// One that takes no state, whose last one was at `end`, s.
+    /// Sequence that takes no state, whose last state was at `end`, s.
     #[cfg(feature = "serde")]
     pub(crate) fn ended(end: f64) -> Self {
         let (elements, probes, foundations) = (0, 0, Vec::new());
@@ -258,9 +258,9 @@ impl Sequence {
         to.serialize_f64(self.end)
     }
 
-    /// Whether `state` is of the same simulation and later; it is the last one then.
+    /// Whether `state` is of the same simulation and later; `state` is the last one then.
     pub(crate) fn takes(&mut self, state: &State) -> bool {
-        // Its fields are public: somebody may have changed them.
+        // The fields of a state are public and may have been changed.
         let takes = state.origin.is(self.origin)
             && state.contact.len() == self.elements
             && state.modes.len() == self.elements

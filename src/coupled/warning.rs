@@ -59,10 +59,10 @@ pub enum Warning {
         period: f64,
         /// The time step, s.
         time_step: f64,
-        /// One that resolves it, s.
+        /// Time step that resolves the motion, s.
         needed: f64,
         /// Estimated error of the largest base shear, relative, from frequencies alone: half the true
-        /// one or more in nine cases of ten. Half the time step tells it.
+        /// one or more in nine cases of ten. A run with half the time step shows it.
         error: f64,
     },
     /// The ground moves faster than the time step resolves, and the base shear with it.
@@ -71,7 +71,7 @@ pub enum Warning {
         frequency: f64,
         /// The time step, s.
         time_step: f64,
-        /// One that resolves it, s.
+        /// Time step that resolves the motion, s.
         needed: f64,
         /// Estimated error of the largest base shear, relative: see
         /// [`UnresolvedPeriod`](Self::UnresolvedPeriod).
@@ -84,7 +84,7 @@ pub enum Warning {
         crossing: f64,
         /// The time step, s.
         time_step: f64,
-        /// One that resolves it, s.
+        /// Time step that resolves the motion, s.
         needed: f64,
     },
     /// Fewer elements under a foundation than its rocking stiffness takes.
@@ -188,7 +188,7 @@ impl Warning {
         period: f64,
     ) -> Vec<Self> {
         let mut warnings: Vec<_> = Self::of_soils(&ground.soils()).collect();
-        // A model not to scale has been told so.
+        // A model not to scale has its own warning.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }

@@ -11,7 +11,7 @@ pub enum RecordError {
     /// The file could not be read.
     #[error("cannot be read: {0}")]
     Unreadable(std::io::ErrorKind),
-    /// There are too few samples.
+    /// Too few samples.
     #[error("{found} samples, at least {needed} needed")]
     TooShort {
         /// Samples found.
@@ -36,7 +36,7 @@ pub enum RecordError {
     /// The time column does not advance by equal steps.
     #[error("time advances by {found} s, but by {expected} s before")]
     UnequalStep {
-        /// This step, s.
+        /// Step that was found, s.
         found: f64,
         /// The first step, s.
         expected: f64,
@@ -44,7 +44,7 @@ pub enum RecordError {
     /// The steps of the time column are nearly equal, but drift away from equal ones.
     #[error("time is {found} s, but would be {expected} s with equal steps")]
     DriftingStep {
-        /// This time, s.
+        /// Time that was found, s.
         found: f64,
         /// The time with equal steps, s.
         expected: f64,
@@ -52,7 +52,7 @@ pub enum RecordError {
     /// The time column does not increase.
     #[error("time advances by {found} s, but must advance")]
     TimeNotIncreasing {
-        /// This step, s.
+        /// Step that was found, s.
         found: f64,
     },
     /// The number of samples is not the one that was asked for.
@@ -99,7 +99,7 @@ pub enum RecordError {
         /// The file's own description of its numbers, cut to 60 characters.
         text: String,
     },
-    /// There is no channel of this number.
+    /// No channel of this number.
     #[error("{found} channels, but channel {needed} was asked for (they count from 1)")]
     Channel {
         /// Channels found.
@@ -255,7 +255,7 @@ pub enum MatrixFileError {
         /// Column, from 1.
         column: usize,
     },
-    /// There are fewer or more entries than the size line says.
+    /// Fewer or more entries than the size line says.
     #[error("entry {found} of {needed}: the size line and the entries do not agree")]
     Entries {
         /// Entries found.

@@ -73,10 +73,10 @@ pub enum LayeredError {
         /// Wavenumber up to which C must be integrated, 1/m.
         wavenumber: f64,
     },
-    /// Step coefficients that would take longer than is allowed, estimated before anything of them is
+    /// Convolution weights that would take longer than is allowed, estimated before anything of them is
     /// computed.
     #[error(
-        "step coefficients up to lag {lags} would take {seconds:.0} s of a processor, but {limit} s are \
+        "convolution weights up to lag {lags} would take {seconds:.0} s of a processor, but {limit} s are \
          allowed: time step {time_step:e} s, shortest element {element:.3e} m, top layer {layer:.3e} m ({cure} \
          or fewer steps help; `with_time_limit` allows more)"
     )]
@@ -127,9 +127,9 @@ pub enum LayeredError {
         /// Slowness of pressure waves (SH: shear waves) in the layer at the highest frequency of the motion, s/m.
         limit: f64,
     },
-    /// Step coefficients that could give energy away.
+    /// Convolution weights that could give energy away.
     #[error(
-        "step coefficients are not passive: least eigenvalue {margin:e} of the mobility, relative to \
+        "convolution weights are not passive: least eigenvalue {margin:e} of the mobility, relative to \
          the largest, at {angle} radians on the circle |z| = {radius}; at least {allowed:e} is needed"
     )]
     NotPassive {
@@ -142,7 +142,7 @@ pub enum LayeredError {
         /// Radius of the circle.
         radius: f64,
     },
-    /// A file of step coefficients that cannot be used.
+    /// A file of convolution weights that cannot be used.
     #[error("{file} {reason}")]
     File {
         /// Name of the file.
@@ -152,15 +152,15 @@ pub enum LayeredError {
     },
 }
 
-/// Fault of a file of step coefficients.
+/// Fault of a file of convolution weights.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KernelFileError {
     /// The file could not be read.
     #[error("cannot be read: {0}")]
     Unreadable(std::io::ErrorKind),
-    /// The file does not begin as one of step coefficients does; it is left as it is.
-    #[error("is no file of step coefficients, and is not written over")]
+    /// The file does not begin as one of convolution weights does; it is left as it is.
+    #[error("is no file of convolution weights, and is not written over")]
     NotAKernel,
     /// The file is cut short, or longer than it says.
     #[error("has a wrong length of {found} bytes (delete it to have it made anew)")]

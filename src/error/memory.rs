@@ -1,4 +1,4 @@
-//! Memory that sizes given as numbers may take: one limit, and one refusal before it is allocated.
+//! Memory that sizes given as numbers may take: one limit, and one error before it is allocated.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -94,7 +94,7 @@ pub enum Error {
     /// A name that nothing has.
     #[error("there is no {quantity} called '{name}'{}", names(.known))]
     Name {
-        /// Item looked for.
+        /// Item that was sought.
         quantity: &'static str,
         /// The name that was given.
         name: String,
@@ -160,12 +160,12 @@ pub enum Error {
         /// Requirement.
         needed: &'static str,
     },
-    /// A part of a user's own that refuses the scene, a file or a checkpoint: see [`Error::part`].
+    /// A part of a user's own that does not accept the scene, a file or a checkpoint: see [`Error::part`].
     #[error("{part}: {reason}")]
     Part {
         /// Name of the part.
         part: String,
-        /// Why it refuses.
+        /// Reason that the part gives.
         reason: String,
     },
     /// A ground-motion record that cannot be read.
@@ -302,7 +302,7 @@ pub enum Error {
     /// Weight and loads at t = 0 cannot be carried, and why.
     #[error("the structure cannot stand: {0}")]
     Stability(Box<StabilityError>),
-    /// An interface law answered what it must not before the first step.
+    /// An interface law returned an invalid value before the first step.
     #[error(transparent)]
     Law(#[from] LawError),
     /// A structure that cannot be stepped in reduced coordinates, or not as accurately as asked.
@@ -328,7 +328,7 @@ pub enum Error {
          part, at {frequency} radians per step (a smaller tolerance helps)"
     )]
     NotPassive {
-        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), over that of the instantaneous part.
+        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), over that of the step compliance.
         margin: f64,
         /// Angle on the unit circle, radians per step.
         frequency: f64,

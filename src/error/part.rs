@@ -49,9 +49,9 @@ impl Error {
     }
 }
 
-// Answers that an interface law must not give.
+// Values that an interface law must not return.
 
-/// An interface law answered what it must not.
+/// Invalid value that an interface law returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LawError {
@@ -67,10 +67,10 @@ pub enum LawError {
         mode: &'static str,
         /// Name of the quantity.
         quantity: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
     },
-    /// A number that is not finite, for a reason that the law knows
+    /// A number that is not finite, for a reason that the law gives
     /// ([`InterfaceLaw::check_start`](crate::interface::InterfaceLaw::check_start)).
     #[error("interface law of element {element}, mode {mode}: {reason}")]
     Refused {

@@ -1,4 +1,4 @@
-//! Progress of long calls, and who looks on.
+//! Progress of long calls, and its observers.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -27,7 +27,7 @@ impl fmt::Display for Progress {
     }
 }
 
-/// Observer of a long call: a closure that hears of its [`Progress`], and may stop it.
+/// Observer of a long call: a closure that receives its [`Progress`], and may stop it.
 ///
 /// It is called on the calling thread, at least every half second on meshes of up to some hundred elements, and
 /// more often where parts are quick: an observer that draws should look at a clock. After
@@ -98,7 +98,7 @@ pub(crate) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Nobody looks on.
+    /// No observer.
     pub(crate) fn nobody() -> Self {
         Self { observer: None, progress: Progress { task: "", done: 0, total: 0 } }
     }
@@ -107,12 +107,12 @@ impl<'a> Watch<'a> {
         Self { observer: Some(observer), progress: Progress { task, done: 0, total } }
     }
 
-    /// Who looks on.
+    /// Observer of the progress, if there is one.
     pub(crate) fn observer(&mut self) -> Option<&mut Observer<'a>> {
         self.observer.as_deref_mut()
     }
 
-    /// Whether anybody looks on.
+    /// Whether the progress is observed.
     pub(crate) fn is_observed(&self) -> bool {
         self.observer.is_some()
     }

@@ -1,4 +1,4 @@
-//! Errors of a run: steps that fail, checkpoints that cannot be taken up.
+//! Errors of a run: steps that fail, checkpoints that cannot be resumed.
 
 use super::{Error, LawError, not_finite};
 
@@ -65,7 +65,7 @@ pub enum StepError {
         /// The structure's reason.
         r#source: Box<Error>,
     },
-    /// An interface law answered what it must not.
+    /// An interface law returned an invalid value.
     #[error(transparent)]
     Law(#[from] LawError),
     /// A number became NaN or infinite.

@@ -9,11 +9,11 @@ use crate::linalg::Triplets;
 /// Matrix of the elements that is assembled.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MatrixKind {
-    /// Without the geometric stiffness.
+    /// Stiffness without the geometric stiffness.
     Stiffness,
     GeometricStiffness,
     Mass(MassKind),
-    /// Without Rayleigh's.
+    /// Damping of the elements, without Rayleigh damping.
     Damping,
 }
 

@@ -76,7 +76,7 @@ impl Beam {
         })
     }
 
-    /// The same beam with shear deformation; `shear_stiffness` is G times the shear area, N.
+    /// Adds shear deformation; `shear_stiffness` is G times the shear area, N.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is positive.
@@ -85,15 +85,15 @@ impl Beam {
         Ok(Self { shear_stiffness, ..self })
     }
 
-    /// The same beam with the rotary inertia ρ I of its cross-section: with shear stiffness,
+    /// Adds the rotary inertia ρ I of the cross-section: with shear stiffness,
     /// Timoshenko's beam in full.
     #[must_use]
     pub fn with_rotary_inertia(self) -> Self {
         Self { has_rotary_inertia: true, ..self }
     }
 
-    /// The same beam as a beam–column: a constant axial force `compression` P (N, negative for
-    /// tension) works on its sway, −½ P ∫ w′² dx in the potential energy (P–Δ and P–δ).
+    /// Makes the beam a beam–column: a constant axial force `compression` P (N, negative for
+    /// tension) works on its lateral displacement w, −½ P ∫ w′² dx in the potential energy (P–Δ and P–δ).
     ///
     /// The force is that of the static state, the weight above for example; what is given here
     /// stays when [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds those

@@ -11,7 +11,7 @@ use crate::error::{
     require_part,
 };
 
-/// Farthest that a node may be from where it is looked for, over the size of the mesh: far below
+/// Farthest that a node may be from the place at which it is sought, over the size of the mesh: far below
 /// any element, far above the rounding of a coordinate.
 const SAME_POINT: f64 = 1e-6;
 
@@ -174,7 +174,7 @@ impl Mesh {
         pairs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     }
 
-    /// Other nodes at the place of `node`, which must exist.
+    /// Nodes other than `node` at its place; `node` must exist.
     pub(crate) fn nodes_beside(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
         let [x, y] = self.nodes[node];
         let near = SAME_POINT * self.extent();

@@ -68,7 +68,7 @@ impl Quad8 {
         Self { nodes, material, integration: Quad8Integration::default() }
     }
 
-    /// The same quadrilateral, integrated otherwise.
+    /// Replaces the rule of integration.
     #[must_use]
     pub fn with_integration(self, integration: Quad8Integration) -> Self {
         Self { integration, ..self }
@@ -89,7 +89,7 @@ fn shape([xi, eta]: [f64; 2]) -> [f64; 8] {
     })
 }
 
-/// Their slopes (∂/∂ξ, ∂/∂η).
+/// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
 fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
     PLACES.map(|[a, b]| {
         let (x, y) = (a * xi, b * eta);

@@ -189,7 +189,7 @@ impl LumpedMass {
         Ok(Self { node: [node], mass: positive("lumped mass", mass)?, rotary_inertia: 0.0 })
     }
 
-    /// The same mass with rotary inertia about the node, kg m² per metre of thickness. Above
+    /// Adds rotary inertia about the node, kg m² per metre of thickness. Above
     /// zero, the node gets a rotation degree of freedom, which other elements should hold.
     ///
     /// # Errors

@@ -135,7 +135,7 @@ impl Line {
         add_square(matrix, &row.map(|a| row.map(|b| stiffness * a * b)));
     }
 
-    /// Adds the geometric stiffness −P/L of a bar with a compressive force P against swaying across
+    /// Adds the geometric stiffness −P/L of a bar with a compressive force P against displacements across
     /// itself; degrees of freedom x, y at both ends.
     pub(super) fn add_sway(&self, compression: f64, matrix: &mut [f64]) {
         let row = [self.sine, -self.cosine, -self.sine, self.cosine];

@@ -44,7 +44,7 @@ impl Weight for Power {
     }
 }
 
-/// One branch of the kernel, in its own variable.
+/// Branch of the kernel, in its own variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Branch {
     /// zz and xx behind the pressure wave: s = √(τ²−a²).

@@ -13,7 +13,7 @@
 //! | `S_a`, `S_b` | √(y−a²), √(y−1) |
 //! | P, `y_R` | Rayleigh polynomial and root, see `Rayleigh` |
 //! | F, Q, W | ∫₀^τ f dη, ∫_τ^∞ f/η dη, ∫_τ^∞ f/η² dη |
-//! | J | x²F/2 + x t Q − t²W/2, the twice-integrated answer to H(t) |
+//! | J | x²F/2 + x t Q − t²W/2, the twice-integrated response to H(t) |
 
 use crate::error::{Result, finite, positive, require};
 use crate::fundamental::branch::{Branch, Branches, Power};
@@ -276,7 +276,7 @@ impl HalfPlane {
         sum[0]
     }
 
-    /// The same with the Rayleigh pulse once it has passed.
+    /// Odd sum over the branches, with the Rayleigh pulse once it has passed.
     fn odd_sum(&self, tau: f64, which: usize) -> f64 {
         if tau.is_nan() || tau <= self.branches.first {
             return 0.0;

@@ -1,6 +1,6 @@
 //! Plane-strain elastodynamic fundamental solutions.
 //!
-//! A line load per metre of thickness acts at the origin; the answers are displacements and
+//! A line load per metre of thickness acts at the origin; the responses are displacements and
 //! tractions at an offset from it. Components are (x, z) with **z down**; index 0 is x, 1 is z,
 //! and `u[i][j]` is component i due to a load in direction j.
 

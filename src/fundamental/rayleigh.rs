@@ -40,7 +40,7 @@ pub(crate) struct Rayleigh {
     pub(crate) excess: f64,
     /// Minus the sum of the other roots, measured from a².
     pub(crate) sum: f64,
-    /// Their product, measured from a².
+    /// Product of the other roots, measured from a².
     pub(crate) product: f64,
 }
 

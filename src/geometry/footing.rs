@@ -10,7 +10,7 @@ const ALIKE: f64 = 1.0 - 1e-9;
 /// Edge of a polygon whose corners go counter-clockwise.
 #[derive(Debug)]
 pub(crate) struct Edge {
-    /// Corner at which it begins.
+    /// Corner at which the edge begins.
     start: [f64; 2],
     /// Outward normal, as long as the edge.
     pub(crate) normal: [f64; 2],
@@ -48,8 +48,8 @@ pub(crate) struct Footing {
 }
 
 impl Footing {
-    /// Of these elements, with the corners of the convex outline, counter-clockwise; none in the plane. `origin` is the
-    /// point of the base moment.
+    /// Footing of these elements, with the corners of the convex outline, counter-clockwise; none in the plane.
+    /// `origin` is the point of the base moment.
     pub(crate) fn new(
         patch: &Patch,
         elements: Range<usize>,

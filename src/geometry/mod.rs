@@ -9,7 +9,7 @@ pub(crate) use lattice::{Lattice, SERIES, offset};
 
 use crate::error::{Error, MemoryError, Result, at_least, finite, memory, positive, require};
 
-/// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
+/// Boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

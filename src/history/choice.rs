@@ -1,4 +1,4 @@
-//! The kinds of histories, which one a ground keeps, why, and what it costs.
+//! Kinds of histories: the choice for a ground, its reason and its cost.
 
 use std::fmt;
 
@@ -22,7 +22,7 @@ use crate::geometry::SERIES;
 /// | exponentials | within a tolerance | as the transforms, with W for N, and about 3000 | as the transforms, with W for M, and 32 Q W |
 ///
 /// Wavenumbers take the place of pairs from eight equal elements on. A processor makes 4 to 7 of
-/// these multiply–adds in a nanosecond: the estimates tell factors of two apart, not more.
+/// these multiply–adds in a nanosecond: the estimates distinguish factors of two, not less.
 ///
 /// See [`RelaxedFftHistory`](super::RelaxedFftHistory) and
 /// [`ExponentialHistory`](super::ExponentialHistory) for more.
@@ -39,7 +39,7 @@ pub enum HistoryMethod {
     /// [`ExponentialHistory`](super::ExponentialHistory): memory that does not grow, small
     /// checkpoints. The kernel has to know its [late lags](super::ConvolutionWeights::late_weights).
     Exponentials,
-    /// One of the above, chosen when the number of steps is known or the first step is made:
+    /// Choice of one of the above, when the number of steps is known or the first step is made:
     ///
     /// 1. the exponentials, if they are estimated to take less time over the run than the
     ///    transforms, their making included: with the tolerance of [`HistoryOptions`](super::HistoryOptions),
@@ -54,7 +54,7 @@ pub enum HistoryMethod {
     /// Runs that go on beyond the steps known keep an exact history only up to the memory allowed, and
     /// then the exponentials (3.), which take over all that was before.
     ///
-    /// The choice is made once: from the steps that a simulation was told to
+    /// The choice is made once: from the steps that a simulation was asked to
     /// [expect](crate::coupled::SimulationBuilder::expected_steps), or else from those of the first
     /// run. Runs that follow keep it. Both give the same bits however a run is cut, but they differ
     /// from each other by their errors: say what to expect, and the choice is the same for every cut.

@@ -17,7 +17,7 @@ const AHEAD: usize = 64;
 ///
 /// An exact one may take the memory allowed, or what it needs for the steps that were announced.
 /// Where steps go on beyond, it gives way to the exponentials if it was chosen and not asked for,
-/// at a step that depends on options and announcement alone; otherwise the step is refused.
+/// at a step that depends on options and announcement alone; otherwise the step returns [`Error::Memory`].
 pub(crate) struct ChosenHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     options: HistoryOptions,
@@ -184,7 +184,7 @@ impl ConvolutionHistory for ChosenHistory {
         fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
     }
 
-    /// Only for steps that it is kept for.
+    /// Reserves memory, only for the steps for which the history is kept.
     fn reserve(&mut self, steps: usize) -> Result<()> {
         let ready = self.ready(steps)?;
         self.any_mut().reserve(ready)
@@ -277,7 +277,7 @@ impl HistoryOptions {
         kernel: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<(Kept, HistoryChoice)> {
-        // No run lasts so long: an observer is meant to stop it, nobody knows when.
+        // No run lasts so long: an observer is meant to stop it at an unknown time.
         let steps = steps.filter(|steps| *steps < LONGEST);
         let expected = steps.unwrap_or(UNKNOWN_STEPS);
         let estimate = |kind| Estimate::new(kind, &**kernel, expected);
@@ -372,7 +372,7 @@ impl HistoryOptions {
         self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE)
     }
 
-    /// As many of these steps as a history of this kind holds in the memory allowed: a larger number
+    /// Number of these steps that a history of this kind holds in the memory allowed: a larger number
     /// may stand for a run without end.
     pub(crate) fn prepared_steps(
         self,

@@ -20,7 +20,7 @@ pub trait ConvolutionHistory: Send {
     /// If a kernel cannot be evaluated.
     fn reserve(&mut self, steps: usize) -> Result<()>;
 
-    /// [`reserve`](ConvolutionHistory::reserve) with an observer, which hears nothing of quick work (the default).
+    /// [`reserve`](ConvolutionHistory::reserve) with an observer, which is not notified of quick work (the default).
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for
@@ -93,7 +93,7 @@ pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<
 // The kernel of a convolution history: a ground's coefficients, lag by lag, and late ones as
 // exponentials.
 
-/// Step coefficients Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
+/// Convolution weights Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
 /// one length.
 ///
 /// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the
@@ -133,7 +133,7 @@ pub trait ConvolutionWeights: Send + Sync {
         Ok(())
     }
 
-    /// [`prepare`](ConvolutionWeights::prepare) with an observer, which hears nothing of a closed form (the default).
+    /// [`prepare`](ConvolutionWeights::prepare) with an observer, which is not notified of a closed form (the default).
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].

@@ -1,4 +1,4 @@
-//! The history as the sum that it is: exact, O(N) per step.
+//! History by direct summation: exact, O(N) per step.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Last lag that a kernel in plan needs: the soil forgets.
+//! Last lag that a kernel in plan needs, since the effect of a traction dies out.
 
 use super::convolution::ConvolutionWeights;
 use crate::error::Result;

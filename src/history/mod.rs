@@ -1,8 +1,8 @@
-//! Convolution histories: what all past tractions give at the end of the next step.
+//! Convolution histories: response to all past tractions at the end of the next step.
 //!
-//! A [`ConvolutionWeights`] tells the coefficients of a ground, lag by lag; the histories sum them over all
+//! A [`ConvolutionWeights`] gives the coefficients of a ground, lag by lag; the histories sum them over all
 //! past tractions, exactly ([`DirectHistory`], [`RelaxedFftHistory`]) or within a tolerance
-//! ([`ExponentialHistory`]). [`HistoryMethod::Auto`] chooses. Nothing here knows what the ground is made of.
+//! ([`ExponentialHistory`]). [`HistoryMethod::Auto`] chooses. Nothing here depends on what the ground is made of.
 
 mod choice;
 mod chosen;

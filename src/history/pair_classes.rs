@@ -36,7 +36,7 @@ pub struct Pair {
     pub sign: f64,
 }
 
-/// Shortest element over the length of the patch: shorter ones could not be told apart by class.
+/// Shortest element over the length of the patch: shorter ones could not be distinguished by class.
 const SHORTEST: f64 = 1e-8;
 
 /// Elements of a patch, and their pairs sorted into classes.
@@ -58,7 +58,7 @@ const SHORTEST: f64 = 1e-8;
 pub struct PairClasses {
     elements: Vec<ContactElement>,
     pairs: Vec<Pair>,
-    /// One (source, receiver) per class, the receiver on the right.
+    /// Representative (source, receiver) of each class, the receiver on the right.
     representatives: Vec<[ContactElement; 2]>,
     /// Elements that are cells of a lattice, column and row of each; no pairs are listed then.
     plan: Option<(Lattice, Vec<[usize; 2]>)>,
@@ -146,7 +146,7 @@ impl PairClasses {
         }
     }
 
-    /// One pair of `class`: its source, and its receiver, which is the source itself or to the
+    /// Representative pair of `class`: its source, and its receiver, which is the source itself or to the
     /// right of it.
     ///
     /// # Errors
@@ -215,7 +215,7 @@ impl PairClasses {
     /// [`PairClasses::scatter`], over `own`, a size of each component of an element on itself, by class
     /// and component; NaN if it is not finite.
     ///
-    /// With (1−z) Ĝ(z), integrated over receivers and sources, it tells whether a ground can give
+    /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can give
     /// energy away: by Parseval the work of any tractions is not negative if it is not, anywhere on |z| = 1.
     pub(crate) fn least_eigenvalue<T, const KINDS: usize>(
         &self,

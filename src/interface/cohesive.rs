@@ -1,16 +1,16 @@
-//! Contact that is glued until it breaks.
+//! Cohesive contact: a bond that breaks for good.
 
 use super::{
     Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 use crate::error::{Result, not_negative};
 
-/// Adhesion that breaks once: an element sticks up to a tensile strength and a cohesion, and is one of
-/// Coulomb's law from the step on in which either is exceeded.
+/// Cohesive contact, a bond that breaks for good: an element sticks up to a tensile strength and a cohesion, and is one
+/// of Coulomb's law from the step on in which either is exceeded.
 ///
-/// Glued, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Each element remembers whether it is
-/// glued (1) or broken (0); one that stands open at first is broken. What broken elements carried goes
-/// over to their neighbours at once, so that a base may unzip in a step, and the elastic energy that
+/// While bonded, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Its state variable says whether an element is
+/// bonded (1) or broken (0); an element that is open at first is broken. What broken elements carried passes
+/// to their neighbours at once, so that a base may unzip in a step, and the elastic energy that
 /// is set free is radiated. Within a step bonds only break: first those that are loaded most beyond
 /// their strength while the others hold, then, with what these carried handed over, the next.
 ///
@@ -28,8 +28,8 @@ use crate::error::{Result, not_negative};
 ///     .motion(el_centro_1940())
 ///     .build()?;
 /// let run = simulation.run(2500, |_| {})?;
-/// let glued = (0..16).filter(|&e| simulation.state().state_variables(e) == [1.0]).count();
-/// assert!(glued > 0 && glued < 16, "{glued}");
+/// let bonded = (0..16).filter(|&e| simulation.state().state_variables(e) == [1.0]).count();
+/// assert!(bonded > 0 && bonded < 16, "{bonded}");
 /// assert!(run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -76,7 +76,7 @@ impl Cohesive {
         self.broken.friction()
     }
 
-    /// Traction by which a glued element exceeds its strength, below zero while it holds.
+    /// Traction by which a bonded element exceeds its strength, below zero while it holds.
     fn overload(&self, trial: &ContactState) -> f64 {
         let friction = match self.friction() * trial.pressure.max(0.0) {
             limit if limit.is_nan() => 0.0,
@@ -86,7 +86,7 @@ impl Cohesive {
     }
 }
 
-/// Whether the element was glued at the start of the step, and is so far in it.
+/// Whether the element was bonded at the start of the step, and is so far in it.
 fn is_glued(start: &PreviousContact) -> bool {
     !start.has_opened && start.state_variables.first().is_some_and(|glued| *glued > 0.0)
 }

@@ -24,7 +24,7 @@ pub enum UnilateralCondition {
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
 /// Signorini's conditions normal to the base, |τ| ≤ friction · p along it, slip in the direction
-/// of the shear traction. Infinite friction is "uplift only", zero friction a smooth base. For a
+/// of the shear traction. Infinite friction is "uplift only", zero friction a frictionless base. For a
 /// coefficient that changes there is [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
@@ -218,7 +218,7 @@ impl InterfaceLaw for Coulomb {
 type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
 /// [`Coulomb`]'s law with a friction coefficient for each step: of the speed of sliding, of the
-/// way slid, of the pressure, whatever [`PreviousContact`] knows.
+/// way slid, of the pressure, whatever [`PreviousContact`] holds.
 ///
 /// The coefficient is that of the start of the step, so that it cannot change while the modes of
 /// the step are searched for, and what it depends on lags by a step.
@@ -262,19 +262,19 @@ impl VariableFriction {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::frictionless() }
     }
 
-    /// As [`Coulomb::with_tensile_strength`].
+    /// Sets the tensile strength, as [`Coulomb::with_tensile_strength`] does.
     ///
     /// # Errors
-    /// The same.
+    /// Those of [`Coulomb::with_tensile_strength`].
     pub fn with_tensile_strength(mut self, strength: f64) -> Result<Self> {
         self.contact = self.contact.with_tensile_strength(strength)?;
         Ok(self)
     }
 
-    /// As [`Coulomb::with_unilateral_condition`].
+    /// Sets the unilateral condition, as [`Coulomb::with_unilateral_condition`] does.
     ///
     /// # Errors
-    /// The same.
+    /// Those of [`Coulomb::with_unilateral_condition`].
     pub fn with_unilateral_condition(mut self, activation: UnilateralCondition) -> Result<Self> {
         self.contact = self.contact.with_unilateral_condition(activation)?;
         Ok(self)

@@ -13,8 +13,8 @@ use crate::error::{Result, finite, not_negative, require};
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
 /// An element that has opened with a tension, an attraction or a shear strength loses them in that step. Layers give
-/// way by [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick beside. The default is smooth
-/// and hard contact.
+/// way by [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick beside. The default is
+/// frictionless and hard contact.
 ///
 /// ```
 /// use basemat::interface::{Coulomb, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};

@@ -1,8 +1,8 @@
 //! Interface laws between the base and the soil.
 //!
-//! A law knows one contact element at a time. For each [`Mode`] it states two linear
+//! A law describes one contact element at a time. For each [`Mode`] it states two linear
 //! [`Condition`]s between the element's opening and its traction, and after a trial it says which
-//! mode comes next. The mode search of [`crate::coupled`] does the rest and knows no law.
+//! mode comes next. The mode search of [`crate::coupled`] does the rest and depends on no law.
 
 mod cohesive;
 mod coulomb;
@@ -87,7 +87,7 @@ impl ContactState {
     }
 }
 
-/// One linear condition on the end of a step:
+/// Linear condition on the end of a step:
 /// `gap·g + slip·s + pressure·p + shear·τ = value`, coefficients in the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -106,7 +106,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// The gap is `value`.
+    /// Condition that the gap is `value`.
     pub fn gap_is(value: f64) -> Self {
         Self { gap: 1.0, value, ..Self::default() }
     }
@@ -153,12 +153,12 @@ impl Condition {
         }
     }
 
-    /// The slip is `value`.
+    /// Condition that the slip is `value`.
     pub fn slip_is(value: f64) -> Self {
         Self { slip: 1.0, value, ..Self::default() }
     }
 
-    /// The pressure is `value`.
+    /// Condition that the pressure is `value`.
     pub fn pressure_is(value: f64) -> Self {
         Self { pressure: 1.0, value, ..Self::default() }
     }
@@ -175,9 +175,9 @@ impl Condition {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Tolerance {
-    /// For gaps and slips, m.
+    /// Tolerance for gaps and slips, m.
     pub length: f64,
-    /// For tractions, Pa.
+    /// Tolerance for tractions, Pa.
     pub traction: f64,
 }
 
@@ -292,7 +292,7 @@ pub trait InterfaceLaw: Send {
     ) -> Mode;
 
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension and slip per shear traction.
-    /// Zero (the default) for hard contact. The energy balance books what so much elasticity
+    /// Zero (the default) for hard contact. The energy balance counts what so much elasticity
     /// stores, ½ compliance · traction² at the end of the step; only the rest of gap and slip, and
     /// what goes with a compliance that changes, can be lost to friction, impact and damage.
     ///
@@ -303,7 +303,7 @@ pub trait InterfaceLaw: Send {
         [0.0; 2]
     }
 
-    /// Count of the numbers that the law remembers of each element, always the same; none by default.
+    /// Count of the state variables that the law keeps per element, always the same; none by default.
     fn state_variables(&self) -> usize {
         0
     }
@@ -342,7 +342,7 @@ pub trait InterfaceLaw: Send {
         None
     }
 
-    /// Asked after a condition that is not finite: the reason, if the law knows it.
+    /// Asked after a condition that is not finite: the reason, if the law can give it.
     ///
     /// # Errors
     /// With the number behind it, as [`Error::Input`] or
@@ -366,8 +366,8 @@ pub trait InterfaceLaw: Send {
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
-    /// This law without friction and adhesion, for setting the structure down on the ground; hard
-    /// and smooth contact unless the law says otherwise.
+    /// Same law without friction and cohesion, for setting the structure down on the ground; hard
+    /// and frictionless contact unless the law says otherwise.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Coulomb::frictionless())
     }

@@ -1,4 +1,4 @@
-//! Modes of an element: what it does in a step.
+//! Modes of an element in a step: stick, slip or open.
 
 /// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -12,7 +12,7 @@ pub enum Mode {
     SlipLeft,
     /// Closed; the structure slides to the right over the soil.
     SlipRight,
-    /// Uplifted: no traction.
+    /// Uplift: no traction.
     Open,
     /// Closed, no slip; the soil yields under the pressure ([`Yielding`](super::Yielding)).
     Yield,
@@ -20,9 +20,9 @@ pub enum Mode {
     YieldLeft,
     /// Closed; the soil yields under the pressure, and the structure slides to the right.
     YieldRight,
-    /// In plan: closed; the structure slides over the soil in the direction of the shear traction on it.
+    /// Slip in plan: closed; the structure slides over the soil in the direction of the shear traction on it.
     Slip,
-    /// In plan: as `Slip`, on soil that yields under the pressure.
+    /// Slip in plan on soil that yields under the pressure.
     YieldSlip,
 }
 

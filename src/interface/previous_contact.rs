@@ -1,11 +1,11 @@
-//! The start of a step: the past of each element, as its law sees it.
+//! Previous contact: the past of each element at the start of a step, as its law sees it.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
 use crate::error::{LawError, Result, finite, memory, same_length};
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///
-/// In the signatures of a law of one's own it is `&PreviousContact`; the lifetime is that of `state_variables`.
+/// In the signatures of a law of your own it is `&PreviousContact`; the lifetime is that of `state_variables`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PreviousContact<'a> {
@@ -22,15 +22,15 @@ pub struct PreviousContact<'a> {
     pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
-    /// The numbers that the law remembers of this element ([`InterfaceLaw::state_variables`]); empty for a
-    /// law without any.
+    /// State variables of the law for this element ([`InterfaceLaw::state_variables`]); empty for a
+    /// law without state variables.
     pub state_variables: &'a [f64],
 }
 
 impl<'a> PreviousContact<'a> {
     /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
     /// simulation: it has opened if it is open, its slip rate is zero, its static pressure that
-    /// of `state`, and its state variables empty. All fields can then be set.
+    /// of `state`, and no state variables. All fields can then be set.
     ///
     /// ```
     /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
@@ -89,7 +89,7 @@ impl<'a> PreviousContact<'a> {
 }
 
 /// The start of a step for all elements, from left to right: the past of a run as the laws see it,
-/// with what they remember.
+/// with their state variables.
 ///
 /// A [`Simulation`](crate::Simulation) keeps its own. A code with an integrator of its own gets one
 /// from [`ContactProblem::start`](crate::contact::ContactProblem::start), owns it, and may clone it
@@ -99,7 +99,7 @@ impl<'a> PreviousContact<'a> {
 pub struct PreviousContacts {
     /// Past of each element, without its state variables.
     past: Vec<PreviousContact<'static>>,
-    /// The state variables of all elements, one after the other.
+    /// State variables of all elements, one after the other.
     state_variables: Vec<f64>,
     /// Ends of the state variables of each element; empty if no law has any.
     ends: Vec<usize>,
@@ -181,7 +181,7 @@ impl PreviousContacts {
         &self.past[element].state
     }
 
-    /// Memory of an element's law.
+    /// State variables of an element's law.
     pub(crate) fn state_variables_of(&self, element: usize) -> &[f64] {
         if self.ends.is_empty() {
             &[]
@@ -204,7 +204,7 @@ impl PreviousContacts {
         &self.ends
     }
 
-    /// The memories of all elements.
+    /// State variables of all elements.
     pub(crate) fn state_variables(&self) -> &[f64] {
         &self.state_variables
     }

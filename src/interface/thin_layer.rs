@@ -1,4 +1,4 @@
-//! A thin elastic layer between base and soil, as Patel & Spyrakos have it.
+//! Thin elastic layer between base and soil, after Patel & Spyrakos.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit length; D₂₂ = λ + 2μ, plane strain |
 //! | g, s, p, τ | gap, slip, pressure, shear traction; ₀ at the start of the step |
 //!
-//! A four-node element of length L and thickness t, integrated at its centre, knows the mean
+//! A four-node element of length L and thickness t, integrated at its centre, sees the mean
 //! strains ε_yy = g/t and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L
 //! beside them). Its nodal forces are those of tractions D₂₂ g/t and μ s/t on L: a law of one
 //! element's means, with no degrees of freedom of its own.
@@ -42,7 +42,7 @@ words! { pub(crate) FrictionLimit, "friction limit", {
     Dynamic = "dynamic",
 } }
 
-/// Quantity that tells the sense of slip, and whether it goes on.
+/// Quantity that decides the sense of slip, and whether slip goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -212,7 +212,7 @@ impl ThinLayer {
     }
 
     /// Sets the fraction of the shear stiffness that resists the slip of each step, beyond friction; none unless given.
-    /// It acts as a viscosity does, since the next step knows nothing of it.
+    /// It acts as a viscosity does, since the next step does not depend on it.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.

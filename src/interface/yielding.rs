@@ -8,7 +8,7 @@ use crate::error::{Result, positive};
 /// Coulomb friction and uplift on soil whose contact pressure is bounded: where it reaches the
 /// bearing pressure q, the base sinks in for good.
 ///
-/// Each element remembers its indentation w ≥ 0: the surface that the base meets again lies w below
+/// Each element keeps as a state variable its indentation w ≥ 0: the surface that the base meets again lies w below
 /// the old one. The normal conditions of the element, crossed with stick and slip:
 ///
 /// | | |
@@ -17,7 +17,7 @@ use crate::error::{Result, positive};
 /// | closed | g = −w, 0 ≤ p ≤ q |
 /// | yielding | p = q, g ≤ −w; w becomes −g |
 ///
-/// The energy balance books q times the indentation in `contact`. It is the near field of a foundation: a
+/// The energy balance counts q times the indentation in `contact`. It is the near field of a foundation: a
 /// rocking base settles and its soil is rounded, as in beds of yielding springs (Allotey & El Naggar
 /// 2003), while the half-plane below stays elastic. Sliding does not lower q.
 ///
@@ -82,7 +82,7 @@ impl Yielding {
     }
 }
 
-/// The indentation that an element remembers.
+/// Indentation, the state variable of an element.
 fn indentation(start: &PreviousContact) -> f64 {
     start.state_variables.first().copied().unwrap_or(0.0)
 }

@@ -115,7 +115,7 @@ impl Complex {
         Self::new(self.re, -self.im)
     }
 
-    /// Times a real number.
+    /// Product with a real number.
     #[must_use]
     pub(crate) fn scale(self, factor: f64) -> Self {
         Self::new(self.re * factor, self.im * factor)

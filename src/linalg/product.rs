@@ -18,7 +18,7 @@ pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut
     }
 }
 
-/// y ← y + factor · Aᵀ x, likewise, for a matrix with `y.len()` columns.
+/// y ← y + factor · Aᵀ x for a dense row-major matrix with `y.len()` columns.
 pub(crate) fn transposed_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
     debug_assert_eq!(matrix.len(), x.len() * y.len());
     if !y.is_empty() {

@@ -59,7 +59,8 @@ impl SparseFactor {
         probe.iter().all(|x| x.is_finite()).then_some(self)
     }
 
-    /// Or the row at which the matrix is found not to be positive definite.
+    /// Factors the matrix by Cholesky's method, or returns the row at which the matrix is found not to be positive
+    /// definite.
     fn cholesky(matrix: &SparseColMat<usize, f64>) -> std::result::Result<Self, usize> {
         let symbolic = factorize_symbolic_cholesky(
             matrix.symbolic(),
@@ -216,7 +217,7 @@ fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
 pub(crate) struct Partition(Vec<usize>);
 
 impl Partition {
-    /// Every number by itself.
+    /// Sets of which each holds one number.
     pub(crate) fn new(order: usize) -> Self {
         Self((0..order).collect())
     }
@@ -313,7 +314,7 @@ mod tests {
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
         assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(2));
         assert_eq!(rows(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]), Some(0));
-        // The most negative entry tells most.
+        // The most negative entry says most.
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
         // Below the floor it is rounding, just above it is not.
         for (value, found) in [(0.99e-12, None), (1.01e-12, Some(1))] {

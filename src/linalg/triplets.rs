@@ -4,7 +4,7 @@ use crate::error::{Result, in_bounds, same_length};
 
 /// Square sparse matrix under construction: entries at the same place add up.
 ///
-/// Indices out of range and values that are not finite are remembered and reported as a typed
+/// Indices out of range and values that are not finite are recorded and reported as a typed
 /// error when the matrix is used, so that filling it never fails.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triplets {

@@ -14,7 +14,7 @@ use crate::error::{Error, Result, require};
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Baseline {
-    /// No correction: the record as it is.
+    /// No correction, which leaves the record as it is.
     #[default]
     None,
     /// The time mean of the acceleration, which makes v(T) = 0.

@@ -29,7 +29,7 @@ pub trait FreeField: Send {
     ///
     /// Default: the central difference of displacements 10 µs before and after. A motion of f Hz loses (2πf · 10 µs)²/6
     /// of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A jump or a kink
-    /// is spread over 20 µs. Fields that know their velocity should say it.
+    /// is spread over 20 µs. Fields whose velocity is known should return it.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         differenced(self, x, time)
     }

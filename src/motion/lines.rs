@@ -1,4 +1,4 @@
-//! Lines, fields and numbers of text files, however bad.
+//! Lines, fields and numbers of text files, damaged ones included.
 
 use std::io::Read;
 

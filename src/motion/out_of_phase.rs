@@ -36,7 +36,7 @@ impl OutOfPhase {
         Ok(Self { given: given.clone(), given_is_vertical, ratio, late: Late::new(given)? })
     }
 
-    /// Both components from the given one and W or V.
+    /// Completes both components from the given one and W or V.
     fn both(&self, given: f64, late: f64) -> [f64; 2] {
         let other = self.ratio.re * given + self.ratio.im * late;
         if self.given_is_vertical { [other, given] } else { [given, other] }
@@ -61,7 +61,7 @@ struct Late {
     count: usize,
     /// V at the samples and at as many times before and after.
     velocity: Vec<f64>,
-    /// W there.
+    /// W at the same times.
     displacement: Vec<f64>,
     moments: Moments,
     /// Constants of integration before and after the samples, which make W continuous.
@@ -130,7 +130,7 @@ struct Moments {
 }
 
 impl Moments {
-    /// Of two or more samples.
+    /// Moments of two or more samples.
     fn new(source: &[f64]) -> Self {
         let half = 0.5 * (source.len() as f64 - 1.0);
         let mut values = [0.0; MOMENTS];

@@ -141,7 +141,7 @@ impl PlaneWave {
     /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal one
     /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not
     /// come back). It is measured from t = 0, when it moves already; its velocity then, which
-    /// [`FreeField::velocity`](super::FreeField::velocity) tells, is a jolt at the start of a run. Quiet time before
+    /// [`FreeField::velocity`](super::FreeField::velocity) returns, is a jolt at the start of a run. Quiet time before
     /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at
     /// rest: see [`Baseline`](super::Baseline).
     ///

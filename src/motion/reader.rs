@@ -26,8 +26,8 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time step is their mean,
 /// rounded to twelve digits, or the second time where all are exact multiples of it, as [`Record::csv`] writes them.
 /// The first time may be any: the record counts from there. Files without a time column are read by
-/// [`equally_spaced`](Self::equally_spaced). A file cut within its last number cannot be told from a whole one: give
-/// `samples` where their number is known.
+/// [`equally_spaced`](Self::equally_spaced). A file cut within its last number cannot be distinguished from a whole
+/// one: give `samples` where their number is known.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -80,7 +80,7 @@ impl ColumnFormat {
     }
 }
 
-/// One line of numbers.
+/// Line of numbers.
 struct Sample {
     line: usize,
     time: f64,

@@ -99,7 +99,7 @@ impl Record {
         positive("time step of the record", time_step)?;
         positive("duration of the record", duration)?;
         let steps = (duration / time_step).round();
-        // Infinity is refused as well.
+        // Infinity is an error as well.
         check_samples(steps)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = steps as usize;

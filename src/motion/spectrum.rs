@@ -41,7 +41,7 @@ impl Record {
     ///
     /// The acceleration is linear between samples, for which the oscillator's motion is known
     /// exactly (Nigam & Jennings, "Calculation of response spectra from strong-motion earthquake
-    /// records", Bull. Seism. Soc. Am. 59 (1969), 909–922). Peaks are looked for between samples
+    /// records", Bull. Seism. Soc. Am. 59 (1969), 909–922). Peaks are searched for between samples
     /// too, to 2e-6. A floor's acceleration makes a floor spectrum.
     ///
     /// ```

@@ -40,7 +40,7 @@ pub enum AccelerationUnit {
 }
 
 impl AccelerationUnit {
-    /// One of this unit in m/s².
+    /// Value of this unit in m/s².
     pub fn in_metres_per_second_squared(self) -> f64 {
         match self {
             Self::MetrePerSecondSquared => 1.0,
@@ -138,11 +138,11 @@ const NUMBER: Units = &[("", 1.0)];
 /// Quantities in the header of a file, and their names in errors.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum HeaderNumber {
-    /// s.
+    /// Time step, s.
     TimeStep,
-    /// s.
+    /// Duration, s.
     Duration,
-    /// Hz.
+    /// Frequency, Hz.
     Frequency,
     Points,
 }

@@ -17,7 +17,7 @@ const HEIGHT: f64 = 640.0;
 const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
 /// x of the left end of key, scale and clock, pixels.
 const ASIDE: f64 = 725.0;
-/// More frames than these make files that browsers choke on.
+/// Frames at most: more make files that browsers cannot play smoothly.
 const MOST_FRAMES: usize = 600;
 /// Changes of the clock.
 const MOST_TIMES: usize = 150;
@@ -91,7 +91,7 @@ struct Screen {
 }
 
 impl Screen {
-    /// For these places, and others that are to be seen.
+    /// Screen for these places, and others that are to be seen.
     fn of(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
         let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
         all.extend(others);

@@ -1,4 +1,4 @@
-//! Axes and ranges that all charts share.
+//! Axes and ranges common to all charts.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ pub(super) const BELOW: u32 = 62;
 /// Pixels for a mark, along x and y.
 const MARK: [f64; 2] = [82.0, 40.0];
 
-/// A linear axis with marks where we want them.
+/// Linear axis with marks at given places.
 pub(super) struct Coordinate {
     range: RangedCoordf64,
     marks: Vec<f64>,
@@ -92,7 +92,7 @@ impl Axis {
         Self { range, description: description.into(), scale: Scale::Linear }
     }
 
-    /// Over logarithms of the values in `range`, which are above zero.
+    /// Axis over logarithms of the values in `range`, which are above zero.
     pub(super) fn logarithmic(range: Range<f64>, description: &str) -> Self {
         let logarithms = range.start.log10()..range.end.log10();
         let scale = Scale::Logarithmic(range);
@@ -247,7 +247,7 @@ fn exponent(value: f64) -> i32 {
     exponent
 }
 
-/// A multiple of `step`, with the digits that tell it from its neighbours.
+/// Multiple of `step`, with the digits that distinguish it from its neighbours.
 fn number(value: f64, step: f64) -> String {
     // Multiples that miss zero by rounding.
     if value.abs() < 1e-3 * step {

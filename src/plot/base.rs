@@ -11,7 +11,7 @@ use crate::results::{ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Columns of the map: more than pixels help nobody.
+/// Columns of the map, as many as it has pixels at most.
 const COLUMNS: usize = 1000;
 
 /// The mode of every contact element over time; where frames share a column, the rarest mode shows.

@@ -14,7 +14,7 @@ use plotters::style::RGBColor;
 /// Directions in which a structure is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum View {
-    /// Along y: x to the right, up.
+    /// View along y: x to the right, up.
     AlongY,
     /// Against x: y to the right, up.
     AlongX,

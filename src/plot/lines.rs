@@ -11,7 +11,7 @@ use crate::site::{EquivalentLinear, LayerResponse};
 use crate::text::column::{of_body, printed};
 use plotters::prelude::*;
 
-/// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.
+/// Stretches of a curve that are drawn by their extremes, as many as there are pixels at most.
 const BUCKETS: usize = 1500;
 /// Demands above this are drawn here.
 const MOST_DEMAND: f64 = 4.0;
@@ -63,7 +63,7 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
     })
 }
 
-/// One quantity of one or more runs over time, in kN, mm, mrad or per cent.
+/// Chart of one quantity of one or more runs over time, in kN, mm, mrad or per cent.
 ///
 /// Factors of safety are drawn as their inverse, demand over capacity: a curve from zero that shows
 /// at one what was reached, where the factor itself would leave every chart. Of a bonded base it

@@ -1,4 +1,4 @@
-//! The base in plan: what its cells bear and do at an instant, and the largest pressures of a run.
+//! The base in plan: pressures and modes of its cells at an instant, and the largest pressures of a run.
 
 use std::ops::Range;
 
@@ -101,7 +101,7 @@ struct Classes {
 }
 
 impl Classes {
-    /// Up to the class of the largest pressure.
+    /// Classes up to that of the largest pressure.
     fn to(largest: f64) -> Self {
         let largest = if drawable(largest) && largest > 0.0 { largest } else { 1.0 };
         let step = nice(largest / CLASSES);

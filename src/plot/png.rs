@@ -39,7 +39,7 @@ impl Svg {
         let tree = Tree::from_str(self.as_str(), &options).map_err(|_| NOT_DRAWN)?;
         let size = tree.size();
         let [width, height] = [size.width(), size.height()].map(|side| f64::from(side) * scale);
-        // A NaN is refused as well.
+        // A NaN is an error as well.
         let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS;
         let needed = "above zero, and a bitmap of 100 million pixels at most";
         require("scale of a bitmap", scale, fits, needed)?;

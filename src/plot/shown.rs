@@ -14,7 +14,7 @@ pub(super) enum Shown {
     Weightless,
     SlipLeft,
     SlipRight,
-    /// In plan: slip in any direction.
+    /// Slip in any direction, in plan.
     Slip,
 }
 

@@ -22,7 +22,7 @@ const TITLE_ROOM: u32 = 16;
 pub struct Svg(String);
 
 impl Svg {
-    /// Signs that XML 1.0 does not know (its section 2.2) become replacement signs.
+    /// Signs that XML 1.0 does not allow (its section 2.2) become replacement signs.
     pub(super) fn new(text: String) -> Self {
         let unknown = |c| matches!(c, '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}');
         Self(if text.contains(unknown) { text.replace(unknown, "\u{fffd}") } else { text })

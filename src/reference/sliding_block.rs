@@ -183,7 +183,7 @@ impl Run {
 /// Motion after an event, up to the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
-    /// Time at its start, s.
+    /// Time at the start of the slip, s.
     pub(super) time: f64,
     /// Slip, slip velocity, slip acceleration and its rate at its start.
     pub(super) state: [f64; 4],

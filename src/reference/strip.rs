@@ -34,7 +34,7 @@ pub struct NoTensionStrip {
     exponent: f64,
 }
 
-/// Where a tilted strip touches the ground.
+/// Contact of a tilted strip with the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StripContact {
     /// Left end of the contact, m from the middle of the strip.

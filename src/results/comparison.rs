@@ -1,4 +1,4 @@
-//! Several cases in one table.
+//! Comparison of several cases in one table.
 
 use std::fmt;
 

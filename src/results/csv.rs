@@ -154,7 +154,7 @@ pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contac
 /// A number of an element after a step.
 type Number = fn(&ContactState) -> f64;
 
-/// Motion frames.
+/// Columns of motion frames.
 pub(super) const MOTION: [&str; 5] = [
     "motion_time_s",
     "motion_displacement",
@@ -198,7 +198,7 @@ impl TimeSeries {
         columns
     }
 
-    /// Their values.
+    /// Values of the columns.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::of(self.in_plan()).map(|quantity| self.series(quantity));
         let probes = self.probe_values.iter().map(Vec::as_slice);

@@ -247,7 +247,7 @@ impl ShapePoint {
 }
 
 impl FaceNode {
-    /// The node itself.
+    /// Point of the shape at the node itself.
     fn shape(&self) -> ShapePoint {
         let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);
         ShapePoint::in_space([self.x, self.y, 0.0], rows)

@@ -1,4 +1,4 @@
-//! Results that engineers look for: time series, peaks with their times, envelopes, factors of safety.
+//! Results for engineers: time series, peaks with their times, envelopes, factors of safety.
 //!
 //! [`Simulation::run`](crate::Simulation::run) gives a [`Run`]: peaks, envelopes, factors of safety,
 //! printed a page for the report. A [`Comparison`] puts several into one table. For time series and

@@ -161,12 +161,12 @@ impl TimeSeries {
         &self.times
     }
 
-    /// History of a scalar at [`TimeSeries::times`]; empty in the plane for those of three directions.
+    /// Time series of a quantity at [`TimeSeries::times`]; empty in the plane for those of three directions.
     pub fn series(&self, quantity: Quantity) -> &[f64] {
         self.scalars.get(quantity as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// History of the probe called `name`, zero at the start of a run.
+    /// Time series of the probe called `name`, zero at the start of a run.
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is none.
@@ -198,7 +198,7 @@ impl TimeSeries {
         &self.depths
     }
 
-    /// Whether they are of a ground in plan.
+    /// Whether the time series are of a ground in plan.
     pub(crate) fn in_plan(&self) -> bool {
         !self.depths.is_empty()
     }
@@ -248,7 +248,7 @@ pub struct MotionFrame<'a> {
     /// Degrees of freedom as changes against the static state, relative to the free field's translation, m
     /// and rad.
     pub displacement: &'a [f64],
-    /// Their total rates.
+    /// Total velocities of the degrees of freedom, m/s and rad/s.
     pub velocity: &'a [f64],
     /// Mean displacement [horizontal, up] of the free field under the base, m.
     pub free_field: [f64; 2],
@@ -316,7 +316,7 @@ pub(super) struct MotionFrames {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     free_field: Vec<[f64; 2]>,
-    /// One for each frame.
+    /// Mean displacement of the free field along y, m, one for each frame; none if the file that was read has none.
     #[cfg_attr(feature = "serde", serde(default))]
     free_field_across: Vec<f64>,
 }

@@ -271,7 +271,7 @@ impl<'a> Iteration<'a> {
         column.inside(what, self.options.control, step, samples)
     }
 
-    /// Iterates from small strain.
+    /// Iterates the moduli and damping ratios, beginning at small strain.
     fn converged(&self) -> Result<Converged> {
         let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
             *self.options;

@@ -104,7 +104,7 @@ impl InclinedWave {
     /// ```
     ///
     /// # Errors
-    /// As for [`InclinedWave::sv`]; [`InclinedControl::OutcropVertical`] is refused later.
+    /// As for [`InclinedWave::sv`]; [`InclinedControl::OutcropVertical`] is an error later, in [`InclinedWave::field`].
     pub fn sh(profile: SoilProfile, angle: f64) -> Result<Self> {
         Self::new(profile, angle, Kind::Sh)
     }

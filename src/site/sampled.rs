@@ -31,13 +31,13 @@ impl<'a, F, const WAVES: usize> Sampled<'a, F, WAVES>
 where
     F: Fn(Soil, Complex, Complex) -> [Complex; WAVES],
 {
-    /// As they are, at any frequency.
+    /// Layers as they are, at any frequency.
     pub(super) fn exact(profile: &'a SoilProfile, slownesses: F) -> Self {
         let (highest, moduli, travels) = ((vec![], vec![]), vec![], vec![]);
         Self { profile, slownesses, highest, moduli, travels }
     }
 
-    /// As samples see them on a contour that ends at s = `end`.
+    /// Layers as samples see them on a contour that ends at s = `end`.
     pub(super) fn new(profile: &'a SoilProfile, slownesses: F, end: Complex) -> Result<Self> {
         let mut layers = Self::exact(profile, slownesses);
         profile.moduli(Complex::real(end.im), &mut layers.moduli)?;

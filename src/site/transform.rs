@@ -59,7 +59,7 @@ pub(super) struct Contour {
 }
 
 impl Contour {
-    /// For `samples`, `time_step` seconds apart, and waves that take `travel` seconds.
+    /// Contour for `samples`, `time_step` seconds apart, and waves that take `travel` seconds.
     pub(super) fn new(time_step: f64, samples: usize, travel: f64) -> Result<Self> {
         positive("time step of a motion", time_step)?;
         same_length("motion through a site", samples, samples.clamp(1, MOST_SAMPLES))?;
@@ -209,7 +209,7 @@ impl Contour {
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct SiteMotion {
-    /// The motion.
+    /// Samples of the motion.
     pub samples: Vec<f64>,
     /// Largest sample before the first one, cut off: on the way down motion comes earlier.
     pub before: f64,

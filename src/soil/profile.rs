@@ -8,7 +8,7 @@ use super::relaxation::{Elastic, Relaxation};
 use crate::error::{LayeredError, Result, SiteError, at_least, positive, require};
 use crate::linalg::Complex;
 
-/// One layer: an elastic soil, its thickness and its damping.
+/// Layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -41,8 +41,8 @@ pub enum Base {
 
 /// Horizontal layers, from the surface down, on a half-plane or a rigid base.
 ///
-/// With the feature `serde` profiles with the crate's damping laws are written and read; a law of your own is
-/// refused.
+/// With the feature `serde` profiles with the crate's damping laws are written and read; writing a law of your own
+/// returns an error.
 ///
 /// ```
 /// use basemat::Soil;

@@ -42,7 +42,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
     /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; s = 0 asks for the long-term modulus.
     fn modulus(&self, s: Complex) -> Complex;
 
-    /// A few words for tables.
+    /// Description of the law in a few words, for tables.
     fn describe(&self) -> String {
         "own law".into()
     }
@@ -53,7 +53,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
     }
 
     /// Numbers that say which law of its kind it is, so that grounds with equal ones can share kernels;
-    /// the first must tell kinds apart. `None` (the default) if they cannot.
+    /// the first must distinguish kinds. `None` (the default) if they cannot.
     fn identity(&self) -> Option<Vec<f64>> {
         None
     }

@@ -15,8 +15,8 @@ impl DofCombination {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
     /// [`Error::Input`](crate::Error::Input) for contact nodes at one place, [`Error::Scene`](crate::Error::Scene)
-    /// in plan: a row does not tell x from y, so a displacement of [`DofCombination::of_base`] is to be taken from
-    /// it.
+    /// in plan: a row does not distinguish x from y, so a displacement of [`DofCombination::of_base`] is to be taken
+    /// from it.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         let [translation, _, _] = in_the_plane(structure, 0.0)?;
         Ok(self.clone() - translation)
@@ -30,8 +30,8 @@ impl DofCombination {
     ///
     /// // Nothing bends in a rigid block.
     /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
-    /// let sway = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
-    /// assert!(sway.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
+    /// let drift = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
+    /// assert!(drift.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
     ///
     /// // A roof at 6 m that has moved by 0.1 m, on a base that has moved by 0.02 m and turned by
     /// // 0.01 to the left.

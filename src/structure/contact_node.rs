@@ -140,7 +140,7 @@ impl FaceNode {
         [&self.horizontal, &self.vertical, &self.across]
     }
 
-    /// The same point with its degrees of freedom in other ones.
+    /// Maps the point's displacements to other degrees of freedom.
     pub(crate) fn map_rows(&mut self, map: impl Fn(&DofCombination) -> DofCombination) {
         for row in [&mut self.horizontal, &mut self.across, &mut self.vertical] {
             *row = map(row);

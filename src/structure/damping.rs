@@ -128,7 +128,7 @@ short_debug! {
 
 /// Most degrees of freedom: C is a full matrix.
 const MOST: usize = 3000;
-/// A mode with more of its momentum in rigid motions is one. Their eigenvalues do not tell: rounding
+/// A mode with more of its momentum in rigid motions is one. Their eigenvalues do not show it: rounding
 /// leaves them anything small, and in fine meshes the lowest modes that are not rigid are 10⁻¹² of
 /// the highest.
 const RIGID: f64 = 0.5;

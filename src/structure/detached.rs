@@ -45,12 +45,12 @@ pub(super) fn listed(texts: &[String], count: usize) -> String {
     if count > texts.len() { format!("{list} and {} more", count - texts.len()) } else { list }
 }
 
-/// Degrees of freedom of all parts that have mass or stiffness, and no way by stiffness to one of the
+/// Degrees of freedom of all parts that have mass or stiffness, and are not connected by stiffness to one of the
 /// degrees of freedom `base`; ascending. Symmetric or not, entries that are exactly zero couple nothing.
 ///
 /// A part whose own stiffness holds it is none if the mass couples it with the rest: its degrees of freedom
 /// are coordinates relative to the base, those of modes for example. A mode that the base does not
-/// excite is told by its unit mass.
+/// excite is recognised by its unit mass.
 fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Result<Vec<usize>> {
     let n = stiffness.order();
     let Some(&first) = base.first() else { return Ok(Vec::new()) };

@@ -51,7 +51,7 @@ impl DofCombination {
 }
 
 impl From<usize> for DofCombination {
-    /// One degree of freedom, with weight one.
+    /// Sum of one degree of freedom, with weight one.
     fn from(dof: usize) -> Self {
         Self(vec![(dof, 1.0)])
     }

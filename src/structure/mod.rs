@@ -1,4 +1,4 @@
-//! Structures: the trait that users implement, implementations of it, and springs with a memory.
+//! Structures: the trait that users implement, implementations of it, and hysteretic springs.
 
 mod base_motion;
 mod contact_node;
@@ -56,9 +56,9 @@ use crate::error::Result;
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
 /// may resist a rigid translation to the right or upwards. Structures with stiffness to a fixed point are
 /// an error when a simulation is built ([`Error::Restrained`](crate::Error::Restrained)), and so are
-/// those with a part that has mass or stiffness, but no way by stiffness to the degrees of freedom of a contact
-/// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to
-/// the base, which a stiffness of their own holds and the mass couples with the rest, are no such part.
+/// those with a part that has mass or stiffness, but is not connected by stiffness to the degrees of freedom of a
+/// contact node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to the base,
+/// which a stiffness of their own holds and the mass couples with the rest, are no such part.
 ///
 /// All forces are per metre of thickness, but for a structure in plan ([`contact_faces`](Structure::contact_faces)),
 /// which moves in three directions: x to the right, y away from the reader, z up. Matrices and loads may fail, with
@@ -77,7 +77,7 @@ pub trait Structure: Any + Send {
     fn contact_nodes(&self) -> Vec<ContactNode>;
 
     /// Contact nodes that are the last of a foundation, the structure's last one excepted: between
-    /// such a node and the next there is no base. Default: none, one foundation. In plan the faces tell.
+    /// such a node and the next there is no base. Default: none, one foundation. In plan the faces decide.
     fn foundation_ends(&self) -> Vec<usize> {
         Vec::new()
     }

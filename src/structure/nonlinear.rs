@@ -73,7 +73,7 @@ pub trait NonlinearForce {
     /// Any error, [`Error::part`](crate::Error::part) for one of your own, ends the step with
     /// [`StepError::Structure`](crate::StepError::Structure), and nothing of it is committed. So does
     /// one at an iterate that Newton's method would have left again: a limit that the structure should
-    /// only be told to have passed belongs into the observer of
+    /// only be reported to have passed belongs into the observer of
     /// [`Simulation::run`](crate::Simulation::run), whose error ends the run after the step.
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()>;
 

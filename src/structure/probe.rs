@@ -1,4 +1,4 @@
-//! Quantities that are read off at every step.
+//! Quantities recorded at every step.
 
 use crate::error::{Error, Result};
 use crate::structure::{DofCombination, SectionRows};
@@ -21,7 +21,7 @@ use crate::text::column::column;
 /// let probes = [
 ///     Probe::acceleration("roof", building.roof()),
 ///     Probe::displacement("lowest drift", building.drift(0)?),
-///     Probe::displacement("sway of the roof", building.total_drift(4)?),
+///     Probe::displacement("drift of the roof", building.total_drift(4)?),
 ///     Probe::section("base shear", &building.shear(0)?),
 ///     Probe::displacement("rotation", rotation).in_unit("rad"),
 /// ];
@@ -40,7 +40,7 @@ pub struct Probe {
     pub unit: String,
     /// Sum of displacements (changes against the static state).
     pub displacement: DofCombination,
-    /// Whether these include the translation of the free field.
+    /// Whether the displacements include the translation of the free field.
     pub absolute: bool,
     /// Sum of velocities.
     pub velocity: DofCombination,
@@ -79,7 +79,7 @@ impl Probe {
         }
     }
 
-    /// The same probe with another label of its unit, for a rotation for example; values stay.
+    /// Replaces the label of the probe's unit, for a rotation for example; values stay.
     ///
     /// Printed tables and pictures turn the labels "m", "rad", "N/m" and "N·m/m" into mm, mrad, kN/m
     /// and kN·m/m, and leave others as they are; files are in the probe's unit.
@@ -101,7 +101,7 @@ impl Probe {
         [&self.displacement, &self.velocity, &self.acceleration]
     }
 
-    /// The same probe with its rows in other degrees of freedom; an error names the probe.
+    /// Maps the probe's weighted sums to other degrees of freedom; an error names the probe.
     pub(crate) fn try_map_rows(
         self,
         map: impl Fn(DofCombination) -> Result<DofCombination>,

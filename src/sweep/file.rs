@@ -1,4 +1,4 @@
-//! Files of cases, read so that nothing is mistaken.
+//! Files of cases, read so that a damaged row is never taken for a whole one.
 
 use std::path::Path;
 
@@ -18,9 +18,9 @@ pub(super) struct Content {
 /// Permitted endings of a file.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Ending {
-    /// With a whole line, as files do that were written to their end.
+    /// End with a whole line, as of files that were written to their end.
     Whole,
-    /// Within a line or before the first one, as the process was killed.
+    /// End within a line or before the first one, as the process was killed.
     Anywhere,
 }
 

@@ -30,7 +30,7 @@
 //! # Ok::<(), basemat::Error>(())
 //! ```
 //!
-//! Thousands of runs go to many processes: [`Sweep::shard`] takes a share of the cases,
+//! Thousands of runs go to many processes: [`Sweep::shard`] takes a part of the cases,
 //! [`Sweep::table_in`] keeps its rows in a file from which a killed process goes on, and [`Sweep::merge`]
 //! puts the files of all shards together. `docs/guide.md` has a complete job array.
 
@@ -135,7 +135,7 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
 /// A parameter of a [`Sweep`]: its name and the values that it takes, numbers or texts.
 ///
 /// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its
-/// column then tells the tables of different studies apart.
+/// column then distinguishes the tables of different studies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,
@@ -149,7 +149,7 @@ enum Values {
 }
 
 impl Parameter {
-    /// A parameter with numbers, in units that its name should tell: `width_m`.
+    /// A parameter with numbers, in units that its name should give: `width_m`.
     pub fn numbers(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
         Self { name: name.into(), values: Values::Numbers(values.into_iter().collect()) }
     }

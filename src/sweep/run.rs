@@ -52,7 +52,7 @@ short_debug! {
     stride: self.stride
 }
 
-/// One case of a [`Sweep`], while it runs.
+/// Case of a [`Sweep`], while it runs.
 #[non_exhaustive]
 pub struct SweepCase<'a> {
     /// Number of the case in the whole sweep, from 0.
@@ -118,7 +118,7 @@ impl<'a> Sweep<'a> {
         Self { grid: Arc::new(grid), first: 0, stride: NonZeroUsize::MIN, progress }
     }
 
-    /// Only every `of`-th case, from case `index` on: share `index` of `of` equal ones, from 0. Cases keep their
+    /// Keeps every `of`-th case only, from case `index` on: part `index` of `of` equal ones, from 0. Cases keep their
     /// numbers. A shard may be cut into shards again.
     ///
     /// # Errors
@@ -163,7 +163,7 @@ impl<'a> Sweep<'a> {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
-    /// As [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
+    /// Runs all cases like [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
     /// it is there, in whatever order cases end, one at a time.
     ///
     /// # Panics

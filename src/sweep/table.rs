@@ -20,7 +20,7 @@ use crate::text::table::{LONGEST_LINE, Table, in_columns};
 pub struct CaseTable {
     pub(super) grid: Arc<Grid>,
     pub(super) columns: Vec<String>,
-    /// Ascending by case.
+    /// Rows, ascending by case.
     pub(super) rows: Vec<Row>,
 }
 
@@ -59,7 +59,7 @@ impl Row {
         sum.text()
     }
 
-    /// As a line of CSV, with its end.
+    /// Writes the row as a line of CSV, with its end.
     pub(super) fn csv(&self, grid: &Grid, columns: &[String]) -> String {
         let mut cells = vec![self.case.to_string()];
         cells.extend(parameter_cells(grid, self.case));
@@ -176,10 +176,10 @@ impl CaseTable {
         &self.columns
     }
 
-    /// As CSV (RFC 4180), a heading and a line for every case: `case`, the parameters, the results, `error` and
-    /// `check`, a check sum of the row without which it is not read again. Numbers have as many digits as read back to
-    /// the last bit, in the caller's units; NaN is an empty cell, infinities are `inf` and `-inf`. Of a case that
-    /// failed the results are empty and `error` is not.
+    /// Writes the table as CSV (RFC 4180): a heading and a line for every case: `case`, the parameters, the results,
+    /// `error` and `check`, a check sum of the row without which it is not read again. Numbers have as many digits as
+    /// read back to the last bit, in the caller's units; NaN is an empty cell, infinities are `inf` and `-inf`. Of a
+    /// case that failed the results are empty and `error` is not.
     pub fn csv(&self) -> Csv {
         let mut text = csv_line(&heading(&self.grid, &self.columns));
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));

@@ -56,8 +56,8 @@ impl Sweep<'_> {
         Ok(self.tabled(columns, rows))
     }
 
-    /// As [`Sweep::table`], kept in a file: a process that is killed and started again goes on where
-    /// it was, and one that was done reads its table back.
+    /// Runs a [`Sweep::table`] that is kept in a file: a process that is killed and started again goes on where
+    /// it was, and one whose table is complete reads it back.
     ///
     /// While cases run, their rows are in the file `path` with `.part` at its end; when all are
     /// there, `path` itself is written in one piece and the other file removed. Cases with a row in either

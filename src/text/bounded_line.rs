@@ -16,7 +16,7 @@ const MARK: &[u8] = b"\xef\xbb\xbf";
 pub(crate) enum Unread {
     /// The source failed.
     Failed(ErrorKind),
-    /// This number of bytes had no line end.
+    /// A line of more than this number of bytes.
     TooLong(usize),
 }
 

@@ -30,7 +30,7 @@ impl CheckSum {
         self.add_list(numbers.iter().map(|number| number.to_bits()));
     }
 
-    /// A text by its bytes.
+    /// Adds a text by its bytes.
     pub(crate) fn add_text(&mut self, text: &str) {
         self.add_list(text.bytes().map(u64::from));
     }
@@ -39,7 +39,7 @@ impl CheckSum {
         self.0
     }
 
-    /// Sixteen hexadecimal digits.
+    /// Check sum as sixteen hexadecimal digits.
     pub(crate) fn text(self) -> String {
         format!("{:016x}", self.0)
     }

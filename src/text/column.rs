@@ -148,7 +148,7 @@ pub(crate) fn of_body(unit: &str, in_plan: bool) -> &str {
     unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
 }
 
-/// Below this, in units of engineers, a number is rounding: nobody measures 10⁻¹² N or m.
+/// Limit, in units of engineers, below which a number counts as rounding.
 const NOTHING: f64 = 1e-9;
 
 /// Five figures, no exponents where they can be helped; no negative zero.

@@ -20,7 +20,7 @@ pub(crate) const LONGEST_LINE: usize = 99;
 /// Characters of the first column and of others that are repeated, at most, in a table that breaks.
 const WIDEST_NAME: usize = 47;
 const WIDEST_REPEATED: usize = 20;
-/// Between columns.
+/// Blanks between columns.
 const GAP: usize = 2;
 
 /// A heading and rows of cells; the first column holds names.
@@ -66,7 +66,7 @@ impl Table {
         blocks.iter().map(|block| self.block(block, &widths)).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// Some of the columns.
+    /// Block of a table with some of its columns.
     fn block(&self, columns: &[usize], widths: &[usize]) -> String {
         let line = |row: &Vec<String>| {
             let cells = columns.iter().filter_map(|&k| Some((k, row.get(k)?, widths[k])));
@@ -83,7 +83,7 @@ impl Table {
         lines.join("\n")
     }
 
-    /// As Markdown; bars and backslashes in cells are escaped.
+    /// Writes the table as Markdown; bars and backslashes in cells are escaped.
     pub(crate) fn markdown(&self) -> String {
         let escaped = |cell: &str| one_line(cell).replace('\\', "\\\\").replace('|', "\\|");
         let line = |row: &Vec<String>| {
@@ -96,7 +96,7 @@ impl Table {
         lines.join("\n")
     }
 
-    /// As CSV (RFC 4180).
+    /// Writes the table as CSV (RFC 4180).
     pub(crate) fn csv(&self) -> String {
         let mut text = String::new();
         for row in std::iter::once(&self.heading).chain(&self.rows) {

@@ -82,12 +82,12 @@ macro_rules! words_with_numbers {
     };
 }
 
-/// In lower case, without blanks around, underscores for spaces and hyphens.
+/// Converts to lower case, without blanks around, with underscores for spaces and hyphens.
 pub(crate) fn plain(text: &str) -> String {
     text.trim().to_lowercase().replace([' ', '-'], "_")
 }
 
-/// The refusal of a word.
+/// Error of a word that does not exist.
 pub(crate) fn unknown(quantity: &'static str, text: &str, known: &'static [&'static str]) -> Error {
     Error::Word { quantity, text: excerpt(text), known }
 }
@@ -260,7 +260,7 @@ pub(crate) mod seconds {
 
 // Traits of parts that are made of another part of the same kind.
 
-/// Methods that a part answers by asking another one: `forward! { place; signatures }`, the place
+/// Methods that a part implements by calling those of another one: `forward! { place; signatures }`, the place
 /// and the signatures as they would stand in the `impl` block.
 ///
 /// `tests/plugin/forwarding` finds any method that a list of signatures has forgotten.

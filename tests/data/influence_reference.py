@@ -1,4 +1,4 @@
-"""Reference for the step coefficients G of two boundary elements, in 60 digits.
+"""Reference for the convolution weights G of two boundary elements, in 60 digits.
 
 G = U(n dt) - U((n-1) dt), U(t) from the twice-integrated surface kernel
 J(x,t) = x^2 F/2 + x t Q - t^2 W/2 (F, Q, W: integrals of the Lamb kernel with weights 1, 1/tau,
@@ -140,7 +140,7 @@ class Kernel:
 
 
 def main():
-    print("# Step coefficients G^n of two elements (mean displacement of receiver [ap,bp] per unit traction")
+    print("# Convolution weights G^n of two elements (mean displacement of receiver [ap,bp] per unit traction")
     print("# on source [aq,bq] held from (n-1)dt to n dt before), mu = c_S = 1, x right, z down.")
     print("# From the closed-form twice-integrated Lamb kernel in 60 digits: influence_reference.py")
     print("# gself: zz of the receiver on itself, same lag; all doubles are exact inputs.")

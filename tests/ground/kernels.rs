@@ -28,7 +28,7 @@ fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found:e}, expected {expected:e}");
 }
 
-/// Step coefficients: 1e-10 of the self term up to 20 elements, 1e-8 up to 200.
+/// Convolution weights: 1e-10 of the self term up to 20 elements, 1e-8 up to 200.
 #[test]
 fn step_coefficients_match_sixty_digits() {
     for row in rows(include_str!("../data/influence.csv")) {

@@ -1,4 +1,4 @@
-//! GOAL: step coefficients of layered ground are right, and their bits depend on nothing but the lag.
+//! GOAL: convolution weights of layered ground are right, and their bits depend on nothing but the lag.
 //! SCENE: a damped layer on rock; a half-plane; uniform and graded strips, two and three stages.
 //! REFERENCE: a table of another program, the closed form of the half-plane, a finer tolerance.
 

@@ -1,5 +1,5 @@
 //! GOAL: long calls tell how far they have come and can be stopped, and nothing else changes.
-//! SCENE: step coefficients, impedances, response spectra; a block on layers, built and run.
+//! SCENE: convolution weights, impedances, response spectra; a block on layers, built and run.
 //! REFERENCE: the same calls without an observer, to the last bit.
 
 use std::ops::ControlFlow::{Break, Continue};

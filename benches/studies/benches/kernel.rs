@@ -1,4 +1,4 @@
-//! Kernel evaluations: closed forms, step coefficients early and late, layered ground, the full plane.
+//! Kernel evaluations: closed forms, convolution weights early and late, layered ground, the full plane.
 
 use basemat::Soil;
 use basemat::bem::layered::Stages;
@@ -20,7 +20,7 @@ fn kernels(criterion: &mut Criterion) {
     let strip = Strip::uniform(0.0..20.0, 20).expect("a valid strip").elements();
     let patch = PatchKernel::new(soil, strip.clone(), 0.25).expect("a valid patch");
     let class = |apart: usize| patch.classes().pairs()[apart].class;
-    let mut group = criterion.benchmark_group("step coefficients");
+    let mut group = criterion.benchmark_group("convolution weights");
     let mut slices = [[0.0; 120]; 3];
     group.throughput(Throughput::Elements(120));
     for distance in [0, 1, 5, 19] {

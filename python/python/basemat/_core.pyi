@@ -394,7 +394,7 @@ class ThinLayer(InterfaceLaw):
     stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
     it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
     step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
-    ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
+    ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
     default), "velocity" or "last velocity" (of this step or the one before).
     """
 
@@ -598,7 +598,7 @@ class PlaneWave:
     def rayleigh(soil: Soil) -> PlaneWave:
         """Rayleigh wave to the right on a half-plane of this ``soil``."""
     def reversed(self) -> PlaneWave:
-        """The same wave running the other way."""
+        """Wave with this motion, running the other way."""
     @property
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
@@ -755,7 +755,7 @@ class EquivalentLinear:
         """Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s²."""
     @property
     def peak_acceleration(self) -> NDArray[np.float64]:
-        """Their largest absolute values: array of shape (layers + 1,), m/s²."""
+        """Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s²."""
     @property
     def iterations(self) -> int:
         """Linear calculations made."""
@@ -843,7 +843,7 @@ class Probe:
         """
     @property
     def name(self) -> str:
-        """Its name, that of its time series."""
+        """Name of the probe and of its time series."""
     @property
     def unit(self) -> str:
         """Label of its unit; values are what the weights make of SI units."""
@@ -894,10 +894,10 @@ class SoilLayer:
     def __new__(cls, soil: Soil, thickness: float, damping: DampingLaw | None = None) -> Self: ...
     @property
     def soil(self) -> Soil:
-        """Its :class:`Soil`."""
+        """:class:`Soil` of the layer."""
     @property
     def thickness(self) -> float:
-        """Its thickness, m."""
+        """Thickness of the layer, m."""
 
 @final
 class SoilProfile:
@@ -947,7 +947,7 @@ class Summary:
         """
     @property
     def ends(self) -> list[float]:
-        """x of its two ends, m."""
+        """x of the foundation's two ends, m."""
     @property
     def depth(self) -> list[float]:
         """In plan: y of its front and its back, m; zeros in the plane."""
@@ -974,10 +974,10 @@ class Summary:
         """Time with uplift, s."""
     @property
     def mean_slip(self) -> Extremes:
-        """Slip averaged over it, m: its :class:`Extremes`."""
+        """Slip averaged over the foundation, m: its :class:`Extremes`."""
     @property
     def residual_slip(self) -> float:
-        """Slip averaged over it at the end, m."""
+        """Slip averaged over the foundation at the end, m."""
     @property
     def largest_slip(self) -> Peak:
         """Largest slip of any element, m: its :class:`Peak`."""
@@ -997,7 +997,7 @@ class Summary:
         """
     @property
     def residual_slip_across(self) -> float:
-        """In plan: slip along y averaged over it at the end, m."""
+        """In plan: slip along y averaged over the foundation at the end, m."""
 
 @final
 class ServiceCheck:
@@ -1008,7 +1008,7 @@ class ServiceCheck:
         """The limited response: "slip", "gap", "uplifted fraction" or "rotation"."""
     @property
     def limit(self) -> float:
-        """Its limit, in SI units."""
+        """Limit of the response, in SI units."""
     @property
     def largest(self) -> Peak:
         """The run's value furthest from zero, a :class:`Peak` in SI units."""
@@ -1082,7 +1082,7 @@ class Peak:
         """The value, in the quantity's unit, with its sign."""
     @property
     def time(self) -> float:
-        """Its time, s."""
+        """Time of the value, s."""
     def __float__(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
 
@@ -1386,7 +1386,7 @@ class Checkpoint:
     def __new__(cls, data: bytes) -> Self: ...
     @property
     def steps(self) -> int:
-        """Steps made before it."""
+        """Steps made before the checkpoint."""
     def to_bytes(self) -> bytes:
         """All of it as bytes, for a file."""
     def __getnewargs__(self) -> tuple[bytes]: ...
@@ -1576,7 +1576,7 @@ class Load:
     def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
     @staticmethod
     def constant(row: _RowLike, force: float) -> Load:
-        """The same ``force`` (N/m) on the ``row`` at any time, the static state included."""
+        """Constant ``force`` (N/m) on the ``row`` at any time, the static state included."""
     @staticmethod
     def released(row: _RowLike, force: float) -> Load:
         """A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back)."""
@@ -1593,7 +1593,7 @@ class Load:
 
 @final
 class TimeScheme:
-    """A time scheme of the structure: the midpoint rule unless told otherwise."""
+    """A time scheme of the structure: the midpoint rule unless given."""
 
     @staticmethod
     def midpoint() -> TimeScheme:
@@ -1741,10 +1741,10 @@ class FoundationState:
         """Ratio of its open length to its length, in plan of areas."""
     @property
     def mean_slip(self) -> float:
-        """Slip averaged over it, m."""
+        """Slip averaged over the foundation, m."""
     @property
     def rotation(self) -> float:
-        """Rotation of its chord, rad."""
+        """Rotation of the foundation's chord, rad."""
     @property
     def shear_across(self) -> float:
         """In plan: force on the soil along y, positive away, N."""
@@ -1756,7 +1756,7 @@ class FoundationState:
         """In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m."""
     @property
     def mean_slip_across(self) -> float:
-        """In plan: slip along y averaged over it, m."""
+        """In plan: slip along y averaged over the foundation, m."""
     @property
     def rotation_across(self) -> float:
         """In plan: rotation about x, rad."""
@@ -2036,8 +2036,8 @@ class PlanStorey:
 
 @final
 class StoreyBuilding(Structure):
-    """Rigid floors on sway columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y and twist, and
-    tilt with the mat.
+    """Rigid floors on flexible columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y
+    and twist, and tilt with the mat.
 
     Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
     floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor 0 x",
@@ -2218,7 +2218,7 @@ class FemModel(Structure):
     :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
     or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
     unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
-    given. ``active_damping``: whether dashpots may feed energy in, which is refused by default.
+    given. ``active_damping``: whether dashpots may feed energy in, an error by default.
     """
 
     def __new__(
@@ -2416,7 +2416,7 @@ class Layer:
 @final
 class Mesh:
     """Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
-    elements, all or, if one is refused, none.
+    elements: all, or none if one of them is an error.
     """
 
     def __new__(cls, nodes: ArrayLike | None = None) -> Self: ...
@@ -2593,7 +2593,7 @@ class Tolerance:
 
 @final
 class PreviousContact(ContactState):
-    """An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
+    """An element at the start of a step: its :class:`ContactState`, and the rest of its past.
 
     A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
     its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
@@ -2745,7 +2745,7 @@ def memory_limit() -> int:
     """
 def set_memory_limit(bytes: int) -> None:
     """Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
-    Sizes are held against it before anything is allocated, and refused with what they would take.
+    Sizes are held against it before anything is allocated, and raise an error that says what they would take.
     """
 def _cancel_when(event: Any = None) -> None:
     """Runs of this thread end with ``KeyboardInterrupt`` once ``event.is_set()``; None for no event."""

@@ -50,7 +50,7 @@ pub(super) enum Elements {
 }
 
 impl Elements {
-    /// Those under the foundations of a structure, or under its faces in plan.
+    /// Elements under the foundations of a structure, or under its faces in plan.
     pub(super) fn under(
         structure: &Bound<'_, PyAny>,
         count: usize,

@@ -84,7 +84,7 @@ members! {
 /// stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
 /// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
 /// step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
-/// ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
+/// ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
 /// default), "velocity" or "last velocity" (of this step or the one before).
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
@@ -163,7 +163,7 @@ members! {
             return Err(refuse("the coefficient must be a function of the start of a step"));
         }
         let function = Arc::new(coefficient.unbind());
-        // A strength that is refused is refused now.
+        // An invalid strength raises now, and not when a simulation is built.
         VariableFriction::new(|_| 0.0).with_tensile_strength(tensile_strength).or_raise()?;
         let make = move || {
             let function = Arc::clone(&function);

@@ -174,7 +174,7 @@ impl FreeField for InPlan {
     }
 }
 
-/// What a function returns: a pair, or a number to the right. NaN, which ends the step, if it raises.
+/// Value of a function: a pair, or a number to the right. NaN, which ends the step, if it raises.
 fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f64; 2] {
     error::asked([f64::NAN; 2], |py| {
         let found = call(py)?;
@@ -187,7 +187,7 @@ fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f
     })
 }
 
-/// So many numbers, if these are.
+/// Extracts `N` numbers, if `found` has as many.
 fn numbers<const N: usize>(name: &str, found: &Bound<'_, PyAny>) -> Option<[f64; N]> {
     let all: [Bound<'_, PyAny>; N] = found.extract().ok()?;
     let all: Result<Vec<f64>, _> = all.iter().map(|own| real(name, own)).collect();

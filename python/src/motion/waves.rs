@@ -169,7 +169,7 @@ fields_from! {
 
 #[pymethods]
 impl PyPlaneWave {
-    /// The same wave running the other way.
+    /// Wave with this motion, running the other way.
     fn reversed(&self) -> Self {
         Self(self.0.reversed())
     }

@@ -21,7 +21,7 @@ pub(crate) fn preformatted(text: &str) -> String {
 
 members! {
     PySummary, own;
-    /// x of its two ends, m.
+    /// x of the foundation's two ends, m.
     ends: [f64; 2] = own.0.ends;
     /// In plan: y of its front and its back, m; zeros in the plane.
     depth: [f64; 2] = own.0.depth;
@@ -39,11 +39,11 @@ members! {
     uplifted_fraction: PyPeak = PyPeak(own.0.uplifted_fraction.highest);
     /// Time with uplift, s.
     uplift_duration: f64 = own.0.uplift.duration;
-    /// Slip averaged over it, m: its :class:`Extremes`.
+    /// Slip averaged over the foundation, m: its :class:`Extremes`.
     mean_slip: PyExtremes = PyExtremes(own.0.mean_slip);
-    /// Slip averaged over it at the end, m.
+    /// Slip averaged over the foundation at the end, m.
     residual_slip: f64 = own.0.residual_slip;
-    /// In plan: slip along y averaged over it at the end, m.
+    /// In plan: slip along y averaged over the foundation at the end, m.
     residual_slip_across: f64 = own.0.residual_slip_across;
     /// Largest slip of any element, m: its :class:`Peak`.
     largest_slip: PyPeak = PyPeak(own.0.largest_slip.highest);
@@ -82,7 +82,7 @@ members! {
     PyServiceCheck, own;
     /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
     criterion: &'static str = own.0.criterion.name();
-    /// Its limit, in SI units.
+    /// Limit of the response, in SI units.
     limit: f64 = own.0.limit;
     /// The run's value furthest from zero, a :class:`Peak` in SI units.
     largest: PyPeak = PyPeak(own.0.largest);

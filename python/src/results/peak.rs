@@ -12,7 +12,7 @@ members! {
     PyPeak, own;
     /// The value, in the quantity's unit, with its sign.
     value: f64 = own.0.value;
-    /// Its time, s.
+    /// Time of the value, s.
     time: f64 = own.0.time;
 }
 

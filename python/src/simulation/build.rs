@@ -1,4 +1,4 @@
-//! From Python's arguments to a simulation of the core.
+//! Conversion of Python's arguments to a simulation of the core.
 
 use basemat::Simulation;
 use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};
@@ -37,7 +37,7 @@ pub(super) fn probes<'a, 'py: 'a>(
         .collect()
 }
 
-/// What a line of progress counts before the steps.
+/// Task that a line of progress counts before the steps.
 pub(super) const COEFFICIENTS: &str = "parts of the ground's coefficients";
 
 /// Builds without the GIL.

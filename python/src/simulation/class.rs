@@ -71,12 +71,12 @@ use crate::{error, interface, motion, structure, user};
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
     structure: Py<PyAny>,
-    /// Its springs written in Python.
+    /// Laws of the structure's springs that are written in Python.
     hysteresis: Vec<Py<PyAny>>,
     names: Option<DofNames>,
     /// Length of the motion that it was given, s.
     duration: Option<f64>,
-    /// Where it began, or why it cannot go back there.
+    /// Checkpoint of the simulation's start, or why it cannot go back there.
     start: basemat::Result<Checkpoint>,
 }
 

@@ -44,7 +44,7 @@ members! {
             }))
         }))
     };
-    /// The same ``force`` (N/m) on the ``row`` at any time, the static state included.
+    /// Constant ``force`` (N/m) on the ``row`` at any time, the static state included.
     constant(row: RowLike, force: f64) =
         Ok(Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force))));
     /// A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back).

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 
-/// A time scheme of the structure: the midpoint rule unless told otherwise.
+/// A time scheme of the structure: the midpoint rule unless given.
 #[pyclass(name = "TimeScheme", module = "basemat", frozen, dict)]
 pub(crate) struct PyTimeScheme {
     pub(super) make: Recipe<dyn TimeScheme>,

@@ -35,9 +35,9 @@ members! {
     normal_force: f64 = own.0.normal_force;
     /// Ratio of its open length to its length, in plan of areas.
     uplifted_fraction: f64 = own.0.uplifted_fraction;
-    /// Slip averaged over it, m.
+    /// Slip averaged over the foundation, m.
     mean_slip: f64 = own.0.mean_slip;
-    /// Rotation of its chord, rad.
+    /// Rotation of the foundation's chord, rad.
     rotation: f64 = own.0.base_rotation;
     /// In plan: force on the soil along y, positive away, N.
     shear_across: f64 = own.0.shear_across;
@@ -45,7 +45,7 @@ members! {
     moment_across: f64 = own.0.moment_across;
     /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
     torque: f64 = own.0.torque;
-    /// In plan: slip along y averaged over it, m.
+    /// In plan: slip along y averaged over the foundation, m.
     mean_slip_across: f64 = own.0.mean_slip_across;
     /// In plan: rotation about x, rad.
     rotation_across: f64 = own.0.rotation_across;
@@ -143,7 +143,7 @@ impl PyState {
 /// as ``len()`` of them are left: see :meth:`Simulation.steps`.
 #[pyclass(name = "Steps", module = "basemat")]
 pub(crate) struct PySteps {
-    /// Has a method `step`.
+    /// Simulation, which has a method `step`.
     pub(super) simulation: Py<PyAny>,
     pub(super) left: usize,
 }
@@ -181,7 +181,7 @@ members! {
         let read = postcard::from_bytes(data);
         Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
     };
-    /// Steps made before it.
+    /// Steps made before the checkpoint.
     steps: usize = own.0.steps();
 }
 

@@ -1,4 +1,4 @@
-//! A run and those who watch it.
+//! Run and its observers.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use crate::error::{OrRaise, has_raised, raise, returned, take_raised};
 use crate::results::PyRun;
 use crate::ticker::{Ticker, watched};
 
-/// A run and those who watch it.
+/// Run and its observers.
 pub(super) struct Watched {
     ticker: Ticker,
     steps: usize,

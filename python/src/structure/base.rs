@@ -34,7 +34,7 @@ impl PyStructure {
         Self { make: Arc::new(move || Ok(Box::new(make()?))), names: None }
     }
 
-    /// The same with names of its degrees of freedom.
+    /// Replaces the names of the structure's degrees of freedom.
     pub(crate) fn named(self, names: Option<DofNames>) -> Self {
         Self { names, ..self }
     }

@@ -198,8 +198,8 @@ members! {
 const DIRECTIONS: [(&str, usize); 3] =
     [("x", StoreyBuilding::ALONG), ("y", StoreyBuilding::ACROSS), ("twist", StoreyBuilding::TWIST)];
 
-/// Rigid floors on sway columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y and twist, and
-/// tilt with the mat.
+/// Rigid floors on flexible columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y
+/// and twist, and tilt with the mat.
 ///
 /// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
 /// floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor 0 x",

@@ -113,7 +113,7 @@ impl PyFaceNode {
     }
 }
 
-/// What touches the ground, as Python gives it: nodes of a line in the plane, or faces in plan.
+/// Parts of the base that touch the ground, as Python gives them: nodes of a line in the plane, or faces in plan.
 pub(crate) enum Contact<'py> {
     Line(Vec<Bound<'py, PyContactNode>>),
     Faces(Vec<Vec<Bound<'py, PyFaceNode>>>),

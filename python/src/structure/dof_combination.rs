@@ -1,4 +1,4 @@
-//! What Python can do with a weighted sum of degrees of freedom.
+//! Weighted sums of degrees of freedom in Python: arithmetic, conversion and comparison.
 
 use basemat::structure::{DofCombination, Structure};
 use pyo3::exceptions::PyMemoryError;

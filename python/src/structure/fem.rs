@@ -25,7 +25,7 @@ use crate::row::{PyDofCombination, PySectionRows};
 /// :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
 /// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
 /// unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
-/// given. ``active_damping``: whether dashpots may feed energy in, which is refused by default.
+/// given. ``active_damping``: whether dashpots may feed energy in, an error by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 

@@ -1,4 +1,4 @@
-//! Springs with a memory, and structures with such springs.
+//! Hysteretic springs, and structures with such springs.
 
 use std::sync::Arc;
 

@@ -65,11 +65,11 @@ members! {
 }
 
 /// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
-/// elements, all or, if one is refused, none.
+/// elements: all, or none if one of them is an error.
 #[pyclass(name = "Mesh", module = "basemat", dict)]
 pub(crate) struct PyMesh(pub(super) Mesh);
 
-/// One number for all elements, or one each.
+/// Number for all elements, or one each.
 struct PerElement(Vec<f64>);
 
 extracts!(PerElement, object => match object.extract::<f64>() {
@@ -121,14 +121,14 @@ impl Connectivity {
 }
 
 impl PyMesh {
-    /// Adds all elements, or none if one is refused.
+    /// Adds all elements, or none if one of them is an error.
     fn add_all<E: Element + 'static>(
         &mut self,
         elements: impl Iterator<Item = PyResult<E>>,
     ) -> PyResult<()> {
         let elements = elements.collect::<PyResult<Vec<_>>>()?;
         if elements.len() < 2 {
-            // One alone needs no copy of the mesh to be refused.
+            // One element alone needs no copy of the mesh.
             return elements.into_iter().try_for_each(|own| self.0.add(own).or_raise().map(drop));
         }
         let mut mesh = self.0.clone();

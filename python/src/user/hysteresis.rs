@@ -14,7 +14,7 @@ use crate::array::real;
 use crate::error::{keep, kept, raise, refuse};
 use crate::recipe::Recipe;
 
-/// Its name in errors.
+/// Name of this kind of part in errors.
 const PART: &str = "hysteresis";
 
 /// Deformation that a difference quotient steps over, relative to the deformation.
@@ -56,7 +56,7 @@ struct UserHysteresis {
     object: UserObject,
     /// Deformation (m) and force (N/m) of the last committed step, and the work done until then (J/m).
     committed: [f64; 3],
-    /// First stiffness, with which it is taken to unload if it does not tell its energy, N/m.
+    /// First stiffness, with which it is taken to unload if it does not return its energy, N/m.
     stiffness: f64,
     /// The last deformation asked for, and its response.
     last: Cell<Option<(f64, SpringResponse)>>,

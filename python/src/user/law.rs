@@ -129,7 +129,7 @@ impl UserLaw {
         let law = Coulomb::new(limits.friction);
         match law.and_then(|law| law.with_tensile_strength(limits.tension)) {
             Ok(law) => Box::new(law),
-            // Limits that the core refuses by itself.
+            // Limits for which the core returns an error by itself.
             Err(_) => Bonded.frictionless(),
         }
     }

@@ -14,7 +14,7 @@ use crate::error::{asked, has_raised, kept, returned};
 #[derive(Clone)]
 pub(super) struct UserObject {
     object: Arc<Py<PyAny>>,
-    /// What it is, in errors.
+    /// Kind of part that the object is, as errors name it.
     part: &'static str,
     /// The optional methods that it has.
     methods: Vec<&'static str>,
@@ -35,7 +35,7 @@ impl UserObject {
         Ok(Self { object: Arc::new(object.clone().unbind()), part, methods })
     }
 
-    /// The same with another object of the same class.
+    /// Replaces the object by another one of the same class.
     pub(super) fn with(&self, object: Bound<'_, PyAny>) -> Self {
         Self { object: Arc::new(object.unbind()), ..self.clone() }
     }
@@ -48,7 +48,7 @@ impl UserObject {
         self.methods.contains(&method)
     }
 
-    /// What a method returns, as a `T`.
+    /// Value returned by a method, extracted as a `T`.
     pub(super) fn call<'py, T>(
         &self,
         py: Python<'py>,
@@ -90,7 +90,7 @@ impl UserObject {
     }
 }
 
-/// What user code says, or `otherwise` (which ends the step) if it raises, or something has raised before.
+/// Result of user code, or `otherwise` (which ends the step) if it raises, or something has raised before.
 pub(super) fn ask<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
     if has_raised() { otherwise } else { asked(otherwise, ask) }
 }

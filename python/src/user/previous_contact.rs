@@ -37,14 +37,14 @@ members! {
     shear_across: f64 = own.0.shear_across;
 }
 
-/// An element at the start of a step: its :class:`ContactState`, and what else a law knows of it.
+/// An element at the start of a step: its :class:`ContactState`, and the rest of its past.
 ///
 /// A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
 /// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
 /// ``state_variables`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
 pub(crate) struct PyPreviousContact {
-    /// All but what the law remembers.
+    /// Previous contact, without the law's state variables.
     own: PreviousContact<'static>,
     state_variables: Vec<f64>,
 }
@@ -62,7 +62,7 @@ impl PyPreviousContact {
         )
     }
 
-    /// The same for a law of the core.
+    /// Previous contact as a law of the core takes it.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
         let mut start = self.own;
         start.state_variables = &self.state_variables;

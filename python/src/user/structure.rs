@@ -13,7 +13,7 @@ use crate::dof_names::DofNames;
 use crate::error::{keep, refuse, returned};
 use crate::structure::Contact;
 
-/// Its name in errors.
+/// Name of this kind of part in errors.
 const PART: &str = "structure";
 /// Methods that may be missing.
 const OPTIONAL: [&str; 7] =
@@ -102,7 +102,7 @@ impl UserStructure {
     }
 }
 
-/// What a method of the structure returned, if it has the `shape` that is needed; `found` is its own.
+/// Value returned by a method of the structure, if its shape `found` is the `shape` that is needed.
 fn shaped<T>(method: &str, what: &str, value: T, found: String, shape: String) -> PyResult<T> {
     if found == shape {
         return Ok(value);

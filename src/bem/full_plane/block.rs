@@ -1,4 +1,4 @@
-//! Blocks of one size: spectra of the coefficients, and what b inputs give at the next b outputs.
+//! Blocks of one size: spectra of the coefficients, and the effect of b inputs on the next b outputs.
 
 use std::sync::Arc;
 

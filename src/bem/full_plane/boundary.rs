@@ -174,9 +174,9 @@ impl Boundary {
 /// `to` as seen with x to the right and z **down** (on a flat surface: from left to right).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Where it begins, (x, z), m.
+    /// First end, (x, z), m.
     pub from: [f64; 2],
-    /// Where it ends, (x, z), m.
+    /// Second end, (x, z), m.
     pub to: [f64; 2],
 }
 
@@ -253,7 +253,7 @@ pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
 /// also mirror images.
 #[derive(Debug, Clone)]
 pub(super) struct PairClasses {
-    /// One (receiver, source) per class.
+    /// Representative (receiver, source) of each class.
     pub(super) classes: Vec<(usize, usize)>,
     /// Per class, how its element looks from the midpoint: which of `views`.
     view_of: Vec<usize>,

@@ -19,7 +19,7 @@ const LEAF: usize = 64;
 
 /// Longest hint that is followed at once; beyond, memory grows as steps come in.
 const LONGEST_HINT: usize = 1 << 17;
-/// Bytes that they may take.
+/// Bytes that hinted steps may take.
 const MOST_HINTED: usize = 1 << 30;
 
 /// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, coefficients once per class of pairs.

@@ -19,8 +19,8 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// discretised.
 ///
 /// In every step the displacements of the traction-free elements are eliminated from
-/// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The instantaneous
-/// operator is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
+/// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The step
+/// compliance is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
 /// no free surface and is always stable, this ground serves for comparison with the paper and for
 /// boundaries that are not flat.
 ///
@@ -34,7 +34,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// with the base uplifted and bonded, and ends with [`Error::Unstable`] if perturbations grow by
 /// more than 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of
 /// a thousand factorisations of complex matrices of order 2E, ten times that if modes grow: with
-/// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is paid for once per step
+/// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is computed once per step
 /// size, and [`FullPlaneGround::skip_assessment`] saves it.
 ///
 /// ```
@@ -58,7 +58,7 @@ pub struct FullPlaneGround {
     make_kernel: Box<MakeKernel>,
     incident: Option<Box<dyn IncidentField>>,
     assessment: Assessment,
-    /// Growth per step that is looked for.
+    /// Growth per step that is searched for.
     smallest_growth: f64,
     /// The assessment, and the time step that it is for.
     stability: Option<(f64, GroundStability)>,
@@ -83,12 +83,12 @@ enum Assessment {
     Required,
     /// Growth is reported.
     Reported,
-    /// Nothing is assessed.
+    /// Stability is not assessed.
     Skipped,
 }
 
 impl FullPlaneGround {
-    /// One strip over `range` (m) of `count` equal elements on a flat surface, with `free`
+    /// Ground of one strip over `range` (m) of `count` equal elements on a flat surface, with `free`
     /// traction-free elements of the same length on either side (the paper has 5).
     ///
     /// # Errors
@@ -123,7 +123,7 @@ impl FullPlaneGround {
         }
     }
 
-    /// With other coefficients than [`TimeKernel`]'s: `make` is called with the elements, the soil
+    /// Replaces the coefficients of [`TimeKernel`]: `make` is called with the elements, the soil
     /// and the time step once that is known. The soil being homogeneous, coefficients may depend on
     /// where two elements are to each other only: one pair of each kind is asked for.
     #[must_use]
@@ -143,7 +143,7 @@ impl FullPlaneGround {
         self
     }
 
-    /// Without assessment, where its cost counts and the answer is known.
+    /// Leaves out the assessment of stability, where its cost counts and its result is known.
     #[must_use]
     pub fn skip_assessment(mut self) -> Self {
         self.assessment = Assessment::Skipped;
@@ -203,7 +203,7 @@ impl FullPlaneGround {
         Ok(&self.stability.insert((time_step, found)).1)
     }
 
-    /// With waves from below, which the boundary scatters (eq. 21). They take the place of the
+    /// Adds waves from below, which the boundary scatters (eq. 21). They take the place of the
     /// scene's ground motion, which must then be at rest.
     #[must_use]
     pub fn with_incident_field(mut self, field: impl IncidentField + 'static) -> Self {
@@ -275,7 +275,7 @@ impl Ground for FullPlaneGround {
         }
     }
 
-    /// Not symmetric.
+    /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let size = ContactLayout::new(PLANE, self.boundary.contact().len()).square();
@@ -307,8 +307,8 @@ impl Ground for FullPlaneGround {
         }
     }
 
-    /// On a flat boundary that of the half-plane, whose free surface has no end; otherwise from the
-    /// static limit of the same boundary equation (not symmetric).
+    /// Overwrites `matrix` with the static compliance: on a flat boundary that of the half-plane, whose free surface
+    /// has no end; otherwise from the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
         let size = ContactLayout::new(PLANE, elements.len()).square();

@@ -129,10 +129,10 @@ impl LaplacePlane {
 /// Complex number of double precision.
 pub(super) type Complex64 = Complex<f64>;
 
-/// Up to this |z| the series has all digits: it loses the factor I₀/|K₀|, below 20.
+/// Largest |z| at which the series has all digits: it loses the factor I₀/|K₀|, below 20.
 pub(super) const SERIES_REACH: f64 = 2.0;
 
-/// Beyond this real part, K is below 1e-30 and counts as zero.
+/// Real part beyond which K is below 1e-30 and counts as zero.
 const NOTHING: f64 = 70.0;
 
 /// Terms of the series: (q^k/k!²) below 1e-17 at |z| = 2.
@@ -317,7 +317,7 @@ mod static_limit_tests {
     use super::*;
     use crate::bem::full_plane::step_integrals::{Medium, step_integrals};
 
-    /// The answer to a load that was switched on long ago, but for its growth in time.
+    /// Response to a load that was switched on long ago, but for its growth in time.
     #[test]
     fn a_held_load_tends_to_the_static_limit() {
         let soil = Soil::new(1.0, 0.2, 1.0).unwrap();

@@ -12,7 +12,7 @@ use crate::soil::Soil;
 /// An element from a collocation point at the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct View {
-    /// Its ends, (x, z), m.
+    /// Ends of the element, (x, z), m.
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
     /// Whether the point is this element's own midpoint.
@@ -207,7 +207,7 @@ pub(super) type LogTerms = [[f64; 8]; TERMS];
 /// Coefficients of s^{2k} ln s; lengths in units of `unit`, R = r/c₂ scaled alike in time.
 ///
 /// With I₀ and I₁/z of the factors ln s in K₀ → −I₀ and K₁/z → I₁/z, ψ = Σ p_k (s r)^{2k} and
-/// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and its likes are polynomials on the element.
+/// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and similar terms are polynomials on the element.
 pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
     let line = view.line();
     let (p, q) = radial_terms(soil);

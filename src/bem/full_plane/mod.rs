@@ -15,7 +15,7 @@
 //!
 //! # What may grow
 //!
-//! Marched in time, the equation is not stable for every step. [`Stability`] tells before the run:
+//! Marched in time, the equation is not stable for every step. [`Stability`] assesses this before the run:
 //! growth per step of the fastest perturbation of twenty elements of a flat surface, ν = 1/3, all
 //! free of traction or all bonded (displacement prescribed), and the passivity figure (0 or more:
 //! passive), over β = c₁Δt/l:
@@ -86,7 +86,7 @@ pub trait BoundaryKernel: Send + Sync {
     fn segments(&self) -> &[Segment];
 
     /// Overwrites `g` and `h` (each 2E × 2E, row-major: m/Pa, and pure numbers) with the
-    /// coefficients of `lag`: the answer at the end of a step to values held during the step that
+    /// coefficients of `lag`: the response at the end of a step to values held during the step that
     /// ended `lag` steps before. `h` of lag 0 includes the free term ½.
     ///
     /// # Errors
@@ -96,7 +96,7 @@ pub trait BoundaryKernel: Send + Sync {
     /// Overwrites `g` and `h` (each 2E × 2E complex numbers, row-major, real and imaginary part by
     /// turns) with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`, |ζ| ≤ 1 and ζ ≠ 1, if they are
     /// known as transforms at some s, and returns that s (1/s, real and imaginary part). The
-    /// default knows none.
+    /// default has none.
     ///
     /// # Errors
     /// For slices of the wrong length.

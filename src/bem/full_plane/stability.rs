@@ -16,7 +16,7 @@ use crate::error::{Error, Result, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
-/// Growth that can be looked for.
+/// Growth that can be searched for.
 pub(super) fn check_growth(smallest: f64) -> Result<()> {
     let fits = (1e-7..=0.5).contains(&smallest);
     require("growth looked for", smallest, fits, "between 1e-7 and 0.5 per step").map(drop)
@@ -35,7 +35,7 @@ pub struct Stability {
     pub turn_per_step: f64,
     /// Number of modes that grow.
     pub growing_modes: usize,
-    /// Growth that was looked for: slower growth is not seen.
+    /// Growth that was searched for: slower growth is not seen.
     pub smallest_growth: f64,
     /// Smallest eigenvalue of the Hermitian part of (1−ζ) L C(ζ) over |ζ| = 1, over the largest
     /// magnitude of any: C the compliance of the elements with prescribed displacement (the others
@@ -45,8 +45,8 @@ pub struct Stability {
     /// If modes grow in the traction-free problem, C is not the transform of a causal march, and
     /// the figure says little.
     pub passivity: Option<f64>,
-    /// Smallest eigenvalue of the Hermitian part of s L C, relative likewise, at the transform's s = δ(ζ)/Δt, for
-    /// kernels that know it.
+    /// Smallest eigenvalue of the Hermitian part of s L C, relative to the largest magnitude of any, at the transform's
+    /// s = δ(ζ)/Δt, for kernels that give it.
     pub passivity_of_rate: Option<f64>,
     /// Angle of ζ where [`Stability::passivity`] is worst, rad.
     pub passivity_angle: Option<f64>,
@@ -59,7 +59,7 @@ pub struct Stability {
 impl Stability {
     /// Assesses `kernel` with one condition for each of its elements.
     ///
-    /// `smallest_growth` is the growth per step that is looked for, best the inverse of the
+    /// `smallest_growth` is the growth per step that is searched for, best the inverse of the
     /// number of steps to be marched: what grows slower than that grows less than e-fold.
     ///
     /// Assumed, and for the late lags checked by [`Stability::tail_error`]: coefficients tend to
@@ -121,7 +121,7 @@ impl Stability {
         self.growing_modes == 0
     }
 
-    /// Nothing if the march is bounded.
+    /// Returns nothing if the march is bounded.
     ///
     /// # Errors
     /// [`Error::Unstable`] if perturbations grow.
@@ -203,12 +203,12 @@ impl GroundStability {
         }
     }
 
-    /// Whether neither state grows faster than what was looked for.
+    /// Whether neither state grows faster than the growth that was searched for.
     pub fn is_bounded(&self) -> bool {
         self.uplifted.is_bounded() && self.bonded.is_bounded()
     }
 
-    /// Nothing if the march is bounded in both states.
+    /// Returns nothing if the march is bounded in both states.
     ///
     /// # Errors
     /// [`crate::Error::Unstable`] with the faster growth.
@@ -310,7 +310,7 @@ impl BoundaryMarch {
         self.history.reserve(steps)
     }
 
-    /// One step with the given values: tractions during it, displacements at its end.
+    /// Makes one step with the given values: tractions during it, displacements at its end.
     ///
     /// # Errors
     /// [`Error::Size`] for the wrong number of values, and what the kernel says.

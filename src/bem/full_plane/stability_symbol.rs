@@ -134,7 +134,7 @@ impl<'a> Symbol<'a> {
         self.tail_error
     }
 
-    /// For each of the 2E components, whether its displacement is prescribed.
+    /// Whether the displacement is prescribed, for each of the 2E components.
     pub(super) fn prescribed(&self) -> &[bool] {
         &self.prescribed
     }
@@ -223,7 +223,7 @@ impl<'a> Symbol<'a> {
         Ok(())
     }
 
-    /// Adds the late lags' share to `sum`, one per class.
+    /// Adds the contribution of late lags to `sum`, one per class.
     fn add_late(&self, zeta: Complex64, sum: &mut [Complex64]) {
         let tails = tail_sums(zeta, self.lags as f64);
         for (tail, late) in tails.iter().zip(self.late.chunks_exact(self.classes.len())) {
@@ -234,7 +234,7 @@ impl<'a> Symbol<'a> {
     }
 
     /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ; returns the
-    /// transform's s if the kernel knows it.
+    /// transform's s if the kernel gives it.
     pub(super) fn at(
         &self,
         zeta: Complex64,

@@ -28,7 +28,7 @@ const FINE: f64 = 0.01;
 pub(super) struct Zeros {
     /// Zeros inside.
     pub(super) count: usize,
-    /// The smallest.
+    /// Smallest zero inside.
     pub(super) zero: Option<Complex64>,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
     Ok(Zeros { count, zero: Some(Complex64::from_polar(size, seed.arg())) })
 }
 
-/// ln of the largest growth factor that is looked for.
+/// ln of the largest growth factor that is searched for.
 const LARGEST_GROWTH: f64 = 4.0;
 
 struct Search<'a> {
@@ -93,7 +93,7 @@ impl Search<'_> {
     /// Zeros inside |ζ| < `radius`, and the point of the circle where det F turns fastest: next
     /// to the nearest zero.
     ///
-    /// F is real on the real axis, so that half the circle tells.
+    /// F is real on the real axis, so that half the circle is enough.
     fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
         let operators = self.symbol.operators_on(radius, POINTS);
         let (factor, order) = (&mut self.factor, self.symbol.order());
@@ -200,9 +200,9 @@ const REFINEMENTS: usize = 16;
 
 /// Smallest eigenvalues, each relative to the largest magnitude on the circle.
 pub(super) struct Passivity {
-    /// Of (1−ζ) L C.
+    /// Smallest eigenvalue of (1−ζ) L C.
     pub(super) work: f64,
-    /// Of s L C.
+    /// Smallest eigenvalue of s L C.
     pub(super) rate: Option<f64>,
     /// Angle of the worst of (1−ζ) L C.
     pub(super) angle: f64,

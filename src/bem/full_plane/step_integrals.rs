@@ -52,12 +52,12 @@ pub(super) struct Medium {
     pub(super) lame: f64,
 }
 
-/// One wave at one end of the element.
+/// Front of a wave at one end of the element.
 #[derive(Clone, Copy)]
 struct Front {
-    /// Whether it has passed the point of the element's line that is nearest to the load.
+    /// Whether the wave has passed the point of the element's line that is nearest to the load.
     present: bool,
-    /// Whether it has passed this end.
+    /// Whether the wave has passed this end.
     covered: bool,
     reach: f64,
     root: f64,
@@ -241,7 +241,7 @@ mod tests {
         sum
     }
 
-    /// The same integrals by quadrature of the fundamental solution between its fronts.
+    /// Integrals of an element and a step by quadrature of the fundamental solution between its fronts.
     fn by_quadrature(soil: Soil, ends: [f64; 2], h: f64, time: f64) -> [f64; 7] {
         let plane = FullPlane::new(soil);
         let f = |s: f64| {

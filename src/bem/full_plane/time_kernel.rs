@@ -62,7 +62,7 @@ impl TimeKernel {
         Ok(Self { segments: segments.to_vec(), pairs, soil, medium, time_step, subelements: None })
     }
 
-    /// With midpoint rules over `count` sub-elements in place of exact integrals in space (the
+    /// Replaces exact integrals in space by midpoint rules over `count` sub-elements (the
     /// paper takes five and does not name the rule); sub-elements next to the load remain exact.
     /// For comparison only: it is slower and less accurate.
     ///
@@ -72,7 +72,7 @@ impl TimeKernel {
         self.with_gauss_subelements(count, 1)
     }
 
-    /// The same with Gauss rules of `points` points in each sub-element, one (the midpoint) to
+    /// Replaces exact integrals in space by Gauss rules of `points` points in each sub-element, one (the midpoint) to
     /// eight.
     ///
     /// # Errors
@@ -191,7 +191,7 @@ impl BoundaryKernel for TimeKernel {
 // Integrals over an element and a step where no wave front is inside: Gauss rules, nothing cancels.
 //
 // Differences in time of the closed forms lose digits as time goes on, since displacements grow
-// like log t while coefficients fall like 1/t. Where the fronts are elsewhere, the answer to an
+// like log t while coefficients fall like 1/t. Where the fronts are elsewhere, the response to an
 // impulse is smooth in space and time. With t in place of the unit steps of
 // [`super::step_integrals`] and both waves past,
 //
@@ -200,7 +200,7 @@ impl BoundaryKernel for TimeKernel {
 //
 // which is free of r: the element under the load is no exception.
 
-/// Where the fronts are.
+/// Places of the wave fronts relative to the element.
 #[derive(Clone, Copy, PartialEq)]
 enum Passed {
     None,

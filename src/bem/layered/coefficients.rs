@@ -1,4 +1,4 @@
-//! Step coefficients of a layered ground by Runge–Kutta convolution quadrature.
+//! Convolution weights of a layered ground by Runge–Kutta convolution quadrature.
 //!
 //! The mobility Y(s) = s F(s) is discretised with the traction held constant over all stages of a step
 //! and the stage velocities averaged with the weights b,
@@ -81,12 +81,12 @@ impl Block {
     }
 }
 
-/// Samples of a block, as its observer hears of them.
+/// Samples of a block, as reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
     watch: &'w mut Watch<'a>,
-    /// Those of the blocks before, and with this block: as expected.
+    /// Expected numbers of samples up to the blocks before and up to the end of this block.
     expected: Range<usize>,
-    /// Those of this block so far.
+    /// Samples made of this block so far.
     done: usize,
 }
 
@@ -95,7 +95,7 @@ impl<'w, 'a> Samples<'w, 'a> {
         Self { watch, expected, done: 0 }
     }
 
-    /// Tells of so many more.
+    /// Reports so many more samples to the observer.
     fn reach(&mut self, more: usize) -> Result<()> {
         let done = self.expected.start + self.done + more;
         self.watch.reach(done.min(self.expected.end))
@@ -117,7 +117,7 @@ pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> 
     pub(crate) time_step: f64,
     /// Relative accuracy of F.
     pub(crate) tolerance: f64,
-    /// Of each eigenvalue.
+    /// Panels of each eigenvalue.
     pub(crate) panels: Vec<Panels>,
 }
 
@@ -169,7 +169,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         self.stages.nodes(z, rest)
     }
 
-    /// Adds the share of one of them to the mobility.
+    /// Adds the contribution of one sample to the mobility.
     pub(super) fn add(
         &self,
         node: Node,
@@ -222,7 +222,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             // The ends of the circle are real.
             [input[0].im, input[length / 2].im] = [0.0; 2];
             transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
-                |_| Error::Singular { matrix: "spectrum of step coefficients", order: length },
+                |_| Error::Singular { matrix: "spectrum of convolution weights", order: length },
             )?;
             let lags = output[first..].iter().zip(&growth);
             values.push(lags.map(|(value, scale)| value * scale).collect());
@@ -324,7 +324,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(())
     }
 
-    /// The share of an eigenvalue in the mobility at each ln |z| and angle, class by class.
+    /// Contribution of an eigenvalue to the mobility at each ln |z| and angle, class by class.
     fn shares(
         &self,
         node: usize,

@@ -33,11 +33,11 @@ use crate::soil::{Base, SoilProfile};
 /// C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct SurfaceCompliance {
-    /// To the right due to shear.
+    /// Displacement to the right due to shear.
     pub(crate) xx: Complex,
-    /// Down due to pressure.
+    /// Displacement downwards due to pressure.
     pub(crate) zz: Complex,
-    /// To the right due to pressure, and down due to shear.
+    /// Displacement to the right due to pressure, and downwards due to shear.
     pub(crate) xz: Complex,
 }
 
@@ -69,7 +69,7 @@ const THIN: f64 = 0.2;
 const SMALL: f64 = 1e-18;
 
 impl Layer {
-    /// Whether its waves hardly turn or decay over it at the wavenumber `k`.
+    /// Whether the layer's waves hardly turn or decay over its thickness at the wavenumber `k`.
     fn is_thin(&self, k: f64) -> bool {
         let turn = (k * k + self.q2.abs()).sqrt() * self.thickness;
         turn < THIN

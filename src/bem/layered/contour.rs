@@ -221,7 +221,7 @@ fn is_resolved<const KINDS: usize>(
 }
 
 impl Circle {
-    /// Panels that cover the upper half, and, ascending, the points that are left, with what tells which of some
+    /// Panels that cover the upper half, and, ascending, the points that are left; `resolved` returns which of some
     /// panels of one width are resolved.
     pub(crate) fn covered(
         self,
@@ -255,8 +255,8 @@ impl Circle {
 /// Values evaluated between two calls of `heard`, about: a hundredth of a second.
 const HEARD: usize = 1 << 18;
 
-/// Adds an eigenvalue's share by a panel to the values at the points of a circle, row by row one function of them.
-/// An error of `heard` ends it.
+/// Adds the contribution of an eigenvalue by a panel to the values at the points of a circle, row by row one function
+/// of them. An error of `heard` ends it.
 pub(super) fn evaluate(
     node: usize,
     panel: &Polynomials,

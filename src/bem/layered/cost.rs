@@ -1,7 +1,7 @@
-//! What the coefficients of a layered ground cost, before it is paid.
+//! Estimate of the cost of a layered ground's convolution weights, before they are computed.
 //!
-//! Work is counted and not timed. Where the contours are sampled is told by what panels look like. What samples cost
-//! is found at some of them, by all that an integral needs but its pairs.
+//! Work is counted and not timed. Where the contours are sampled is estimated from the panels of some samples. What
+//! samples cost is found at some of them, by all that an integral needs but its pairs.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -29,17 +29,17 @@ const PRODUCT: f64 = 0.25;
 const WIDE: f64 = 2500.0;
 const POINT: f64 = 170.0;
 
-/// One sample more for so many: errors of the integrals keep panels from being resolved that look so. Measured
+/// Samples per additional sample: errors of the integrals keep panels from being resolved that look so. Measured
 /// (`cost/tests.rs`).
 const MISJUDGED: usize = 5;
 /// Samples for each that a look stands for.
 const SUMMED: f64 = 1.0 + 1.0 / MISJUDGED as f64;
-/// Samples of each eigenvalue that are looked at.
+/// Samples of each eigenvalue that are evaluated for the estimate.
 const LOOKED_AT: usize = 16;
 /// Halving makes no integral so many times as long as its panels, as a rule.
 pub(in crate::bem) const MOST_HALVING: f64 = 50.0;
 
-/// Cost of step coefficients before the first step: by counting, not by a clock, so that it is the same
+/// Cost of convolution weights before the first step: by counting, not by a clock, so that it is the same
 /// everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -67,7 +67,7 @@ impl fmt::Display for Cost {
 #[derive(Default)]
 struct Total {
     sum: Counts,
-    /// Panels, and whether they are halved, of the samples that were looked at.
+    /// Panels, and whether they are halved, of the samples that were evaluated.
     met: HashMap<(Panel, bool), Met>,
 }
 
@@ -101,7 +101,8 @@ fn distinct(met: &[Met]) -> f64 {
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
-    /// Where shares of the eigenvalues in the mobility will be evaluated, as far as one wavenumber tells.
+    /// Panels in which contributions of the eigenvalues to the mobility will be evaluated, as far as one wavenumber
+    /// shows.
     pub(crate) fn outlook(
         &self,
         missing: Range<usize>,
@@ -141,8 +142,8 @@ pub(crate) trait Priced<const KINDS: usize>: Compliances<KINDS> + Sized {
     /// Shortest side of an element, m.
     fn shortest(&self) -> f64;
 
-    /// Most seconds that `samples` of the mobility take, and the gate for a matrix of order `gate`, told without an
-    /// evaluation.
+    /// Most seconds that `samples` of the mobility take, and the gate for a matrix of order `gate`, estimated without
+    /// an evaluation.
     ///
     /// # Errors
     /// As for [`Compliances::compliance`].
@@ -181,7 +182,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         limit: f64,
         outlook: Option<&Outlook>,
     ) -> Result<()> {
-        // Most grounds are told without an evaluation: as if every point of the circles were sampled.
+        // Most grounds are estimated without an evaluation: as if every point of the circles were sampled.
         let samples = (self.points(&missing) + passivity::POINTS) * self.stages.count();
         if I::most(self, samples as f64, gate)? <= limit {
             return Ok(());

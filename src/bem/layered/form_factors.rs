@@ -38,7 +38,7 @@ pub(crate) type FormRow = [[f64; LANES]; 2];
 pub(crate) struct PairShape {
     /// Lengths of source and receiver, m.
     pub(crate) lengths: [f64; 2],
-    /// From the source's centre to the receiver's, m.
+    /// Distance from the source's centre to the receiver's, m, positive to the right.
     pub(crate) offset: f64,
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct Panel {
 }
 
 impl Panel {
-    /// Its two halves.
+    /// Halves of the panel.
     pub(crate) fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { level: self.level - 1, index: 2 * self.index + half })
     }

@@ -77,7 +77,7 @@ const TOLERANCE: f64 = 1e-9;
 const LOSSLESS: f64 = 1e-6;
 /// Points of the extrapolation.
 const PER_FREQUENCY: usize = 8;
-/// Their distance over ω, and over the inverse of the time that waves take.
+/// Distance of the points over ω, and over the inverse of the time that waves take.
 const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between 8 and 7 points.
 const SETTLED: f64 = 1e-3;
@@ -111,7 +111,7 @@ impl ElasticGround {
     /// # Errors
     /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not finite, or 0 on
     /// a half-plane, whose static stiffness is 0; [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without
-    /// damping at a frequency at which guided waves begin; [`Error::Singular`] if the elements cannot be told apart.
+    /// damping at a frequency at which guided waves begin; [`Error::Singular`] if the elements cannot be distinguished.
     pub fn impedances(
         &self,
         frequencies: &[f64],
@@ -192,7 +192,7 @@ pub(in crate::bem) fn points(
 }
 
 /// K(iω) from its samples `at` the [`points`] of each frequency. Entries `judged` must agree between all samples and
-/// all but the last; `watch` hears of each sample.
+/// all but the last; `watch` is notified of each sample.
 ///
 /// # Errors
 /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they do not; as for `at`.

@@ -29,7 +29,7 @@ use crate::error::{
 };
 use crate::text::check_sum::CheckSum;
 
-/// Between two looks whether another thread has ended.
+/// Time between two checks whether another thread has ended.
 const WAIT: Duration = Duration::from_millis(20);
 
 /// Blocks of a kernel as far as they have been made.
@@ -46,7 +46,7 @@ pub(crate) struct KeptBlocks {
 }
 
 impl KeptBlocks {
-    /// No blocks, of so many classes and kinds.
+    /// Store without blocks, for blocks of so many classes and kinds.
     pub(crate) fn new(sizes: [usize; 2], file: Option<PathBuf>) -> Self {
         let blocks = std::array::from_fn(|_| OnceLock::new());
         Self { checked: OnceLock::new(), blocks, making: Mutex::default(), file, sizes }

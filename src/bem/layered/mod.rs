@@ -4,11 +4,11 @@
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
-//! | runge_kutta, contour, coefficients | step coefficients Gⁿ by convolution quadrature |
-//! | cost | cost of step coefficients, beforehand |
-//! | passivity | the gate that step coefficients pass |
-//! | kept | blocks of step coefficients in memory and in a file |
-//! | weights | step coefficients as a history takes them |
+//! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
+//! | cost | cost of convolution weights, beforehand |
+//! | passivity | the gate that convolution weights pass |
+//! | kept | blocks of convolution weights in memory and in a file |
+//! | weights | convolution weights as a history takes them |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
 mod coefficients;

@@ -1,4 +1,4 @@
-//! Whether the step coefficients of a layered ground can give energy away.
+//! Whether the convolution weights of a layered ground can give energy away.
 
 use realfft::num_complex::Complex64;
 
@@ -11,7 +11,7 @@ use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle that is checked.
 pub(crate) const RADIUS: f64 = 0.99;
-/// Points on its upper half.
+/// Points on the upper half of the circle.
 pub(crate) const POINTS: usize = 40;
 
 /// ln |z| and angle of these points.

@@ -28,7 +28,7 @@ pub enum Stages {
     Three,
 }
 
-/// One eigenvalue of Δ(z): λⱼ and wⱼ λⱼ.
+/// Eigenvalue of Δ(z): λⱼ and wⱼ λⱼ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Node {
     pub(crate) lambda: Complex,
@@ -36,7 +36,7 @@ pub(crate) struct Node {
 }
 
 impl Stages {
-    /// From the number of stages.
+    /// Method by its number of stages.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is 2 or 3.

@@ -118,7 +118,7 @@ mod tests {
         matrix
     }
 
-    /// One half-plane, in one piece and cut into layers, is Flamant's to rounding.
+    /// A half-plane, in one piece and cut into layers, is Flamant's to rounding.
     #[test]
     fn homogeneous_ground_is_flamants() {
         let soil = Soil::new(2.0, 0.3, 1.5).unwrap();

@@ -33,10 +33,10 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Scratch of one thread.
     type Workspace: Default;
 
-    /// Errors of late step coefficients, summed, over the 2/3 power of the tolerance and the sum of all coefficients.
+    /// Errors of late convolution weights, summed, over the 2/3 power of the tolerance and the sum of all coefficients.
     const LATE_ERROR: f64 = 0.0;
 
-    /// Makes what all compliances share, unless it is there.
+    /// Makes the data common to all compliances, unless they are there.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
@@ -148,7 +148,7 @@ pub(super) enum Found<'a> {
     Moments(&'a [[f64; 6]; DEGREES]),
 }
 
-/// Of a class zz, xx, zx.
+/// Compliances zz, xx and zx of each class.
 impl Compliances<KINDS> for Wavenumbers {
     type Workspace = Workspace;
 

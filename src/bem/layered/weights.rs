@@ -23,7 +23,7 @@ pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     pub(in crate::bem) classes: PairClasses,
     /// Elements that pass the gate in place of all.
     sample: Option<PairClasses>,
-    /// Numbers that tell the mesh from others.
+    /// Numbers that distinguish the mesh from others.
     mesh: Vec<f64>,
     kept: KeptBlocks,
     spectra: SharedSpectra,
@@ -127,7 +127,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
-    /// Computes the blocks of lags up to `lags`; without an observer, nobody counts beforehand.
+    /// Computes the blocks of lags up to `lags`; without an observer, nothing is counted beforehand.
     fn compute(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let last = last_block(lags.max(1))?;
         let missing = self.kept.missing(0..last + 1);
@@ -141,7 +141,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
             let counts = outlook.iter().flat_map(Outlook::counts);
             expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);
             let total = passivity::POINTS + expected.iter().sum::<usize>();
-            watch = Watch::new("step coefficients of layered ground", total, observer);
+            watch = Watch::new("convolution weights of layered ground", total, observer);
         }
         let fingerprint = self.admit(0..last + 1, outlook.as_ref(), &mut watch)?;
         let complete = self.kept.missing(0..last + 1).is_empty();

@@ -144,9 +144,10 @@ impl Plan {
         })
     }
 
-    /// With contact elements that are rectangles of cells: columns taken together by `along`, rows by `across`, all of
-    /// them. The ground stays that of the cells. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 along each axis are as good
-    /// for a rigid mat as all of them, with a quarter of the elements.
+    /// Unites the cells to contact elements that are rectangles of cells: `along` are the numbers of columns, `across`
+    /// those of rows, which sum up to all of them. The ground stays that of the cells. Sixteen cells by
+    /// 1, 2, 2, 3, 3, 2, 2, 1 along each axis are as good for a rigid mat as all of them, with a quarter of the
+    /// elements.
     ///
     /// ```
     /// use basemat::bem::plan::Plan;
@@ -164,7 +165,7 @@ impl Plan {
         Ok(Self { owners, ..self })
     }
 
-    /// The same outline with cells that end where it does. For given pressures, and on springs, that is exact; of the
+    /// Cuts the cells of the edge off at the outline. For given pressures, and on springs, that is exact; of the
     /// response of a rigid mat on soil it leaves an error of first order. Discs and masks are as they were.
     ///
     /// # Errors

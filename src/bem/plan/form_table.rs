@@ -74,7 +74,7 @@ impl Rows {
 /// Forms and their tails.
 #[derive(Debug)]
 struct Tabulated {
-    /// At the Gauss points, panel by panel.
+    /// Forms at the Gauss points, panel by panel.
     values: Rows,
     /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
     tails: Vec<(usize, Rows)>,
@@ -265,7 +265,7 @@ impl FormTable {
     }
 }
 
-/// From 0 at x ≤ 0 to 1 at x ≥ 1, three times differentiable.
+/// Transition from 0 at x ≤ 0 to 1 at x ≥ 1, three times differentiable.
 fn step(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x.powi(4) * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)))

@@ -30,7 +30,7 @@ pub(super) struct AngularMeans {
     left: [Vec<f64>; 2],
     /// c′ and s′.
     right: [Vec<f64>; 2],
-    /// Their products.
+    /// Products of the factors along x and along y.
     sums: [Vec<f64>; 2],
     /// Form by form, all classes.
     values: Vec<f64>,
@@ -208,7 +208,8 @@ mod tests {
         }
     }
 
-    /// The same by Gauss points over the distance, the two cells' overlap as weight: for cells apart.
+    /// Closed forms agree with integrals by Gauss points over the distance, the two cells' overlap as weight: for cells
+    /// apart.
     #[test]
     fn closed_forms_are_the_integrals() {
         let rule = gauss::largest();

@@ -60,7 +60,7 @@ pub(crate) struct Workspace {
 /// Scratch for the panels of one integral after the other.
 #[derive(Debug, Default)]
 struct Scratch {
-    /// At all points, with their weights.
+    /// Kernels at all points, with their weights.
     kernels: Vec<Kernel>,
     samples: Vec<[Kernel; POINTS]>,
     stack: Vec<(f64, f64, u32)>,
@@ -97,7 +97,7 @@ fn series(a2: f64) -> [[f64; KERNELS]; TERMS] {
     })
 }
 
-/// Of a class zz, xx, yy, xy, zx and zy, m³/Pa × m.
+/// Compliances zz, xx, yy, xy, zx and zy of each class, m³/Pa × m.
 impl Compliances<SERIES> for Integrals {
     type Workspace = Workspace;
 
@@ -181,7 +181,7 @@ impl Integrals {
         Ok(integrals)
     }
 
-    /// The same integrals without their forms, until [`Compliances::make_ready`] tabulates them.
+    /// Integrals without their forms, until [`Compliances::make_ready`] tabulates them.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
@@ -272,7 +272,7 @@ impl Integrals {
         Ok(())
     }
 
-    /// How much less forms count at a wavenumber than at zero.
+    /// Ratio of the forms' weight at a wavenumber to that at zero.
     fn share(&self, k: f64) -> f64 {
         (2.0 / (k * self.finest)).powi(2).min(1.0)
     }

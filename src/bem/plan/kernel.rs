@@ -1,4 +1,4 @@
-//! Step coefficients of a ground under cells of a lattice, and their cost, by counting as for
+//! Convolution weights of a ground under cells of a lattice, and their cost, by counting as for
 //! [strips](crate::bem::layered).
 
 use std::ops::Range;
@@ -45,7 +45,7 @@ pub(in crate::bem) fn static_compliance(
     Ok(())
 }
 
-/// Step coefficients of a layered ground under cells, of six kinds.
+/// Convolution weights of a layered ground under cells, of six kinds.
 pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES>;
 
 impl LatticeKernel {

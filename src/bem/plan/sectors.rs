@@ -35,7 +35,7 @@ pub(super) struct Sectors<'a> {
     plan: &'a Plan,
     /// Reflections that keep the elements, the identity first.
     group: Vec<Reflection>,
-    /// One element of each orbit.
+    /// Representative element of each orbit.
     elements: Vec<usize>,
     /// Cells of these, each with the place of its element among them.
     cells: Vec<([usize; 2], usize)>,

@@ -57,7 +57,7 @@ pub(super) struct Cone {
 }
 
 impl Cone {
-    /// For elements of these areas, m².
+    /// Search for elements of these areas, m².
     pub(super) fn new(areas: &[f64]) -> Self {
         let count = areas.len();
         Self {

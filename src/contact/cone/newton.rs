@@ -14,7 +14,7 @@ const ITERATIONS: usize = 15;
 const WANDERED: usize = 60;
 const LEAST: f64 = 0.2;
 
-/// Newton's method, with its memory.
+/// Newton's method, with its scratch.
 pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
     system: System,
@@ -81,7 +81,7 @@ impl Newton {
         (all, false)
     }
 
-    /// One attempt, by its number.
+    /// Makes one attempt, by its number.
     fn attempt(&mut self, problem: &mut Problem, number: u64) -> (usize, bool) {
         let mut state = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
         self.kinds.clear();

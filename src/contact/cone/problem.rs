@@ -24,7 +24,7 @@ pub(super) const STAND_IN: f64 = 1e4;
 /// Bounds of an element's force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounds {
-    /// That of the law.
+    /// Limit of the friction by the law.
     pub(super) friction: f64,
     /// Limit of the friction at present.
     pub(super) grip: f64,
@@ -66,7 +66,7 @@ impl Bounds {
         self.friction.min(if is_plain { self.grip } else { self.grip.min(STAND_IN) })
     }
 
-    /// Whether friction is taken as endless.
+    /// Whether friction is taken as infinite.
     pub(super) fn is_endless(&self) -> bool {
         self.taken() == f64::INFINITY && !self.bonded
     }
@@ -76,7 +76,7 @@ impl Bounds {
         !self.bonded && (self.interval[0] < 0.0 || self.attraction > 0.0 || self.strength > 0.0)
     }
 
-    /// The same once the bond is gone.
+    /// Bounds of the element after its bond has broken.
     pub(super) fn broken(self) -> Self {
         let interval = [0.0, self.interval[1]];
         Self { attraction: 0.0, strength: 0.0, interval, ..self }
@@ -102,7 +102,7 @@ impl Bounds {
 pub(super) enum Endless {
     Open,
     Stick,
-    /// Without pressure, the shear in this direction.
+    /// No pressure, and shear in this direction.
     Slip([f64; 2]),
 }
 
@@ -268,7 +268,7 @@ impl Problem {
         (TOLERANCE * self.largest()).max(self.finest)
     }
 
-    /// Whether the present r is a solution.
+    /// Whether the present r is a solution of the problem.
     pub(super) fn is_solved(&mut self) -> bool {
         self.residual() <= self.tolerance()
     }

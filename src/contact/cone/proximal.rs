@@ -4,9 +4,9 @@
 
 use super::problem::Problem;
 
-/// First share of the mean diagonal D that is added.
+/// First fraction of the mean diagonal D that is added.
 const SHARE: f64 = 0.3;
-/// Iterates.
+/// Iterations at most.
 const ITERATIONS: usize = 60;
 
 /// q and the diagonal of W while they are changed, and the last iterate.

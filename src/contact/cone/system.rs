@@ -24,30 +24,30 @@ const BLOCK: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE: f64 = 4.0;
 
-/// What an element does by its trial.
+/// Behaviour of an element by its trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Status {
     pub(super) normal: Normal,
     pub(super) tangential: Tangential,
 }
 
-/// Along the normal.
+/// Status along the normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Normal {
-    /// Nothing presses, or the bond is at its strength.
+    /// No pressure, or a bond at its strength.
     Open,
     Closed,
     /// The pressure is at its cap.
     Capped,
 }
 
-/// Along the base.
+/// Status along the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Tangential {
-    /// There is no friction.
+    /// No friction.
     Free,
     Stick,
-    /// In this direction, with κ and the growth of the radius with p.
+    /// Slip in this direction, with κ and the growth of the radius with p.
     Slip {
         direction: [f64; 2],
         turn: f64,
@@ -56,19 +56,19 @@ pub(super) enum Tangential {
 }
 
 impl Status {
-    /// The same without its numbers.
+    /// Kind of the status, without its numbers.
     pub(super) fn kind(&self) -> (Normal, Discriminant<Tangential>) {
         (self.normal, discriminant(&self.tangential))
     }
 
-    /// Whether friction that is less than this lets it slip.
+    /// Whether friction below `friction` lets the element slip.
     pub(super) fn is_held_by(&self, friction: f64) -> bool {
         matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
     }
 
     /// Closed without slip.
     pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
-    /// Without any force.
+    /// Open, without any force.
     pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
 
     /// p, unless closed.
@@ -205,7 +205,8 @@ impl System {
         problem.change.iter().all(|change| change.is_finite())
     }
 
-    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. It is made once it would have paid for itself.
+    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. W⁻¹ is made once it would have saved its own
+    /// cost.
     fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
         let dofs = statuses.iter().map(Status::dofs);
         let [forces, motions] = dofs.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);

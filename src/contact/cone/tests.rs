@@ -41,7 +41,7 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
 /// Angles from which a direction is looked for.
 const GRID: usize = 24;
 
-/// What an element may be: open, closed or at its cap; sticking or sliding in a direction.
+/// State that an element may have: open, closed or at its cap; sticking or sliding in a direction.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Open,
@@ -211,7 +211,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
     found
 }
 
-/// By all methods.
+/// Solves the problem by all methods.
 fn solve(problem: &mut Problem) -> bool {
     let count = problem.count;
     let (mut newton, mut proximal) = (Newton::new(count), Proximal::new(count));

@@ -103,7 +103,7 @@ impl Assembled {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
     }
 
-    /// The structure at rest, for a search for mechanisms; `structure` knows the names of its degrees of freedom.
+    /// The structure at rest, for a search for mechanisms; `structure` gives the names of its degrees of freedom.
     pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
         let stiffness = self.stiffness_at_rest();
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }

@@ -21,7 +21,7 @@ const STIFFEST_CONDITION: f64 = 1e10;
 /// Proximal iterations at most.
 const ITERATIONS: usize = 500;
 /// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding lets a
-/// very stiff structure get no further.
+/// very stiff structure converge no further.
 const LATE: usize = 100;
 const LATE_CHANGE: f64 = 1e-8;
 /// Most out-of-balance force of a steady drift, relative to the load.
@@ -54,7 +54,7 @@ pub(crate) struct StaticState {
     pub(crate) load: Vec<f64>,
     /// Memory of each element's law where that acted in it; empty where the law begins anew.
     pub(crate) state_variables: Vec<Vec<f64>>,
-    /// f(u) of a nonlinear structure, and its energies where it knows them.
+    /// f(u) of a nonlinear structure, and its energies where it returns them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
     /// Friction coefficient taken in place of a greater one where an element slides, if any was.
@@ -169,7 +169,7 @@ impl Standing<'_> {
             };
             let current = compliance.insert(current);
             // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
-            // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
+            // would sink by 1/PROXIMAL_SHARE settlements; so the response to τ₀ is put in by the columns
             // that take out τ₁, and only what is out of balance is solved for.
             let mut displacement = out_of_balance(assembled, structure, load, &state)?;
             current.factor.solve(&mut displacement);
@@ -206,13 +206,13 @@ impl Standing<'_> {
             change = measure.of(&pull);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
-            // What the springs pull cannot be told more finely than the solve is exact.
+            // The force of the springs is known no better than the solve is exact.
             let stalled = change <= 1e-10 && change >= 0.5 * previous;
             let late = iterations > LATE
                 && change <= LATE_CHANGE
                 && change <= current.condition() * f64::EPSILON;
             // What nothing resists (a frictionless base along the ground) drifts for ever by the same
-            // amount under what rounding leaves of the sums of K, a share that grows with its size.
+            // amount under what rounding leaves of the sums of K, a fraction that grows with its size.
             let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
             if change <= 1e-13 || stalled || late || drifts {
                 // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
@@ -343,7 +343,7 @@ impl Measure {
     }
 }
 
-/// K + D + εM, factored, its answer to unit tractions, and the static Delassus operator.
+/// Factored K + D + εM, its response to unit tractions, and the static Delassus operator.
 struct Compliance {
     matrix: SparseMatrix,
     factor: SparseFactor,

@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | F | rows of degrees of freedom where forces act or something is looked at |
+//! | F | rows of degrees of freedom where forces act or probes read |
 //! | σ | shifts, beginning with that of the scheme, √(a/k): 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for others |
 //!
@@ -22,7 +22,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::structure::{FaceNode, HeldBase, stiffest};
 
-/// From one shift to the next.
+/// Ratio of a shift to the one before.
 const RATIO: f64 = 4.0;
 /// Directions are left out if the fraction of them that is new is below this, and below this multiple of the root of
 /// the tolerance: their part of the responses is its square.
@@ -39,7 +39,7 @@ const LOWEST: f64 = 1e-6;
 /// Steps over which responses are compared, at most.
 const LONGEST: usize = 10_000;
 
-/// Times at which the structure's own load is looked at.
+/// Times at which the structure's own load is sampled.
 const SAMPLES: u32 = 16;
 
 /// All that a reduction looks at. Rows have an entry for every degree of freedom.

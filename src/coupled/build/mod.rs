@@ -1,4 +1,4 @@
-//! Putting a simulation together, in the order of [`SimulationBuilder::build`].
+//! Build of a simulation, in the order of [`SimulationBuilder::build`].
 //!
 //! 1. `parts.rs`: what was given, each part checked by itself;
 //! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
@@ -47,96 +47,96 @@ impl Simulation {
 }
 
 impl SimulationBuilder {
-    /// The structure.
+    /// Sets the structure.
     #[must_use]
     pub fn structure(mut self, structure: impl Structure + 'static) -> Self {
         self.structure = Some(Box::new(structure));
         self
     }
 
-    /// The ground. Contact is where its elements are: a part of the base beyond them is not in contact, and elements
-    /// beyond the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
+    /// Sets the ground. Contact is where its elements are: a part of the base beyond them is not in contact, and
+    /// elements beyond the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));
         self
     }
 
-    /// One interface law for all elements.
+    /// Sets one interface law for all elements.
     #[must_use]
     pub fn interface(mut self, law: impl InterfaceLaw + 'static) -> Self {
         self.laws = vec![Box::new(law)];
         self
     }
 
-    /// An interface law for each element, from left to right.
+    /// Sets an interface law for each element, from left to right.
     #[must_use]
     pub fn interfaces(mut self, laws: Vec<Box<dyn InterfaceLaw>>) -> Self {
         self.laws = laws;
         self
     }
 
-    /// The ground motion.
+    /// Sets the ground motion.
     #[must_use]
     pub fn motion(mut self, motion: impl FreeField + 'static) -> Self {
         self.motion = Box::new(motion);
         self
     }
 
-    /// The structure's time scheme; [`Midpoint`](crate::coupled::Midpoint) unless given.
+    /// Sets the structure's time scheme; [`Midpoint`](crate::coupled::Midpoint) unless given.
     #[must_use]
     pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
         self.scheme = Box::new(scheme);
         self
     }
 
-    /// Search for the contact modes of a step.
+    /// Sets the search for the contact modes of a step.
     #[must_use]
     pub fn contact_search(mut self, search: ContactSearch) -> Self {
         self.search = search;
         self
     }
 
-    /// Gravity g (m/s²), which gives the structure its weight; [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY)
-    /// unless given. The run starts from the static state: weight first, then the loads at t = 0 with the interface
-    /// law. With zero there is no static state: the base starts without pressure, so nothing resists uplift and
-    /// sliding.
+    /// Sets gravity g (m/s²), which gives the structure its weight;
+    /// [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY) unless given. The run starts from the static state: weight
+    /// first, then the loads at t = 0 with the interface law. With zero there is no static state: the base starts
+    /// without pressure, so nothing resists uplift and sliding.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
         self.gravity = gravity;
         self
     }
 
-    /// An external load, beside those given before and the structure's own.
+    /// Adds an external load, beside those given before and the structure's own.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
         self
     }
 
-    /// Displacement of the degrees of freedom at t = 0 against the static state. It may move the base only with
-    /// [`GravityStage::Unloaded`], which shows one, and not into the ground.
+    /// Sets the displacement of the degrees of freedom at t = 0 against the static state. It may move the base only
+    /// with [`GravityStage::Unloaded`], which shows one, and not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
         self.displacement = displacement.into();
         self
     }
 
-    /// Velocity of the degrees of freedom at t = 0.
+    /// Sets the velocity of the degrees of freedom at t = 0.
     #[must_use]
     pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
         self.velocity = velocity.into();
         self
     }
 
-    /// Friction while the weight comes on.
+    /// Sets the friction while the weight comes on.
     #[must_use]
     pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
         self.gravity_stage = gravity_stage;
         self
     }
 
-    /// A quantity recorded at every step, see [`super::State::probes`]. Names must differ.
+    /// Adds a quantity recorded at every step, see [`super::State::probes`]. Names must differ.
     #[must_use]
     pub fn probe(mut self, probe: Probe) -> Self {
         self.probes.push(probe);
@@ -150,47 +150,47 @@ impl SimulationBuilder {
         self
     }
 
-    /// Point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base unless
-    /// given, and along y always.
+    /// Sets the point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base
+    /// unless given, and along y always.
     #[must_use]
     pub fn moment_center(mut self, x: f64) -> Self {
         self.moment_center = Some(x);
         self
     }
 
-    /// About how many steps will be made: weights and memory are then ready before the first (of up to 100 000), and
-    /// the ground's history and the structure's coordinates are chosen for this number (if not given,
-    /// for that of the first run and for 4 000).
+    /// Sets about how many steps will be made: weights and memory are then ready before the first (of up to 100 000),
+    /// and the ground's history and the structure's coordinates are chosen for this number (if not given, for that of
+    /// the first run and for 4 000).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
         self
     }
 
-    /// Coordinates in which a linear structure is stepped; [`Coordinates::Auto`] unless given.
+    /// Sets the coordinates in which a linear structure is stepped; [`Coordinates::Auto`] unless given.
     #[must_use]
     pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
         self.coordinates = coordinates;
         self
     }
 
-    /// Keeps no energy balance: its terms and its residual are then NaN, and a step takes less time.
+    /// Keeps no energy balance: its terms and the energy error are then NaN, and a step takes less time.
     #[must_use]
     pub fn without_energy_balance(mut self) -> Self {
         self.energy_balance = false;
         self
     }
 
-    /// Friction coefficients for the factor of safety against sliding, one for all elements or one each from left to
-    /// right, in place of those of the interface laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base, say,
-    /// which has none. They change nothing else.
+    /// Sets friction coefficients for the factor of safety against sliding, one for all elements or one each from left
+    /// to right, in place of those of the interface laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base,
+    /// say, which has none. They change nothing else.
     #[must_use]
     pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
         self.safety_friction = coefficients.into();
         self
     }
 
-    /// Limits of slip, gap, uplifted part and rotation that each [`Run`](crate::results::Run) is
+    /// Sets limits of slip, gap, uplifted part and rotation that each [`Run`](crate::results::Run) is
     /// held against; none unless given. They change nothing else.
     #[must_use]
     pub fn serviceability(mut self, limits: Serviceability) -> Self {
@@ -203,7 +203,7 @@ impl SimulationBuilder {
     /// # Errors
     /// [`crate::Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
     /// [`crate::Error::Restrained`] for a structure that is held by more than the ground,
-    /// [`crate::Error::Detached`] for one with a part that is not joined to its base,
+    /// [`crate::Error::Detached`] for one with a part that is not connected to its base,
     /// [`crate::Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with
     /// the base held.
     /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that is not

@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-9;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GravityStage {
-    /// The base is placed without friction and without adhesion, and sticks from then on. What
+    /// The base is placed without friction and without cohesion, and sticks from then on. What
     /// does not touch under weight alone starts open. Where no element's law ever opens, the base
     /// is bonded from the start.
     #[default]
@@ -152,9 +152,9 @@ impl SimulationBuilder {
 /// All parts of a simulation, and what follows from the ground and the time scheme by themselves.
 pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
-    /// Ready for steps.
+    /// The ground, prepared for steps.
     pub(crate) ground: Box<dyn Ground>,
-    /// Its structure and ground have gone to the fields above.
+    /// The builder, whose structure and ground have gone to the fields above.
     pub(crate) given: SimulationBuilder,
     pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
@@ -249,7 +249,7 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     Ok(memory::check(quantity, dofs, responses)?)
 }
 
-/// The ground's instantaneous operator: with rows weighted by the elements' areas, its symmetric part
+/// Step compliance of the ground: with rows weighted by the elements' areas, its symmetric part
 /// must not be negative, or the ground would push back work that it never got.
 fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f64>> {
     const NAME: &str = "instantaneous operator of the ground";
@@ -349,7 +349,7 @@ pub enum Coordinates {
     /// symmetric matrices, a positive definite mass and damping that the modes decouple.
     Modes,
     /// Ritz modes, two to four hundred for thousands of degrees of freedom: a rational block Krylov basis of the
-    /// answers to contact tractions, loads, probes and an initial motion, projected (Galerkin), so that
+    /// responses to contact tractions, loads, probes and an initial motion, projected (Galerkin), so that
     /// it stays passive and the energy balance closes. The settlement under weight is that of all degrees of freedom.
     ///
     /// The tolerance is for the error of responses, as the time scheme steps them, each relative to its

@@ -19,7 +19,7 @@ use crate::structure::{Structure, nonlinear_state};
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;
 
-/// Passes in which laws that remember settle.
+/// Passes in which state variables of laws settle.
 const PASSES: usize = 10;
 
 /// Length of the step that a gravity stage is to the laws, s.
@@ -86,7 +86,7 @@ fn in_stages(
     }
     let found = settle(stage, placing, start, state, weight);
     let (mut state, start) = found.map_err(|e| diagnosis::cause(stage, placing, weight, e))?;
-    // A law without friction that remembers as much is the same law; others begin anew.
+    // A frictionless law with as many state variables is the same law; others begin anew.
     state.state_variables = (0..count)
         .map(|e| {
             let own = start.state_variables_of(e);
@@ -128,7 +128,7 @@ fn in_stages(
 }
 
 /// Equilibrium under `load` from where `start` and `state` are, and where it leaves them: with laws
-/// that remember it is found again until they remember nothing new.
+/// with state variables is found again until these no longer change.
 fn settle(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -234,7 +234,7 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     Ok(())
 }
 
-/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has answered.
+/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let (model, at_rest) = (&scene.model, &scene.static_state);
     let mut force = vec![0.0; model.coordinates];

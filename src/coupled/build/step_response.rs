@@ -17,7 +17,7 @@ use crate::linalg::{largest, row_products};
 /// Rounding of a response, relative to the largest of all.
 const ROUNDING: f64 = 1e-13;
 
-/// Rows of degrees of freedom that forces act on and that are looked at.
+/// Rows of degrees of freedom that forces act on and that probes read.
 pub(crate) struct Rows {
     /// Loads, other forces, displacements and velocities, accelerations: an entry for every degree of freedom.
     pub(crate) all: Vec<f64>,
@@ -153,7 +153,7 @@ impl StepResponses {
 struct Step([[f64; 4]; 3]);
 
 impl Step {
-    /// One step of a mode of this effective stiffness, damping and stiffness.
+    /// Step of a mode of this effective stiffness, damping and stiffness.
     fn new(c: &SchemeCoefficients, [effective, damping, stiffness]: [f64; 3]) -> Self {
         let known =
             |i: usize| c.acceleration[i] + damping * c.velocity[i] + stiffness * c.displacement[i];

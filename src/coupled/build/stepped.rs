@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot, generalised_modes, largest};
 use crate::structure::{Structure, Tangent};
 
-/// Steps that modes have to pay for themselves in, if not told otherwise.
+/// Steps that modes have to pay for themselves in, unless given otherwise.
 const STEPS: usize = 4_000;
 
 /// Needs of [`Coordinates::Modes`].
@@ -136,7 +136,7 @@ fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<M
 // | R | influence vectors |
 //
 // The rigid translations are modes of their own, exactly: R spans the first ones, and no deforming
-// mode has a share of it.
+// mode has a part in it.
 
 /// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
 const ZERO: f64 = 1e-11;

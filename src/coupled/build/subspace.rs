@@ -3,9 +3,9 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | V | vectors, V M Vᵀ = 1 |
-//! | F | rows of degrees of freedom: where forces act and displacements are looked at |
+//! | F | rows of degrees of freedom: where forces act and displacements are read |
 //!
-//! All are rows. The first vectors are rigid translations, of which K knows nothing: their products
+//! All are rows. The first vectors are rigid translations, which K does not resist: their products
 //! with K are zero, not rounding.
 
 use crate::coupled::scene::transformation::ModalBasis;

@@ -10,14 +10,14 @@ use crate::structure::{HeldBase, Structure, Triplets, stiffest, unknown_numbers}
 const REGULAR: f64 = 1e-12;
 /// Work of a mechanism on the stiffness, relative to that of its largest entries.
 const FREE: f64 = 1e-12;
-/// The same where no failure speaks for one. Elements added up leave 3e-17; a column of a thousand
-/// beams one above the other has 1e-12.
+/// Work of a mechanism relative to the largest entries where no failed factorization speaks for one. Elements added up
+/// leave 3e-17; a column of a thousand beams one above the other has 1e-12.
 const SURELY_FREE: f64 = f64::EPSILON;
 /// Work of the softest displacement from which on it is none, whatever rounding does.
 const FIRM: f64 = 1e-6;
 /// Share of the largest displacement from which on a degree of freedom takes part in a mechanism.
 const TAKES_PART: f64 = 0.1;
-/// Independent mechanisms that are told, at most.
+/// Independent mechanisms that are reported, at most.
 const MOST_MOTIONS: usize = 32;
 /// Passes of inverse iteration for each.
 const ITERATIONS: usize = 3;

@@ -30,7 +30,7 @@ use mechanism::{Regular, unresisted};
 // | r | displacements when the contact nodes take part in that motion and the rest follows |
 // | e | distance of the resultant from the middle of the base |
 
-/// The reason behind `error`, that no equilibrium was found under `load`, if it can be told.
+/// The reason behind `error`, that no equilibrium was found under `load`, if one can be given.
 pub(crate) fn cause(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -212,7 +212,7 @@ fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
     high
 }
 
-/// Whether a law holds an element that nobody has moved so far at these tractions, without sliding
+/// Whether a law holds an element that has not moved so far at these tractions, without sliding
 /// or opening.
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
     let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
@@ -233,7 +233,7 @@ fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
     pressures.reduce(f64::max).unwrap_or(f64::INFINITY)
 }
 
-// Condition numbers of a scene: the share of double precision that it uses up.
+// Condition numbers of a scene: the fraction of double precision that it uses up.
 
 /// Conditions up to which the effective stiffness and the Delassus operator are accepted, by the
 /// measurements of `tests/coupled/conditioning.rs`. Displacements err by about thirty roundings times the

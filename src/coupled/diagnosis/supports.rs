@@ -10,7 +10,7 @@
 //! structure. Where the force is no longer large beside the largest stiffness (a weak support, or
 //! one on top of a slender tower), K s is the sharper test: row by row it compares the support with
 //! the stiffness around it. What is left there in a free structure is the rounding of the entries.
-//! Measured on walls of quadrilaterals, as shares of the row, with the largest |r − s|:
+//! Measured on walls of quadrilaterals, as fractions of the row, with the largest |r − s|:
 //!
 //! | | row | r − s |
 //! |---|---|---|
@@ -36,7 +36,7 @@ const LAG: f64 = 1e-6;
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
 const ROW: f64 = 3e-10;
-/// The same relative to the diagonal, for rows in which all entries are rounding.
+/// Largest force of a row of K s relative to the diagonal, for rows in which all entries are rounding.
 const DIAGONAL: f64 = 1e-13;
 /// Work r·K r that is rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
 const WORK: f64 = 1e-15;

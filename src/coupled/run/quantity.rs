@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::text::column::{column, of_body, printed};
 use crate::text::words::{plain, unknown};
 
-/// One row: how a quantity is called, and where it is shown beside its time series.
+/// Row of the table: how a quantity is called, and where it is shown beside its time series.
 struct Row {
     word: &'static str,
     name: &'static str,
@@ -23,10 +23,10 @@ struct Row {
     value: fn(&BaseView) -> f64,
 }
 
-/// How a quantity is drawn and printed.
+/// Scale by which a quantity is drawn and printed.
 #[derive(Clone, Copy, PartialEq)]
 enum Scale {
-    /// In the unit of engineers.
+    /// Scale of the engineer's unit.
     Unit,
     /// A ratio, in percent.
     Percent,
@@ -34,7 +34,7 @@ enum Scale {
     Safety(&'static str),
 }
 
-/// Where the summary of a quantity is shown.
+/// Place where the summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
     /// Nowhere but in plan.
@@ -45,11 +45,11 @@ pub(crate) enum Place {
     Foundations,
     /// Largest (or least) value in a comparison of runs.
     Comparison,
-    /// Its time beside it.
+    /// Time of the value, in a comparison of runs.
     ComparisonTime,
 }
 
-/// From rows in the order of columns: the enum, its table, and the summary of a run or a foundation.
+/// Declares the enum, its table, and the summary of a run or a foundation, from rows in the order of columns.
 macro_rules! quantities {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $name:literal, $unit:literal, $scale:expr, [$($place:ident),*],
         $value:expr;)+) => {
@@ -88,11 +88,11 @@ macro_rules! quantities {
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
         pub struct Summary {
-            /// Its elements, as indices of all.
+            /// Elements of the foundation, as indices of all.
             pub elements: Range<usize>,
-            /// Its left and right end, m; in plan those of its outline.
+            /// Left and right end of the foundation, m; in plan those of its outline.
             pub ends: [f64; 2],
-            /// In plan: its front and back end along y, m; zeros in the plane.
+            /// Front and back end of the foundation along y, m, in plan; zeros in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub depth: [f64; 2],
             /// Normal force at the start, of weight and loads, N/m.
@@ -100,7 +100,7 @@ macro_rules! quantities {
             $($(#[$doc])* pub $field: Extremes,)+
             /// Mean slip at the end, m.
             pub residual_slip: f64,
-            /// In plan: that along y, m; zero in the plane.
+            /// Mean slip along y at the end, m, in plan; zero in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub residual_slip_across: f64,
             /// Duration of uplift.
@@ -122,7 +122,7 @@ macro_rules! quantities {
         }
 
         impl Summary {
-            /// At the start of a run, of the whole base or of its foundation number `foundation`.
+            /// Summary at the start of a run, of the whole base or of its foundation number `foundation`.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
                 let extremes = |value: fn(&BaseView) -> f64| Extremes::of(value(&base), state.time);
@@ -189,7 +189,7 @@ quantities! {
         |base| base.state.free_field[1];
     /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
     /// flight, and throughout if an element's law has no friction coefficient and the builder was
-    /// told none ([`safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
+    /// given none ([`safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
     ///
     /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
     /// and never falls below. On a bonded base it may, and says what the interface would have lacked.
@@ -252,7 +252,7 @@ impl Quantity {
         &TABLE[self as usize]
     }
 
-    /// Its name, for tables and axes.
+    /// Name of the quantity, for tables and axes.
     pub fn name(self) -> &'static str {
         self.row().name
     }
@@ -272,7 +272,8 @@ impl Quantity {
         of_body(self.row().unit, in_plan)
     }
 
-    /// Its column in files: the word and the unit, `base_shear_n_per_m` in the plane and `base_shear_n` in plan.
+    /// Column of the quantity in files: the word and the unit, `base_shear_n_per_m` in the plane and `base_shear_n` in
+    /// plan.
     pub fn column(self, in_plan: bool) -> String {
         column(self.row().word, self.unit(in_plan))
     }
@@ -299,7 +300,7 @@ impl Quantity {
         Self::of(in_plan).filter(move |own| own.is_shown(place))
     }
 
-    /// Whether it is shown at `place`.
+    /// Whether the quantity is shown at `place`.
     pub(crate) fn is_shown(self, place: Place) -> bool {
         self.row().places.contains(&place)
     }

@@ -126,7 +126,7 @@ validated! {
 }
 
 impl Serviceability {
-    /// The limits, if all are such.
+    /// Returns the limits, if all of them are valid.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless slip, gap and rotation are finite and above zero, and the fraction
@@ -146,7 +146,7 @@ impl Serviceability {
         Ok(self)
     }
 
-    /// One check per limit, at the state from which a run starts.
+    /// Checks, one per limit, at the state from which a run starts.
     pub(super) fn start(&self, state: &State) -> Vec<ServiceCheck> {
         let limits = [
             (Criterion::Slip, self.slip),
@@ -205,7 +205,7 @@ impl ServiceCheck {
     }
 }
 
-/// One line: value, limit, verdict, margin and the time of the first excess.
+/// Writes one line: value, limit, verdict, margin and the time of the first excess.
 impl fmt::Display for ServiceCheck {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (factor, unit) = match self.criterion {

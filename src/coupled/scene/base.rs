@@ -16,15 +16,15 @@ use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_ba
 /// Spyrakos, eq. 14, and its transpose is their eq. 15. In plan they are those of `faces.rs`.
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
-    /// Component by component.
+    /// Rows, component by component.
     rows: Rows,
     foundations: Vec<Outline>,
     elements: Patch,
     nodes: Vec<FaceNode>,
 }
 
-/// One foundation: its nodes, its elements, and the rotation of its chord; in plan those about the other axes too, and
-/// the corners of its convex outline.
+/// Foundation: its nodes, its elements, and the rotation of its chord; in plan the rotations about the other axes too,
+/// and the corners of its convex outline.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     pub(super) nodes: Range<usize>,

@@ -74,7 +74,7 @@ fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
 /// All faces, in triangles and quadrilaterals.
 struct Faces<'a> {
     nodes: &'a [FaceNode],
-    /// Corners of each, in order.
+    /// Corners of each piece, in order.
     pieces: Vec<Vec<usize>>,
 }
 

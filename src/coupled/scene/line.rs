@@ -42,7 +42,7 @@ impl Base {
     }
 }
 
-/// Refuses nodes out of order.
+/// Returns [`Error::Input`](crate::Error::Input) for nodes out of order.
 fn check_order(nodes: &[FaceNode]) -> Result<()> {
     nodes.windows(2).try_for_each(|pair| {
         let (before, x) = (pair[0].x, pair[1].x);

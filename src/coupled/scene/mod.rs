@@ -51,7 +51,7 @@ pub(crate) struct Scene {
     pub(crate) start_motion: Vec<f64>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// What results of its states need.
+    /// Data that results of the scene's states need.
     pub(crate) context: Arc<Context>,
 }
 
@@ -198,8 +198,8 @@ impl Scene {
         added.find(|(_, value)| !value.is_finite())
     }
 
-    /// Whether any law stores energy in its elements, or may do so once it has something to
-    /// remember.
+    /// Whether any law stores energy in its elements, or may do so once its state variables have
+    /// changed.
     pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
         let mut compliant = false;
         for element in 0..self.count() {

@@ -42,7 +42,7 @@ impl Transformation {
         }
     }
 
-    /// Several weighted sums of degrees of freedom.
+    /// Transforms several weighted sums of degrees of freedom.
     pub(crate) fn rows(&self, rows: &Rows) -> Rows {
         match (self, rows) {
             (Self::Modes(modes), Rows::Sparse(rows)) => {

@@ -14,12 +14,12 @@ use crate::error::{Result, require};
 /// linear structure by itself, but with soil it does. Radiation does not always outweigh it; base shears of
 /// buildings on the half-plane come out larger by 8 % at 10 ms and 20 % at 20 ms, and light blocks that
 /// land fly higher every time. What it makes is the negative of
-/// [`EnergyBalance::numerical`](crate::coupled::EnergyBalance), and beyond 2 % of the largest energy a run ends with
+/// [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance), and beyond 2 % of the largest energy a run ends with
 /// [`Warning::AlgorithmicEnergy`](crate::coupled::Warning). On springs without dashpots it grows for ever
 /// unless they act at the end of the step, too
 /// ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0
 /// belong to the static state, so that the method starts from zero acceleration; with an initial motion, or
-/// a weight that acts from t = 0 on, from that of the structure before the soil has answered.
+/// a weight that acts from t = 0 on, from that of the structure before the soil has responded.
 ///
 /// ```
 /// use basemat::coupled::Newmark;
@@ -153,7 +153,7 @@ impl TimeScheme for HhtAlpha {
 /// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. Tractions do
 /// the work on the structure that they take from the soil, whatever the step; the scheme itself only
 /// takes energy, Δt² (β − γ/2)(γ − ½) Δa·M Δa in a step, and holds ½ Δt² (β − γ/2) a·M a, which with
-/// the energy taken is [`EnergyBalance::numerical`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`,
+/// the energy taken is [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`,
 /// section 8). γ = ½ is [`Midpoint`].
 ///
 /// Spectral radius, the factor per step of a free vibration of circular frequency ω:

@@ -1,5 +1,5 @@
-//! The linear part of a step: one solve with the factored operators, the contact problem, and what
-//! the tractions answer.
+//! Linear part of a step: one solve with the factored operators, the contact problem, and the response
+//! to the tractions.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -160,7 +160,7 @@ impl LinearStep {
 // | 1/k_eff | reciprocals of the effective stiffness |
 // | u, v, a | coordinates at the beginning of the step |
 // | Δu, u₁, v₁, a₁ | increment, and coordinates at the end |
-// | R Δy, R ẏ | share of the free field's translation |
+// | R Δy, R ẏ | part of the free field's translation |
 //
 // The loops are functions of their own, since the compiler knows of an argument, and not of a
 // field, that nothing else points to what is written.
@@ -271,7 +271,7 @@ impl WithSimd for Answer<'_> {
     }
 }
 
-/// Takes the answer to the tractions' force out of Δu and u₁.
+/// Takes the response to the tractions' force out of Δu and u₁.
 #[inline(always)]
 fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();

@@ -1,4 +1,4 @@
-//! One step: what acts in it, and the increment that answers.
+//! Forcing of one step, and the increment in response to it.
 
 mod linear;
 pub(crate) mod newton;
@@ -27,19 +27,19 @@ use crate::structure::Structure;
 pub(crate) struct Forcing {
     /// External load at t*, less that of the static state, in stepped coordinates.
     pub(crate) load: Vec<f64>,
-    /// Whether there is any.
+    /// Whether there is any load.
     pub(crate) loaded: bool,
     /// Free field at the end of the step, less that at t = 0, 2Q or 3Q.
     pub(crate) free_field: Vec<f64>,
-    /// The same less the translation y of the part above, likewise.
+    /// Free field less the translation y of the part above, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
-    /// Convolution history of the soil at the end of the step, likewise.
+    /// Convolution history of the soil at the end of the step, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
     /// R Δy, in stepped coordinates.
     pub(crate) carried: Vec<f64>,
-    /// R ẏ at v*, likewise; zero without damping.
+    /// R ẏ at v*, in stepped coordinates; zero without damping.
     pub(crate) dragged: Vec<f64>,
     dofs: Vec<f64>,
 }
@@ -120,7 +120,7 @@ impl Forcing {
     }
 }
 
-/// What a step after `state` is solved from.
+/// Data from which a step after `state` is solved.
 #[derive(Clone, Copy)]
 pub(crate) struct StepData<'a> {
     pub(crate) scene: &'a Scene,
@@ -131,20 +131,20 @@ pub(crate) struct StepData<'a> {
 
 // Changes of one step.
 
-/// The answer to a [`Forcing`]; nothing of it is committed yet.
+/// Response to a [`Forcing`]; nothing of it is committed yet.
 pub(crate) struct Increment {
     /// Δu relative to the free field's translation, in stepped coordinates.
     pub(crate) displacement: Vec<f64>,
-    /// Displacement at the end of the step, relative likewise.
+    /// Displacement at the end of the step, relative to the free field's translation.
     pub(crate) end: Vec<f64>,
-    /// Total Δu, with the share R Δy of the free field's translation.
+    /// Total Δu, with the part R Δy of the free field's translation.
     pub(crate) total: Vec<f64>,
     /// Total velocity and acceleration at the end of the step.
     pub(crate) velocity: Vec<f64>,
     pub(crate) acceleration: Vec<f64>,
     /// Change of traction against the static state, 2Q or 3Q.
     pub(crate) traction: Vec<f64>,
-    /// The same as tractions of whole elements, for the ground.
+    /// Change of traction spread over whole elements, for the ground.
     pub(crate) spread: Vec<f64>,
     /// Openings and total tractions at the end, per element.
     pub(crate) contact: Vec<ContactState>,
@@ -152,7 +152,7 @@ pub(crate) struct Increment {
     pub(crate) modes: Vec<Mode>,
     /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
     pub(crate) compliance: Vec<[f64; 2]>,
-    /// Memory of the laws at the end.
+    /// State variables of the laws at the end.
     pub(crate) state_variables: Vec<f64>,
     /// Linear solves of the mode search, and how far it had to go.
     pub(crate) trials: usize,
@@ -210,8 +210,8 @@ impl Increment {
         SchemeCoefficients::combine(coefficients, total, velocity, acceleration, new_acceleration);
     }
 
-    /// Asks the laws for the compliance that the step after `state` ends with and what they
-    /// remember of it.
+    /// Asks the laws for the compliance that the step after `state` ends with, and for
+    /// their state variables.
     pub(crate) fn ask_laws(&mut self, scene: &Scene, state: &State) -> Result<(), LawError> {
         for (e, compliance) in self.compliance.iter_mut().enumerate() {
             *compliance = scene.compliance(e, self.modes[e], &state.start)?;

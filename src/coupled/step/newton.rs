@@ -15,7 +15,7 @@ use crate::structure::Tangent;
 const ITERATIONS: usize = 40;
 /// Out-of-balance force at which the iteration ends, relative to the largest force.
 const TOLERANCE: f64 = 1e-12;
-/// The same if the iteration gets no further.
+/// Out-of-balance force that is accepted if the iteration stagnates.
 const ENOUGH: f64 = 1e3 * TOLERANCE;
 /// Rounding errors of a displacement, in units of its last digit, that a force may come from.
 const ROUNDINGS: f64 = 32.0;
@@ -65,7 +65,7 @@ impl Newton {
         }
     }
 
-    /// Finds the increment from the right-hand side that `linear` knows.
+    /// Finds the increment from the right-hand side in `linear`.
     pub(super) fn solve(
         &mut self,
         linear: &mut LinearStep,
@@ -120,7 +120,7 @@ impl Newton {
     /// that takes up its out-of-balance force, while that force is removed in stages.
     ///
     /// Newton's method comes back to iterates it has left where a law sticks in between two that
-    /// slide: tangents of sliding do not know the force that sticking bears. A stage that is short
+    /// slide: tangents of sliding leave out the force that sticking bears. A stage that is short
     /// enough crosses one kink at most, and there the method ends. For monotone forces the path is
     /// continuous and does not turn back.
     fn continuation(

@@ -17,7 +17,7 @@ use crate::history::exponentials::passivity::{Cut, Lags};
 
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
-/// Most bytes that are taken, unless told otherwise.
+/// Most bytes that are taken, unless given otherwise.
 pub(super) const MEMORY: usize = 1 << 30;
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
@@ -31,7 +31,7 @@ const ATTEMPTS: usize = 10;
 
 /// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
 ///
-/// The step coefficients of the lags 2 to W are used as they are, by the blocks of
+/// The convolution weights of the lags 2 to W are used as they are, by the blocks of
 /// [`RelaxedFftHistory`](super::RelaxedFftHistory) up to length W; later ones are sums of decaying
 /// exponentials with a common set of poles, carried by a few functions over the patch. What is
 /// kept of all tractions before the last 2W are a few hundred numbers, however many steps there were.
@@ -55,7 +55,7 @@ const ATTEMPTS: usize = 10;
 ///
 /// The exact operator gives no energy away, and a fit that did could make a run unstable. When the
 /// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
-/// exponentials in closed form, is looked for. If it is negative, more poles are taken, closer
+/// exponentials in closed form, is computed. If it is negative, more poles are taken, closer
 /// together, until it is not; a fit that stays active is [`Error::NotPassive`]. The
 /// discrete operator has plenty to spare ([`ExponentialFit::passivity_margin`]): a tenth or
 /// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
@@ -231,7 +231,7 @@ impl ExponentialHistory {
         }
     }
 
-    /// One step on, without the window.
+    /// Makes one step, without the window.
     fn accept(&mut self, input: impl FnOnce(&mut [f64])) {
         let slot = self.slot(self.steps);
         let kept = &mut self.recent[slot];
@@ -296,7 +296,7 @@ impl Fit {
             }
             let Margin { least, frequency } =
                 passivity::margin(kernel, &exact, &tail, horizon as f64);
-            // A NaN is refused as well.
+            // A NaN is an error as well.
             if least.is_nan() || least < 0.0 {
                 refusal = Some(Error::NotPassive { margin: least, frequency });
                 continue;

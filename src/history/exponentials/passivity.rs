@@ -89,10 +89,10 @@ fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f6
 
 // Error of the exponentials against the coefficients that they stand for, over the whole horizon.
 
-/// Lags looked at per octave: about two per period of the trapezoidal rule's error, which goes up
+/// Lags checked per octave: about two per period of the trapezoidal rule's error, which goes up
 /// and down with ln t, at places that do not repeat.
 const PER_OCTAVE: f64 = 7.3;
-/// Classes of pairs looked at; more are sampled evenly. The error is a polynomial in space.
+/// Classes of pairs checked; more are sampled evenly. The error is a polynomial in space.
 const CLASSES: usize = 150;
 
 /// Errors at one lag and the next, and the largest coefficient, per component.

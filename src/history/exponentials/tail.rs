@@ -122,7 +122,7 @@ pub(super) struct Tail {
 }
 
 impl Tail {
-    /// Empty.
+    /// Tail without inputs.
     pub(super) fn new(data: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
         for means in &data.functions {
             same_length("means of a function", means.len(), elements.len())?;

@@ -1,4 +1,4 @@
-//! Fits that several histories share.
+//! Fits shared by several histories.
 
 use super::*;
 use crate::bem::{PatchKernel, Strip};

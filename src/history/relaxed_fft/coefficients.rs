@@ -15,18 +15,18 @@ pub(super) struct Coefficients {
     pub(super) classes: PairClasses,
     /// Per class: last d at which the coupling is not zero; the largest number if it never ends.
     reaches: Vec<usize>,
-    /// The largest of them.
+    /// Largest reach of all classes.
     pub(super) coupling_reach: usize,
-    /// Whether blocks have to look after the coupling.
+    /// Whether blocks have to include the coupling.
     pub(super) couples_far: bool,
     /// Number of lags over which the coupling is summed directly.
     pub(super) coupling_direct: usize,
-    /// Empty until they are needed.
+    /// Tables of near lags, empty until they are needed.
     pub(super) near: Arc<Tables>,
 }
 
 impl Coefficients {
-    /// A coupling that reaches no further than `direct` is summed.
+    /// Coefficients of `kernel`; a coupling that reaches no further than `direct` is summed.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
         let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
@@ -122,7 +122,7 @@ pub(crate) trait Blocks: Send {
     /// Real numbers held.
     fn numbers(&self) -> usize;
 
-    /// Makes ready for at least `steps` steps; `watch` hears of it in [`PARTS`]. Inputs and outputs stay as they are on
+    /// Makes ready for at least `steps` steps; `watch` is notified in [`PARTS`]. Inputs and outputs stay as they are on
     /// an error.
     fn grow(
         &mut self,

@@ -37,7 +37,7 @@ pub(super) struct Lattice {
     lengths: [usize; 2],
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Along y.
+    /// Transforms along y.
     across: [Arc<dyn Fft<f64>>; 2],
     /// Rows of cells.
     real: Vec<f64>,
@@ -281,7 +281,7 @@ impl Lattice {
         let mut values = vec![0.0; self.waves().all];
         for begin in (0..count).step_by(CHUNK) {
             let width = CHUNK.min(count - begin);
-            // The first is the instantaneous coefficient, no part of the history.
+            // The first weight is that of the step compliance, no part of the history.
             let skip = usize::from(begin == 0);
             for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };

@@ -20,7 +20,7 @@ pub(super) struct Level {
     pub(super) size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Of each kind: spectra of all classes, over 2b, b + 1 real parts, then as many imaginary ones, each; none where
+    /// Spectra of each kind: of all classes, over 2b, b + 1 real parts, then as many imaginary ones, each; none where
     /// the coupling has died out within smaller blocks.
     spectra: [Vec<f64>; KINDS],
 }
@@ -62,9 +62,9 @@ impl Work {
 pub(super) enum Components {
     /// Pressure moves down, shear along.
     Even,
-    /// Each moves the other.
+    /// Normal and tangential tractions each move the other component.
     Coupling,
-    /// All of it.
+    /// All components.
     All,
 }
 

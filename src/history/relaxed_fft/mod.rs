@@ -74,7 +74,7 @@ const LONGEST_HINT: usize = 1 << 22;
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn ConvolutionWeights>,
-    /// Made when it is first needed.
+    /// Blocks, made when they are first needed.
     blocks: Option<Box<dyn Blocks>>,
     /// Whether to transform along the surface: `None` where it pays.
     along_surface: Option<bool>,
@@ -100,7 +100,7 @@ short_debug! {
 }
 
 impl RelaxedFftHistory {
-    /// Whether a history transforms along the surface, unless told otherwise.
+    /// Whether a history transforms along the surface, unless given otherwise.
     pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
         let classes = kernel.classes();
         let many = classes.elements().len() >= WAVES_FROM;
@@ -212,7 +212,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn reserve_observed(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let mut watch = Watch::new("spectra of step coefficients", PARTS, observer);
+        let mut watch = Watch::new("spectra of convolution weights", PARTS, observer);
         self.grow(self.hinted(steps), &mut watch)?;
         watch.reach(PARTS)
     }

@@ -95,7 +95,7 @@ impl Pairs {
             let mut values: Class = [(); KINDS].map(|()| vec![0.0; length]);
             for class in 0..classes {
                 watch.reach(PARTS * class / classes)?;
-                // The first is the instantaneous coefficient, no part of the history.
+                // The first weight is that of the step compliance, no part of the history.
                 kernel.coefficients(class, 2, values.each_mut().map(|kind| &mut kind[1..]))?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);

@@ -12,7 +12,7 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-/// Kind that tells what a component of the tractions does to one of the displacements: of two and of three.
+/// Kind of the coefficients by which a component of the tractions moves one of the displacements: of two and of three.
 const KIND: [&[&[usize]]; 2] = [&[&[0, 2], &[2, 1]], &[&[0, 4, 5], &[4, 1, 3], &[5, 3, 2]]];
 
 /// Kinds of an N × N matrix.
@@ -333,7 +333,7 @@ pub(crate) struct Windowed {
     pub(crate) spectra: SharedSpectra,
 }
 
-/// Others wait while one makes what it lacks. A panic leaves levels complete or not there at all.
+/// Locks the store: others wait while one makes what it lacks. A panic leaves levels complete or not there at all.
 fn lock<T>(made: &Mutex<T>) -> MutexGuard<'_, T> {
     made.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -16,7 +16,7 @@ use crate::error::{Result, Watch};
 use crate::history::convolution::ConvolutionWeights;
 use crate::linalg::vectorized;
 
-/// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
+/// Numbers left free between the ends of rows, so that equal places of all rows do not fall into one cache set.
 const PADDING: usize = 4;
 
 /// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.

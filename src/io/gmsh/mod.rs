@@ -13,7 +13,7 @@ use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 ///
 /// Quadrilaterals get their material, and lines their meaning, from the names of physical groups.
 /// An element that belongs to several groups counts with the first of them; one in none has the
-/// name "". Points and lines that nobody asks for are passed over; triangles and nodes outside the
+/// name "". Points and lines that are not asked for are passed over; triangles and nodes outside the
 /// plane z = 0 are an error. Clockwise quadrilaterals are turned round. Elements of the second order
 /// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
 ///

@@ -1,4 +1,4 @@
-//! Springs with a memory: the trait, and laws for yielding storeys and base isolators.
+//! Hysteretic springs: the trait, and laws for yielding storeys and base isolators.
 
 mod bouc_wen;
 mod springs;
@@ -37,9 +37,9 @@ impl std::ops::Add for InternalEnergy {
 
 /// A spring whose force depends on where it has been: implement this for a law of your own.
 ///
-/// The spring remembers the deformation of the last **committed** step and its internal variables
+/// The spring keeps the deformation of the last **committed** step and its internal variables
 /// there. From there it is led straight to any trial deformation as often as Newton's method
-/// wants, without remembering it; [`commit`](Hysteresis::commit) accepts one.
+/// wants, without keeping it; [`commit`](Hysteresis::commit) accepts one.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, Hysteresis};

@@ -110,7 +110,7 @@ impl NonlinearForce for Springs {
         Ok(self.state())
     }
 
-    /// Takes back all or nothing.
+    /// Restores the variables of all springs, or of none.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         let before = self.state();
         if values.len() != before.len() {
@@ -126,10 +126,10 @@ impl NonlinearForce for Springs {
 
 /// Any structure with hysteretic springs between its degrees of freedom.
 ///
-/// Each spring sees a deformation, a weighted sum of degrees of freedom, and answers with the force of its
-/// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that shall
+/// Each spring sees a deformation, a weighted sum of degrees of freedom, and responds with the force of its
+/// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that is to
 /// have the spring alone must have no stiffness of its own there. Damping is that of the structure by
-/// itself: what is proportional to its stiffness knows nothing of the springs. For storeys of a shear
+/// itself: what is proportional to its stiffness does not include the springs. For storeys of a shear
 /// building there is [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
 ///
 /// Degrees of freedom are absolute: a spring on one alone would hold the structure to a point in space, not

@@ -139,27 +139,27 @@ impl FemModel {
         Self::new(mesh, &contact)
     }
 
-    /// The same structure with another kind of mass matrix.
+    /// Replaces the kind of mass matrix.
     #[must_use]
     pub fn with_mass(self, mass_kind: MassKind) -> Self {
         Self { mass_kind, ..self }
     }
 
-    /// The same structure with Rayleigh damping, beside that of its elements. The geometric
+    /// Replaces the Rayleigh damping, which acts beside that of its elements. The geometric
     /// stiffness of P–Δ has no part in it.
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
     }
 
-    /// The same structure with elements whose damping matrices may be unsymmetric or feed energy in
+    /// Allows elements whose damping matrices are unsymmetric or feed energy in
     /// ([`Structure::has_active_damping`]); no simulation takes such a one otherwise.
     #[must_use]
     pub fn with_active_damping(self) -> Self {
         Self { active_damping: true, ..self }
     }
 
-    /// The same structure in which the nodes `followers` move with `leader` as one rigid body: stiff
+    /// Connects the nodes `followers` with `leader` so that they move as one rigid body: stiff
     /// joints, offsets of beams, a rigid slab or basemat.
     ///
     /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their degrees of freedom,

@@ -1,4 +1,4 @@
-//! Several structures on one ground.
+//! Group of structures on one ground, coupled through the soil.
 
 use crate::error::{CheckpointError, Error, Result, finite, in_bounds, require};
 use crate::geometry::{Edge, span};
@@ -229,7 +229,7 @@ impl Structure for StructureGroup {
 
     fn foundation_ends(&self) -> Vec<usize> {
         let (mut ends, mut nodes) = (Vec::new(), 0);
-        // In plan foundations are told by their faces.
+        // In plan foundations are identified by their faces.
         for member in self.members.iter().filter(|member| member.nodes > 0) {
             let own = member.structure.foundation_ends();
             ends.extend(own.iter().map(|end| end.saturating_add(nodes)));
@@ -314,7 +314,7 @@ impl NonlinearForce for StructureGroup {
         Ok(())
     }
 
-    /// Known if all nonlinear members know theirs.
+    /// Energies of all members, known if all nonlinear members return theirs.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         self.forces().try_fold(InternalEnergy::default(), |sum, (member, own)| {
             Some(sum + own.energy(displacement.get(member.range())?)?)

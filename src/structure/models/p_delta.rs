@@ -9,13 +9,13 @@ use crate::structure::{FemModel, Structure, Triplets};
 const HELD: &str = "stiffness matrix with the contact nodes held";
 /// Forces left over by a solve, relative to the weight: more are those of a mechanism.
 const EQUILIBRIUM: f64 = 1e-6;
-/// Buckling is looked for up to this multiple of the axial forces.
+/// Multiple of the axial forces up to which buckling is searched for.
 const MOST: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
 const ACCURACY: f64 = 1e-9;
 
 impl FemModel {
-    /// The same structure with the P–Δ effect of its own weight: beams and trusses get the
+    /// Adds the P–Δ effect of the structure's own weight: beams and trusses get the
     /// geometric stiffness of the axial forces that they carry at rest.
     ///
     /// The forces are those of first-order statics under `gravity` (m/s², downwards) with the
@@ -24,7 +24,7 @@ impl FemModel {
     /// Held is every degree of freedom that moves a contact node: a rigid basemat is clamped, a column that
     /// ends on a contact node is hinged there, as on the ground. A force given by
     /// [`Beam::with_compression`](crate::fem::Beam::with_compression) stays;
-    /// [`Element::compression`](crate::fem::Element::compression) tells what was found. Solids have no
+    /// [`Element::compression`](crate::fem::Element::compression) returns what was found. Solids have no
     /// geometric stiffness. The mass is that of the moment: call
     /// [`with_mass`](FemModel::with_mass) before. Rigid links may come later, and the forces are then
     /// found anew.
@@ -139,7 +139,7 @@ impl HeldStructure {
         let part = |quantity| {
             let mut all = Triplets::new(n);
             model.add(&mut all, &[(quantity, 1.0)]);
-            // Through the full matrix, which refuses indices out of range.
+            // Through the full matrix, which returns an error for indices out of range.
             let all = SparseMatrix::new(HELD, &all)?;
             restricted(HELD, &all, free.len(), |dof| place[dof])
         };

@@ -77,7 +77,7 @@ impl RigidBlock {
         Ok(Self { width, mass, rotary_inertia, center_height, center: 0.0, gravity: 0.0 })
     }
 
-    /// The same block with the middle of its base at `center` (m) on the surface, instead of 0.
+    /// Moves the middle of the base from 0 to `center` (m) on the surface.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
@@ -85,7 +85,7 @@ impl RigidBlock {
         Ok(Self { center: finite("middle of the base", center)?, ..self })
     }
 
-    /// The same block with the P–Δ effect of its weight: `−m g h_c θ²/2` in the potential energy.
+    /// Adds the P–Δ effect of the block's weight: `−m g h_c θ²/2` in the potential energy.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative.
@@ -181,7 +181,7 @@ pub struct MatrixModel {
     stiffness: Triplets,
     contact: Vec<ContactNode>,
     faces: Vec<Vec<FaceNode>>,
-    /// Whether the damping is taken as it is.
+    /// Whether the damping may feed energy in, and is not checked.
     active: bool,
 }
 
@@ -238,7 +238,7 @@ impl MatrixModel {
         Ok(self)
     }
 
-    /// The same structure with a damping matrix (N s/m per metre), in place of what it had.
+    /// Replaces the damping by a damping matrix (N s/m per metre).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for another order, [`Error::Index`](crate::Error::Index) and
@@ -250,8 +250,8 @@ impl MatrixModel {
         Ok(Self { damping, active: false, ..self })
     }
 
-    /// The same structure with a damping matrix that need be neither symmetric nor positive semi-definite: that of
-    /// gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
+    /// Replaces the damping by a matrix (N s/m per metre) that need be neither symmetric nor positive semi-definite:
+    /// that of gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
     /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
     ///
     /// # Errors
@@ -262,7 +262,7 @@ impl MatrixModel {
         Ok(Self { damping, active: true, ..self })
     }
 
-    /// The same structure with Rayleigh damping, in place of what it had.
+    /// Replaces the damping by Rayleigh damping.
     #[must_use]
     pub fn with_rayleigh(mut self, damping: RayleighDamping) -> Self {
         self.damping.clear();

@@ -111,7 +111,7 @@ impl RigidBody {
         Ok(body)
     }
 
-    /// The same body with the middle of its base at `center` (m) on the surface, instead of the origin.
+    /// Moves the middle of the base from the origin to `center` (m) on the surface.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
@@ -120,7 +120,7 @@ impl RigidBody {
         Ok(Self { center, ..self })
     }
 
-    /// The same body with the P–Δ effect of its weight: −m g h (r_x² + r_y²)/2 in the potential energy, h the height of
+    /// Adds the P–Δ effect of the body's weight: −m g h (r_x² + r_y²)/2 in the potential energy, h the height of
     /// the centre of gravity.
     ///
     /// # Errors

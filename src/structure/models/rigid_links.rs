@@ -13,7 +13,7 @@ pub(super) struct RigidLinks {
     /// Leader of each follower.
     leader: Vec<Option<usize>>,
     is_leader: Vec<bool>,
-    /// For each degree of freedom of the mesh: (remaining degree of freedom, weight) pairs.
+    /// Pairs (remaining degree of freedom, weight) for each degree of freedom of the mesh.
     rows: Vec<Vec<(usize, f64)>>,
     dofs: usize,
 }

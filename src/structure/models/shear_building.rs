@@ -34,7 +34,7 @@ impl Storey {
     }
 }
 
-/// Floors on sway columns on a rigid base.
+/// Shear building: rigid floors on flexible columns on a rigid base.
 ///
 /// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each
 /// floor, from below. The columns neither shorten nor bend out of the building's frame: all floors
@@ -121,7 +121,7 @@ impl ShearBuilding {
         Ok(building)
     }
 
-    /// The same building with the middle of its base at `center` (m) on the surface.
+    /// Moves the middle of the base to `center` (m) on the surface.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
@@ -129,7 +129,7 @@ impl ShearBuilding {
         Ok(Self { center: finite("middle of the base", center)?, ..self })
     }
 
-    /// The same building with stiffness-proportional damping, beside the storeys' dashpots, of
+    /// Adds stiffness-proportional damping, beside the storeys' dashpots, of
     /// this ratio in the first mode on a fixed base.
     ///
     /// In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`. Five equal storeys with
@@ -147,7 +147,7 @@ impl ShearBuilding {
         Ok(Self { stiffness_damping, ..self })
     }
 
-    /// The same building with the P–Δ effect of the floors' weight: inextensible columns lower
+    /// Adds the P–Δ effect of the floors' weight: inextensible columns lower
     /// what they carry by `(u_j − u_(j−1))²/(2 h_j)`, and so take W/h off the stiffness of a storey
     /// that carries the weight W.
     ///
@@ -208,10 +208,10 @@ impl ShearBuilding {
     /// Horizontal force that the floor on top of `storey` exerts through its columns (or isolators) on
     /// what is below, N, positive to the right: the base shear for storey 0.
     ///
-    /// With P–Δ it is the horizontal part of the columns' force, −P/h of the sway included. The force of
-    /// a law is no weighted sum of displacements: of a storey that follows one it is taken from the
-    /// inertia of the floors above, exact for whatever is in the storey; with the midpoint rule it is
-    /// then the mean over the step.
+    /// With P–Δ it is the horizontal part of the columns' force, −P/h of the floors' relative displacement included.
+    /// The force of a law is no weighted sum of displacements: of a storey that follows one it is taken from the
+    /// inertia of the floors above, exact for whatever is in the storey; with the midpoint rule it is then the mean
+    /// over the step.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -227,7 +227,7 @@ impl ShearBuilding {
         let mut displacement = scaled(stiffness);
         if self.gravity > 0.0 {
             let sway = self.weight_on(storey) / height;
-            // The first two entries of a drift are its sway.
+            // The first two entries of a drift are the floors' relative displacement.
             for entry in displacement.iter_mut().zip(Self::sway_row(storey)) {
                 entry.0.1 -= sway * entry.1.1;
             }
@@ -299,10 +299,10 @@ impl ShearBuilding {
 
     /// Adds the curvature of the weight's potential.
     ///
-    /// Columns lower it by half a sway's square over their height. A level of isolators has no
-    /// columns: a slider moves along the plane of the turned base, which lifts the weight W by d θ
-    /// − h θ²/2 for a drift d at the height h. What d² does to it is in the isolators' law: W/R of
-    /// a pendulum, and the stiffness of a rubber bearing as measured under its load.
+    /// Columns lower the weight by half the square of the floors' relative displacement over their height. A level of
+    /// isolators has no columns: a slider moves along the plane of the turned base, which lifts the weight W by d θ − h
+    /// θ²/2 for a drift d at the height h. What d² does to it is in the isolators' law: W/R of a pendulum, and the
+    /// stiffness of a rubber bearing as measured under its load.
     fn add_p_delta(&self, matrix: &mut Triplets) {
         for (index, storey) in self.storeys.iter().enumerate() {
             let weight = self.weight_on(index);

@@ -52,7 +52,7 @@ impl PlanStorey {
     }
 }
 
-/// Rigid floors on sway columns and walls, on a rigid mat in plan.
+/// Rigid floors on flexible columns and walls, on a rigid mat in plan.
 ///
 /// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from below,
 /// the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not shorten: all
@@ -125,9 +125,9 @@ impl StoreyBuilding {
         Ok(building)
     }
 
-    /// The same building with `storey` (0: the lowest) following `law` in one `direction`:
+    /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`:
     /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The
-    /// law sees the storey's [`drift`](StoreyBuilding::drift) and takes the place of its stiffness there.
+    /// law sees the storey's [`drift`](StoreyBuilding::drift) in that direction.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
@@ -146,8 +146,9 @@ impl StoreyBuilding {
         Ok(self)
     }
 
-    /// The same building with the P–Δ effect of the floors' weight: inextensible columns lower what they carry by
-    /// δ²/(2 h), δ the sway of the point below it. Columns that buckle are an error when a simulation is built.
+    /// Adds the P–Δ effect of the floors' weight: inextensible columns lower what they carry by
+    /// δ²/(2 h), δ the relative displacement of a storey's ends at the floor's mass centre. Columns that buckle are an
+    /// error when a simulation is built.
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.

@@ -21,11 +21,10 @@ pub struct IsolationLevel {
 }
 
 impl ShearBuilding {
-    /// The same building with `storey` (0: the lowest) following `law`, which sees the storey's drift
-    /// and takes the place of its columns' stiffness.
+    /// Replaces the columns' stiffness of `storey` (0: the lowest) by `law`, which sees the storey's drift.
     ///
     /// Stiffness-proportional damping stays that of the stiffness in [`Storey`], however far the columns
-    /// yield. Where it shall not act in a yielding storey, leave
+    /// yield. Where it must not act in a yielding storey, leave
     /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping) out and give the others
     /// dashpots ([`Storey::damping`]) of ζ k/(π f₁).
     ///
@@ -57,7 +56,7 @@ impl ShearBuilding {
         Ok(self)
     }
 
-    /// The same building with its lowest columns on a slab that rests on isolators of this `law`; the
+    /// Puts the lowest columns on a slab that rests on isolators of this `law`; the
     /// isolators become storey 0, and the building's storeys count from 1. To be called before
     /// [`with_law`](ShearBuilding::with_law).
     ///

@@ -3,7 +3,7 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | b, i | kept (boundary) and interior degrees of freedom |
-//! | Ψ | static answers of the interior to unit kept degrees of freedom, −K_ii⁻¹ K_ib |
+//! | Ψ | static responses of the interior to unit kept degrees of freedom, −K_ii⁻¹ K_ib |
 //! | Φ | modes of the interior with the kept degrees of freedom held, Φᵀ M_ii Φ = 1 |
 //! | T | u = T q, q = (u_b, modal coordinates) |
 
@@ -68,7 +68,7 @@ pub struct ReducedModel {
     load: Mutex<FullLoad>,
 }
 
-/// The full model, which knows its loads, and room for them.
+/// Full model, which gives its loads, and scratch for them.
 struct FullLoad {
     structure: Box<dyn Structure>,
     values: Vec<f64>,
@@ -84,7 +84,7 @@ impl CraigBampton {
         Self { modes, kept: Vec::new() }
     }
 
-    /// The same reduction that also keeps these `dofs` as they are, for springs on them for
+    /// Adds these `dofs` to those that the reduction keeps as they are, for springs on them for
     /// example ([`WithSprings`](crate::structure::WithSprings)).
     #[must_use]
     pub fn keep(mut self, dofs: &[usize]) -> Self {
@@ -146,7 +146,7 @@ impl CraigBampton {
             load: Mutex::new(FullLoad { values: vec![0.0; n], structure: Box::new(structure) }),
             basis: Arc::new(basis),
         };
-        // Modes and static answers are K-orthogonal: what is left there is rounding.
+        // Modes and static responses are K-orthogonal: what is left there is rounding.
         for (k, square) in squares.iter().enumerate() {
             for j in 0..order {
                 model.stiffness[(kept + k) * order + j] = 0.0;
@@ -158,7 +158,7 @@ impl CraigBampton {
     }
 }
 
-/// Who is kept and who is not.
+/// Degrees of freedom that are kept, and the interior ones.
 struct Parts {
     kept: Vec<usize>,
     interior: Vec<usize>,
@@ -251,14 +251,14 @@ impl ReducedModel {
         self.frequencies.iter().map(|frequency| frequency / std::f64::consts::TAU).collect()
     }
 
-    /// The way back to the degrees of freedom of the full model. It can be cloned, and kept when the model
+    /// Recovery of the degrees of freedom of the full model. It can be cloned, and kept when the model
     /// has gone into a simulation.
     pub fn recovery(&self) -> Recovery {
         Recovery::new(Arc::clone(&self.basis))
     }
 
-    /// The same model with this damping ratio in every mode with the kept degrees of freedom held, in place
-    /// of the damping it had. Motions of the kept degrees of freedom alone are not damped.
+    /// Replaces the damping by this damping ratio in every mode with the kept degrees of freedom held.
+    /// Motions of the kept degrees of freedom alone are not damped.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is from 0 to below 1.

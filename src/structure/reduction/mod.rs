@@ -73,7 +73,7 @@ impl Basis {
     }
 }
 
-/// The way from a [`ReducedModel`](ReducedModel) back to the degrees of freedom of the full model.
+/// Recovery of the degrees of freedom of the full model from those of a [`ReducedModel`](ReducedModel).
 #[derive(Debug, Clone)]
 pub struct Recovery {
     basis: Arc<Basis>,

@@ -16,14 +16,14 @@ pub(crate) const CASE: Case = Case {
     name: "lamb",
     title: "Lamb's problem",
     reference: "tables from an independent Cagniard–de Hoop inversion; late-time limit",
-    settings: "ν = 0, 1/4, 1/3; closed forms, and step coefficients of 8 steps",
+    settings: "ν = 0, 1/4, 1/3; closed forms, and convolution weights of 8 steps",
     run,
 };
 
 const TABLES: [(&str, f64); 3] = [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)];
 
 /// Largest error of the line load's four components, of the element's by differences of closed
-/// forms, and of the element's by summed step coefficients.
+/// forms, and of the element's by summed convolution weights.
 fn errors(name: &str, poisson: f64) -> Result<[f64; 3], AnyError> {
     let soil = Soil::new(1.0, poisson, 1.0)?;
     let plane = HalfPlane::new(soil);
@@ -60,7 +60,7 @@ fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3],
     })
 }
 
-/// Relative distance of late step coefficients from their limit: u grows by (1−ν)/(π μ) ln t.
+/// Relative distance of late convolution weights from their limit: u grows by (1−ν)/(π μ) ln t.
 fn late(poisson: f64) -> Result<f64, AnyError> {
     let kernel = InfluenceKernel::new(Soil::new(1.0, poisson, 1.0)?, 0.5)?;
     let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
@@ -81,8 +81,8 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
     let names = [
         "line load H(t), all components, error of μu/F",
         "element mean of element, closed form, error of μu/(pl)",
-        "the same, sum of the step coefficients that are marched with",
-        "step coefficients at lag 100 000 against (1−ν)/(πμ) ln t, relative",
+        "the same, sum of the convolution weights that are marched with",
+        "convolution weights at lag 100 000 against (1−ν)/(πμ) ln t, relative",
     ];
     let checks = Check::list(&names, &worst, &[1e-12, 1e-11, 1e-11, 1e-8]);
     Ok(Outcome { checks, figure: figure()? })

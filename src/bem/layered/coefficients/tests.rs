@@ -17,7 +17,8 @@ fn block(quadrature: &Quadrature, number: usize, threads: usize) -> Block {
     quadrature.block(number, threads, Samples::new(&mut Watch::nobody(), 0..0)).unwrap()
 }
 
-/// At every seventh point of circles, relative to the own mobility of each pair's elements.
+/// Panels give what points give, at every seventh point of circles, relative to the own mobility of each pair's
+/// elements.
 #[test]
 fn panels_give_what_points_give() {
     for (name, profile) in [
@@ -60,7 +61,7 @@ fn panels_give_what_points_give() {
     }
 }
 
-/// By a quarter at least in short runs of undamped layers: few panels are sampled in vain.
+/// Panels take a quarter fewer samples at least in short runs of undamped layers: few are sampled in vain.
 #[test]
 fn panels_take_fewer_samples_than_points() {
     for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", p3(Elastic))] {
@@ -129,7 +130,7 @@ fn bits_of_a_block_are_its_own() {
     }
 }
 
-/// Each eigenvalue's own share goes round the half circle without a jump.
+/// Contribution of each eigenvalue, which goes round the half circle without a jump.
 #[test]
 fn eigenvalues_keep_their_numbers() {
     for stages in [Stages::Two, Stages::Three] {

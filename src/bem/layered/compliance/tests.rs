@@ -215,7 +215,7 @@ fn cut_half_space_is_whole_across() {
     }
 }
 
-/// At k → 0 shear along and across the wavenumber send the same vertical wave: the other recursion's.
+/// Shear along and across the wavenumber send the same vertical wave as k → 0: that of the other recursion.
 #[test]
 fn long_waves_are_those_along_the_wavenumber() {
     for profile in damped_profiles() {

@@ -43,7 +43,7 @@ fn done(quadrature: &Quadrature, last: usize) -> [f64; 3] {
     [work.panels.evaluations as f64, work.compliance.visited as f64, tables as f64]
 }
 
-/// To a factor of two, on fifteen grounds with two and three stages; in a fraction of the time.
+/// Estimates are right to a factor of two, on fifteen grounds with two and three stages; in a fraction of the time.
 #[test]
 fn work_is_known_beforehand() {
     let soft = Soil::new(1.0, 0.333, 1.0).unwrap();

@@ -12,7 +12,7 @@ impl FormFactors {
     }
 }
 
-/// The same integrals by a wide panel and by the narrow ones in it, elements on themselves and far apart.
+/// Integrals by a wide panel and by the narrow ones in it agree, for elements on themselves and far apart.
 #[test]
 fn wide_panels_are_sums_of_narrow_ones() {
     let strip = Strip::new(-1.0..1.0, 7, Grading::Cosine).unwrap();

@@ -117,7 +117,7 @@ fn weights_depend_on_the_offset_alone() {
     }
 }
 
-/// More cells than the gate takes at once: some of them, each once.
+/// Gates take some of the cells, each once, where there are more than one check takes at once.
 #[test]
 fn gates_take_some_of_many_cells() {
     let all = cells([30, 20]);

@@ -3,7 +3,7 @@
 use super::*;
 use crate::interface::Cohesive;
 
-/// The same problem with glue of random strength under every closed element.
+/// Adds brittle bonds of random strength under every closed element.
 fn glue(problem: &mut Problem, random: &mut Random) {
     let pressure = problem.static_traction[0];
     let [tension, cohesion] = [(); 2].map(|()| pressure * random.log_within(0.03, 3.0));

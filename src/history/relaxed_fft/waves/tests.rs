@@ -68,7 +68,7 @@ const MASKS: [&str; 6] = [
     "#.#\n...\n#.#\n##.\n.##",
 ];
 
-/// With and without cells missing, square and oblong, over blocks of four sizes.
+/// Transforms with and without cells missing, square and oblong, over blocks of four sizes.
 #[test]
 fn transforms_are_the_direct_sum() {
     for mask in MASKS {
