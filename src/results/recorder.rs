@@ -31,7 +31,7 @@ impl Recorder {
         Self { every: steps, ..self }
     }
 
-    /// Keeps the base at every `steps`th step: 33 bytes per element and frame.
+    /// Keeps the base at every `steps`th step: 49 bytes per element and frame.
     #[must_use]
     pub fn contact(self, steps: usize) -> Self {
         Self { contact: Some(steps), ..self }

@@ -117,9 +117,9 @@ fn soils_materials_and_their_damping() {
     refused::<Hysteretic>(json!({"ratio": 1.0}), "damping ratio");
     let fitted = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
     kept(&fitted);
-    let bad = json!({"long_term": 1.0, "shares": [-0.1], "rates": [1.0]});
+    let bad = json!({"long_term": 1.0, "ratios": [-0.1], "rates": [1.0]});
     refused::<GeneralizedMaxwell>(bad, "ratio of a Maxwell mechanism");
-    let bad = json!({"long_term": 1.0, "shares": [0.1], "rates": []});
+    let bad = json!({"long_term": 1.0, "ratios": [0.1], "rates": []});
     refused::<GeneralizedMaxwell>(bad, "rates of a generalised Maxwell body");
 }
 
