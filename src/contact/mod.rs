@@ -69,7 +69,7 @@ words! { pub(crate) SearchMethod, "search method", {
 } }
 
 words_with_numbers! {
-    /// One of its words, or an [`Error::Word`](crate::Error::Word).
+    /// One of its words, or an [`Error::Word`].
     ///
     /// ```
     /// use basemat::contact::ContactSearch;

@@ -19,7 +19,7 @@ use crate::interface::{ContactState, Mode};
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Foundation {
-    /// Elements of the foundation, as indices of [`State::contact`].
+    /// Elements of the foundation, as indices of [`State::contact`](crate::coupled::State::contact).
     pub elements: Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,

@@ -196,7 +196,7 @@ impl State {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Name`] if there is none.
+    /// [`Error::Name`](crate::Error::Name) if there is none.
     pub fn probe(&self, name: &str) -> Result<f64> {
         // The list of values is public: it may have been cut.
         let known = &self.context.probes;
