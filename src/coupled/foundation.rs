@@ -8,6 +8,7 @@
 
 use std::ops::Range;
 
+use crate::coupled::run::peak::resultant;
 use crate::geometry::{Edge, Footing, Patch};
 use crate::interface::{ContactState, Mode};
 
@@ -52,12 +53,14 @@ pub struct Foundation {
     #[cfg_attr(feature = "serde", serde(default))]
     pub twist: f64,
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) safety: Safety,
+    pub(crate) derived: Derived,
 }
 
-/// Factors of safety of a foundation; two foundations are compared without them.
+/// Factors of safety and largest slip of a foundation; two foundations are compared without them.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Safety {
+pub(crate) struct Derived {
+    /// Largest |slip| of any element, m.
+    pub(crate) largest_slip: f64,
     /// Resistance of the interface over the horizontal force; NaN without friction coefficients and in flight.
     pub(crate) sliding: f64,
     /// Restoring over overturning moment about the edges that face along x, and along y; NaN in flight, infinite along y
@@ -65,7 +68,7 @@ pub(crate) struct Safety {
     pub(crate) overturning: [f64; 2],
 }
 
-impl PartialEq for Safety {
+impl PartialEq for Derived {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -93,7 +96,7 @@ impl Foundation {
         let own = self.elements.clone();
         let friction = if friction.len() > 1 { &friction[own.clone()] } else { friction };
         let (areas, contact) = (&patch.areas()[own.clone()], &contact[own.clone()]);
-        let (mut sums, mut resistance) = (Sums::default(), 0.0);
+        let (mut sums, mut resistance, mut largest_slip) = (Sums::default(), 0.0, 0.0_f64);
         let ([mut normal, mut shear], mut moment) = ([0.0; 2], [0.0; 2]);
         for (e, (area, state)) in areas.iter().zip(contact).enumerate() {
             let force = area * state.pressure;
@@ -108,6 +111,7 @@ impl Foundation {
             moment[1] += force * footing.arms[e][1];
             sums.area += area;
             sums.slip += area * state.slip;
+            largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
             if !modes[own.start + e].is_closed() {
                 sums.open += area;
             }
@@ -125,12 +129,11 @@ impl Foundation {
             (self.shear_across, self.moment_across, self.torque) = (across, -moment[1], torque);
             self.mean_slip_across = slip / sums.area;
         }
-        let demand =
-            if self.shear_across == 0.0 { shear.abs() } else { shear.hypot(self.shear_across) };
+        let demand = resultant(shear, self.shear_across).abs();
         let sliding =
             if friction.is_empty() { f64::NAN } else { ratio(normal, resistance, demand) };
         let overturning = [0, 1].map(|axis| against_overturning(footing, normal, moment, axis));
-        self.safety = Safety { sliding, overturning };
+        self.derived = Derived { largest_slip, sliding, overturning };
         sums
     }
 }
@@ -176,11 +179,11 @@ mod tests {
         outline: &[[f64; 2]],
         friction: &[f64],
         contact: &[ContactState; 2],
-    ) -> Safety {
+    ) -> Derived {
         let footing = Footing::new(patch, 0..2, outline, [0.0; 2]);
         let mut foundation = Foundation { elements: 0..2, ..Default::default() };
         foundation.update(&footing, patch, friction, contact, &[Mode::Stick; 2]);
-        foundation.safety
+        foundation.derived
     }
 
     fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::Extremes;
 use super::peak::resultant;
 use crate::bem::ContactElement;
-use crate::coupled::foundation::Safety;
+use crate::coupled::foundation::Derived;
 use crate::coupled::{Foundation, Peak, State, Warning};
 use crate::geometry::{Patch, far_ends};
 use crate::interface::{ContactState, Mode};
@@ -78,9 +78,9 @@ impl<'a> BaseView<'a> {
     }
 
     /// The least factor of safety of its foundations; NaN where none is known.
-    pub(super) fn least(&self, factor: fn(&Safety) -> f64) -> f64 {
-        let all = || self.state.foundations.iter().map(|own| factor(&own.safety));
-        self.own().map_or_else(|| all().fold(f64::NAN, f64::min), |own| factor(&own.safety))
+    pub(super) fn least(&self, factor: fn(&Derived) -> f64) -> f64 {
+        let all = || self.state.foundations.iter().map(|own| factor(&own.derived));
+        self.own().map_or_else(|| all().fold(f64::NAN, f64::min), |own| factor(&own.derived))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 
 /// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
-pub(super) fn resultant(along: f64, across: f64) -> f64 {
+pub(crate) fn resultant(along: f64, across: f64) -> f64 {
     if across == 0.0 { along } else { along.hypot(across) }
 }
 

@@ -6,7 +6,6 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use super::base::{BaseView, open_area};
-use super::peak::resultant;
 use super::{Extremes, Sliding, Uplift};
 use crate::coupled::{Peak, State};
 use crate::error::{Error, Result};
@@ -177,7 +176,7 @@ quantities! {
         |base| base.pick(base.state.mean_slip, |own| own.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.contact().iter().fold(0.0, |largest, own| resultant(own.slip, own.slip_across).abs().max(largest));
+        |base| base.largest(|own| own.derived.largest_slip);
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.pick(base.state.base_rotation, |own| own.base_rotation);
