@@ -34,7 +34,7 @@ macro_rules! energies {
             pub const ALL: [Self; ROWS.len()] = [$(Self::$variant),+];
         }
 
-        /// Energies since the start, J per metre of thickness.
+        /// Energies since the start, J, in the plane J per metre of thickness.
         ///
         /// ```text
         /// kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
@@ -148,7 +148,7 @@ impl fmt::Display for EnergyTerm {
 }
 
 impl EnergyBalance {
-    /// Value of a term, J/m.
+    /// Value of a term, J, in the plane J/m.
     pub fn term(&self, term: EnergyTerm) -> f64 {
         self.terms()[term as usize]
     }
@@ -159,7 +159,7 @@ impl EnergyBalance {
         all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
     }
 
-    /// Parts of the input energy, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
+    /// Parts of the input energy, J, in the plane J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
     pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
         for (term, energy) in self.balance() {

@@ -1024,54 +1024,54 @@ class ServiceCheck:
 
 @final
 class EnergyBalance:
-    """Energies since the start, J per metre of thickness:
+    """Energies since the start, J, in the plane J per metre of thickness:
     ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
     """
 
     @property
     def kinetic(self) -> float:
-        """Kinetic energy ½ v·M v, J/m."""
+        """Kinetic energy ½ v·M v, J."""
     @property
     def strain(self) -> float:
-        """Elastic energy of the structure, J/m."""
+        """Elastic energy of the structure, J."""
     @property
     def hysteresis(self) -> float:
-        """Heat of hysteretic parts of the structure, J/m."""
+        """Heat of hysteretic parts of the structure, J."""
     @property
     def damping(self) -> float:
-        """Work of the dashpots, J/m."""
+        """Work of the dashpots, J."""
     @property
     def algorithmic(self) -> float:
-        """Energy that the time scheme removes, J/m; negative if it makes any."""
+        """Energy that the time scheme removes, J; negative if it makes any."""
     @property
     def soil(self) -> float:
-        """Work done on the soil, radiated and stored, J/m."""
+        """Work done on the soil, radiated and stored, J."""
     @property
     def contact(self) -> float:
-        """Loss by friction and impact, J/m."""
+        """Loss by friction and impact, J."""
     @property
     def interface(self) -> float:
-        """Elastic energy of compliant interfaces, J/m."""
+        """Elastic energy of compliant interfaces, J."""
     @property
     def static_contact(self) -> float:
-        """Potential of the static tractions against gaps and slips, J/m."""
+        """Potential of the static tractions against gaps and slips, J."""
     @property
     def input(self) -> float:
-        """Work of loads and free field, and the energy of an initial motion, J/m."""
+        """Work of loads and free field, and the energy of an initial motion, J."""
     @property
     def relative_input(self) -> float:
-        """Relative input energy (Uang and Bertero 1990), J/m."""
+        """Relative input energy (Uang and Bertero 1990), J."""
     @property
     def soil_error_bound(self) -> float:
-        """Error bound of :attr:`soil` by an approximate history, J/m."""
+        """Error bound of :attr:`soil` by an approximate history, J."""
     @property
     def largest(self) -> float:
-        """Largest energy so far, to which :attr:`residual` is relative, J/m."""
+        """Largest energy so far, to which :attr:`residual` is relative, J."""
     @property
     def residual(self) -> float:
         """Difference between the two sides of the balance, relative to the largest energy so far."""
     def to_dict(self) -> dict[str, Any]:
-        """All terms by their names: dict of numbers, J/m."""
+        """All terms by their names: dict of numbers, J, in the plane J/m."""
 
 @final
 class Peak:
@@ -1135,7 +1135,7 @@ class Run(Summary):
         """All time series: dict of arrays of shape (steps + 1,), "time" first."""
     @property
     def energy_balances(self) -> dict[str, Any]:
-        """Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J/m."""
+        """Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J, in the plane J/m."""
     @property
     def contact(self) -> dict[str, Any]:
         """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
@@ -1152,7 +1152,7 @@ class Run(Summary):
         """Names of the structure's degrees of freedom: list of n texts; None without names."""
     @property
     def units(self) -> dict[str, str]:
-        """SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios."""
+        """SI units of the time series and of the energies: dict of texts by their names, "" for ratios."""
     def to_frame(self) -> Any:
         """All time series as a pandas frame, indexed by the time (s).
 

@@ -119,13 +119,13 @@ members! {
     warnings: Vec<String> = own.run.warnings.iter().map(|own| in_python(own.to_string())).collect();
     /// All time series: dict of arrays of shape (steps + 1,), "time" first.
     series: PyResult<Named<String, Array>> = series::all(own.kept()?);
-    /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J/m.
+    /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J, in the plane J/m.
     energy_balances: PyResult<Named<String, Array>> = Ok(series::energy_balances(own.kept()?));
     /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
     probes: Named<String, PyExtremes> = {
         own.run.probes.iter().map(|own| (own.name.clone(), PyExtremes(own.extremes))).collect()
     };
-    /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
+    /// SI units of the time series and of the energies: dict of texts by their names, "" for ratios.
     units: Named<String, &str> = {
         let Run { in_plan, probes, .. } = &own.run;
         let scalars = Quantity::of(*in_plan).map(|own| (own.to_string(), own.unit(*in_plan)));
