@@ -4,6 +4,7 @@ use std::any::Any;
 use std::io::ErrorKind;
 
 use super::Error;
+use super::requirement::fault_of_file;
 
 /// Why a case of a [`Sweep`](crate::sweep::Sweep) has no result.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -85,7 +86,7 @@ pub enum SweepError {
         reason: String,
     },
     /// A file that cannot be opened or read.
-    #[error("{file} cannot be read: {reason}")]
+    #[error("{file} cannot be read: {}", fault_of_file(*.reason))]
     Unreadable {
         /// The file.
         file: String,

@@ -3,13 +3,14 @@
 use super::Error;
 #[cfg(feature = "io")]
 use super::MemoryError;
+use super::requirement::fault_of_file;
 
 /// Fault of a line of a record.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
     /// The file could not be read.
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read: {}", fault_of_file(*.0))]
     Unreadable(std::io::ErrorKind),
     /// Too few samples.
     #[error("{found} samples, at least {needed} needed")]
@@ -132,7 +133,7 @@ pub enum RecordError {
 #[non_exhaustive]
 pub enum MeshFileError {
     /// The file could not be read.
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read: {}", fault_of_file(*.0))]
     Unreadable(std::io::ErrorKind),
     /// Something that is needed is not there.
     #[error("there is no {what}")]
@@ -194,10 +195,10 @@ pub enum MeshFileError {
 #[non_exhaustive]
 pub enum MatrixFileError {
     /// The file could not be read.
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read: {}", fault_of_file(*.0))]
     Unreadable(std::io::ErrorKind),
     /// The file could not be written.
-    #[error("cannot be written: {0}")]
+    #[error("cannot be written: {}", fault_of_file(*.0))]
     Unwritable(std::io::ErrorKind),
     /// The file has no line.
     #[error("the file is empty")]

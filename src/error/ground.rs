@@ -1,6 +1,7 @@
 //! Errors of layered grounds, mats in plan and site response.
 
 use super::Error;
+use super::requirement::fault_of_file;
 
 /// Reasons why a layered ground cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -157,7 +158,7 @@ pub enum LayeredError {
 #[non_exhaustive]
 pub enum KernelFileError {
     /// The file could not be read.
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read: {}", fault_of_file(*.0))]
     Unreadable(std::io::ErrorKind),
     /// The file does not begin as one of convolution weights does; it is left as it is.
     #[error("is no file of convolution weights, and is not written over")]

@@ -24,7 +24,7 @@ pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
-    positive, require, require_part, same_length, write_file,
+    positive, require, require_part, same_length,
 };
 pub(crate) use step::along;
 pub use step::{CheckpointError, StabilityError, StepError};

@@ -86,10 +86,10 @@ pub(crate) fn names(known: &[String]) -> String {
     if known.is_empty() { listed } else { format!(", only {listed}") }
 }
 
-/// Writes a file, in a folder that is made if it is not there.
-pub(crate) fn write_file(path: &std::path::Path, content: impl AsRef<[u8]>) -> Result<()> {
-    path.parent()
-        .map_or(Ok(()), std::fs::create_dir_all)
-        .and_then(|()| std::fs::write(path, content))
-        .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
+/// What a user should read for an error of the file system.
+pub(super) fn fault_of_file(kind: std::io::ErrorKind) -> String {
+    match kind {
+        std::io::ErrorKind::NotFound => "it does not exist".to_owned(),
+        other => other.to_string(),
+    }
 }

@@ -24,10 +24,11 @@
 use std::fmt::{Display, Write};
 use std::path::Path;
 
-use crate::error::{Error, Result, require_part, write_file};
+use crate::error::{Result, require_part};
 use crate::geometry::ContactElement;
 use crate::interface::ContactState;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
+use crate::text::file::{unwritten, write_file};
 
 /// Writes `name.pvd`, and for every frame of motion that `time series` keep a grid of the structure
 /// (`name_0000.vtu`, …) and for every frame of contact one of the base (`name_base_0000.vtu`, …),
@@ -69,8 +70,7 @@ fn write(
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let needed = "letters, digits, - and _ only, one at least";
     require_part("name of a series", !name.is_empty() && name.chars().all(plain), needed)?;
-    let made = std::fs::create_dir_all(folder);
-    made.map_err(|e| Error::Write { file: folder.display().to_string(), reason: e.kind() })?;
+    std::fs::create_dir_all(folder).map_err(unwritten(folder))?;
 
     let mut entries = Vec::new();
     let moved = time_series.motion_frames().filter_map(|frame| Some((shape?, frame)));

@@ -7,7 +7,8 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
 use super::Svg;
-use crate::error::{Error, Result, require, write_file};
+use crate::error::{Error, Result, require};
+use crate::text::file::write_file;
 
 /// Largest bitmap, pixels: 100 million, 400 MB.
 const MOST_PIXELS: f64 = 1e8;

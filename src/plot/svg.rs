@@ -7,7 +7,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
 use super::drawing::{Area, Drawing, Key, lines};
-use crate::error::{Error, Result, write_file};
+use crate::error::{Error, Result};
+use crate::text::file::write_file;
 
 /// Size of the pictures, pixels; they are higher where title or key need it.
 const SIZE: (u32, u32) = (1100, 560);

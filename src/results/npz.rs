@@ -13,8 +13,9 @@ use zip::{CompressionMethod, ZipWriter};
 use super::TimeSeries;
 use super::csv::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
-use crate::error::{Error, Result, write_file};
+use crate::error::Result;
 use crate::interface::Mode;
+use crate::text::file::{unwritten, write_file};
 
 /// The archive under construction.
 struct Archive(ZipWriter<Cursor<Vec<u8>>>);
@@ -77,11 +78,7 @@ impl TimeSeries {
     /// [`Error::Write`] if that fails.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
         let (path, mut bytes) = (path.as_ref(), Vec::new());
-        let refused = |error: io::Error| {
-            let (file, reason) = (path.display().to_string(), error.kind());
-            Error::Write { file, reason }
-        };
-        self.write_npz(&mut bytes).map_err(refused)?;
+        self.write_npz(&mut bytes).map_err(unwritten(path))?;
         write_file(path, bytes)
     }
 

@@ -13,7 +13,8 @@ use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading, name};
 use super::{Parameter, check_names};
 use crate::error::{CaseError, Error, Result, SweepError, same_length};
-use crate::text::csv::{csv_line, replaced, unwritten};
+use crate::text::csv::csv_line;
+use crate::text::file::{replaced, unwritten};
 
 /// Rows by their cases, each with the file that it is from.
 type Rows = BTreeMap<usize, (Row, PathBuf)>;
@@ -119,7 +120,7 @@ impl Sweep<'_> {
         }
         let table = self.tabled(columns, rows);
         if !left.is_empty() || part.exists() || !path.exists() {
-            if let Err(fault) = replaced(path, &table.csv()) {
+            if let Err(fault) = replaced(path, table.csv().as_ref()) {
                 return Err(self.unwritten(path, fault.kind(), &table));
             }
             // If it stays, its rows are those of `path`.

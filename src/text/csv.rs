@@ -1,13 +1,12 @@
-//! Text of CSV files, and files that are whole or as they were.
+//! Text of CSV files.
 
 use std::borrow::Cow;
 use std::fmt;
-use std::hash::{BuildHasher, Hasher, RandomState};
-use std::io::Write;
 use std::ops::Deref;
 use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::text::file::write_file;
 
 /// Text of a CSV file (RFC 4180): a heading and a line for every row. It is a `str`, to be searched, printed or
 /// written to any writer.
@@ -29,10 +28,9 @@ impl Csv {
     /// was before: it is written under another name and renamed.
     ///
     /// # Errors
-    /// [`Error::Write`] if that fails.
+    /// [`Error::Write`](crate::Error::Write) if that fails.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path.as_ref();
-        replaced(path, &self.0).map_err(unwritten(path))
+        write_file(path.as_ref(), self)
     }
 }
 
@@ -54,30 +52,6 @@ impl fmt::Display for Csv {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
-}
-
-/// [`Error::Write`] of `path`.
-pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
-    let file = path.display().to_string();
-    move |error| Error::Write { file: file.clone(), reason: error.kind() }
-}
-
-/// Replaces a file by one with this content, or leaves it as it was.
-pub(crate) fn replaced(path: &Path, content: &str) -> std::io::Result<()> {
-    // The hash of nothing, under keys that are random: two processes must not share the name.
-    let mark = RandomState::new().build_hasher().finish();
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(format!(".{mark:016x}.tmp"));
-    let write = || {
-        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-        let mut file = std::fs::File::create(&temporary)?;
-        file.write_all(content.as_bytes())?;
-        file.sync_all()?;
-        std::fs::rename(&temporary, path)
-    };
-    write().inspect_err(|_| {
-        let _ = std::fs::remove_file(&temporary);
-    })
 }
 
 /// A cell as CSV has it (RFC 4180): in quotes where it needs them.

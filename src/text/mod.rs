@@ -6,4 +6,5 @@ pub(crate) mod bounded_line;
 pub(crate) mod check_sum;
 pub(crate) mod column;
 pub(crate) mod csv;
+pub(crate) mod file;
 pub(crate) mod table;

@@ -197,7 +197,7 @@ fn reader_refuses_a_truncated_record() {
 #[test]
 fn files_that_cannot_be_read_are_named() {
     let error = Record::read("/nowhere/record.csv", &metric()).unwrap_err();
-    assert_eq!(error.to_string(), "/nowhere/record.csv: cannot be read: entity not found");
+    assert_eq!(error.to_string(), "/nowhere/record.csv: cannot be read: it does not exist");
     let error = Record::read(basemat_problems::data_path(""), &metric()).unwrap_err();
     assert!(matches!(error, Error::Record { reason: RecordError::Unreadable(_), .. }));
     let file = basemat_problems::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");

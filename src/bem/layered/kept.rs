@@ -19,15 +19,13 @@ use std::fs::File;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::coefficients::{BLOCKS, Block, FIRST};
-use crate::error::{
-    Error, KernelFileError, LayeredError, Result, Watch, require, same_length, write_file,
-};
+use crate::error::{Error, KernelFileError, LayeredError, Result, Watch, require, same_length};
 use crate::text::check_sum::CheckSum;
+use crate::text::file::write_file;
 
 /// Time between two checks whether another thread has ended.
 const WAIT: Duration = Duration::from_millis(20);
@@ -261,7 +259,6 @@ fn contents(
 
 /// Writes the file anew; another process finds the old one or the new, whole.
 fn write(path: &Path, fingerprint: u64, classes: usize, blocks: &[&Block]) -> Result<()> {
-    static WRITTEN: AtomicU64 = AtomicU64::new(0);
     let lists = || blocks.iter().flat_map(|block| &block.values);
     let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;
     let mut bytes: Vec<u8> = Vec::with_capacity(8 * count);
@@ -272,13 +269,5 @@ fn write(path: &Path, fingerprint: u64, classes: usize, blocks: &[&Block]) -> Re
         bytes.extend(word.to_le_bytes());
     }
     bytes.extend(sum.value().to_le_bytes());
-    let mut name = path.as_os_str().to_owned();
-    let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
-    name.push(format!(".{}-{number}", std::process::id()));
-    let beside = Path::new(&name);
-    write_file(beside, bytes)?;
-    std::fs::rename(beside, path).map_err(|error| {
-        let _ = std::fs::remove_file(beside);
-        Error::Write { file: path.display().to_string(), reason: error.kind() }
-    })
+    write_file(path, bytes)
 }

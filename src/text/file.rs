@@ -1,0 +1,82 @@
+//! Files that are written whole or left as they were.
+
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::io::Write;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+
+/// [`Error::Write`] of `path`.
+pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
+    let file = path.display().to_string();
+    move |error| Error::Write { file: file.clone(), reason: error.kind() }
+}
+
+/// Replaces a file by one with this content, or leaves it as it was; its folder is made if it is not there.
+pub(crate) fn replaced(path: &Path, content: &[u8]) -> std::io::Result<()> {
+    // A link stays one; a pipe or a terminal is written to.
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    if path.exists() && !path.is_file() {
+        return std::fs::write(&path, content);
+    }
+    // The hash of nothing, under keys that are random: two processes must not share the name.
+    let mark = RandomState::new().build_hasher().finish();
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(format!(".{mark:016x}.tmp"));
+    let write = || {
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        let mut file = std::fs::File::create(&temporary)?;
+        file.write_all(content)?;
+        file.sync_all()?;
+        std::fs::rename(&temporary, &path)
+    };
+    write().inspect_err(|_| {
+        let _ = std::fs::remove_file(&temporary);
+    })
+}
+
+/// [`replaced`], with the error of this crate.
+pub(crate) fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
+    replaced(path, content.as_ref()).map_err(unwritten(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> std::path::PathBuf {
+        let folder = std::env::temp_dir().join(format!("basemat-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn a_write_that_fails_names_its_file_and_leaves_nothing() {
+        let folder = folder("unwritten");
+        let below_a_file = folder.join("file").join("below");
+        write_file(&folder.join("file"), "whole").unwrap();
+        for path in [below_a_file, folder.clone()] {
+            let message = write_file(&path, "content").unwrap_err().to_string();
+            assert!(message.starts_with(&format!("{} cannot be written", path.display())));
+        }
+        let there: Vec<_> = std::fs::read_dir(&folder).unwrap().collect();
+        assert_eq!(there.len(), 1, "{there:?}");
+        assert_eq!(std::fs::read(folder.join("file")).unwrap(), b"whole");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_one_and_a_device_is_written_to() {
+        let folder = folder("link");
+        let [file, link] = ["file", "link"].map(|name| folder.join(name));
+        write_file(&file, "one").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_file(&link, "another").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(std::fs::read(&file).unwrap(), b"another");
+        write_file(Path::new("/dev/null"), "nothing").unwrap();
+        assert!(!Path::new("/dev/null").is_file());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}
