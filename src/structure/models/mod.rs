@@ -2,6 +2,7 @@
 
 mod fem_model;
 mod group;
+mod matrix_model;
 mod p_delta;
 mod rigid_block;
 mod rigid_body;
@@ -13,7 +14,8 @@ mod storey_laws;
 
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
-pub use rigid_block::{MatrixModel, RigidBlock};
+pub use matrix_model::MatrixModel;
+pub use rigid_block::RigidBlock;
 pub use rigid_body::RigidBody;
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};

@@ -1,0 +1,186 @@
+//! Structures of given matrices.
+
+use crate::error::{Result, at_least, same_length};
+use crate::linalg::SparseMatrix;
+use crate::structure::detached::{check_damping, check_mass};
+use crate::structure::{
+    ContactNode, FaceNode, RayleighDamping, Structure, Triplets, base_nodes, check_base_nodes,
+};
+
+const DAMPING: &str = "damping matrix";
+
+/// A structure given by mass, damping and stiffness matrices, from another program for example.
+///
+/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure is
+/// **free**, without supports: the ground holds it up, so a rigid translation must give no elastic force beyond
+/// rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness,
+/// but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
+/// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
+/// ([`Triplets::from_csr`]); large models march faster after a [`CraigBampton`](crate::structure::CraigBampton)
+/// reduction.
+///
+/// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
+/// checked here; a symmetric stiffness matrix must be so where the base is held, Lagrange
+/// multipliers excepted (see [`Structure::stiffness`]), which is checked when a simulation is built.
+///
+/// ```
+/// use basemat::structure::{ContactNode, MatrixModel, Structure, Triplets};
+///
+/// // A rigid base [u_x, u_y, θ] with a mass on a spring, 5 m up.
+/// let masses = [2.0e4, 3.0e4, 6.0e4, 1.0e4];
+/// let mass = Triplets::from_entries(4, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
+/// let mut stiffness = Triplets::new(4);
+/// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
+/// let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+/// let model = MatrixModel::new(mass, stiffness, contact)?;
+/// assert_eq!(model.dofs(), 4);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatrixModel {
+    mass: Triplets,
+    damping: Triplets,
+    stiffness: Triplets,
+    contact: Vec<ContactNode>,
+    faces: Vec<Vec<FaceNode>>,
+    /// Whether the damping may feed energy in, and is not checked.
+    active: bool,
+}
+
+impl MatrixModel {
+    /// Structure with mass (kg/m) and stiffness (N/m per metre), which touches the ground with the
+    /// nodes `contact`, from left to right. No damping.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for fewer than two
+    /// contact nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
+    /// coordinates or weights out of range or not finite, [`Error::Scene`](crate::Error::Scene) for a mass matrix that
+    /// is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for one with a negative mass, more than
+    /// rounding.
+    pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
+        let damping = Triplets::new(mass.order());
+        let faces = Vec::new();
+        Self { mass, damping, stiffness, contact, faces, active: false }.checked()
+    }
+
+    /// Structure with mass (kg) and stiffness (N/m) that touches a ground in plan with `faces`, as
+    /// [`Structure::contact_faces`] has them. No damping; its forces are those of the whole body.
+    ///
+    /// ```
+    /// use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
+    ///
+    /// // A slab of one square element: u_x, u_y and u_z of its four nodes.
+    /// let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
+    /// let node = |k: usize| FaceNode::free(corners[k], [3 * k, 3 * k + 1, 3 * k + 2]);
+    /// let mass = Triplets::from_entries(12, (0..12).map(|k| (k, k, 20.0e3)));
+    /// let mut stiffness = Triplets::new(12);
+    /// // What resists twisting of the corners out of their plane; this slab has nothing else.
+    /// stiffness.add_outer([(2, 1.0), (5, -1.0), (8, 1.0), (11, -1.0)], 5.0e6);
+    /// let slab = MatrixModel::in_plan(mass, stiffness, vec![(0..4).map(node).collect()])?;
+    /// assert_eq!((slab.dofs(), slab.contact_faces()[0].len()), (12, 4));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`MatrixModel::new`], of the faces' corners. Whether faces are flat, convex and apart is checked when a
+    /// simulation is built.
+    pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<FaceNode>>) -> Result<Self> {
+        let damping = Triplets::new(mass.order());
+        let contact = Vec::new();
+        Self { mass, damping, stiffness, contact, faces, active: false }.checked()
+    }
+
+    /// The model, if its matrices and the points of its base are those of a structure.
+    fn checked(self) -> Result<Self> {
+        let order = self.mass.order();
+        at_least("mass matrix", order, 1)?;
+        check_mass(&SparseMatrix::new("mass matrix", &self.mass)?)?;
+        check("stiffness matrix", &self.stiffness, order)?;
+        check_base_nodes(&base_nodes(&self), order)?;
+        Ok(self)
+    }
+
+    /// Replaces the damping by a damping matrix (N s/m per metre).
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for another order, [`Error::Index`](crate::Error::Index) and
+    /// [`Error::Input`](crate::Error::Input) for entries out of range or not finite,
+    /// [`Error::Scene`](crate::Error::Scene) for a matrix that is not symmetric,
+    /// [`Error::Indefinite`](crate::Error::Indefinite) for one with negative damping, more than rounding.
+    pub fn with_damping(self, damping: Triplets) -> Result<Self> {
+        check_damping(&check(DAMPING, &damping, self.mass.order())?)?;
+        Ok(Self { damping, active: false, ..self })
+    }
+
+    /// Replaces the damping by a matrix (N s/m per metre) that need be neither symmetric nor positive semi-definite:
+    /// that of gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
+    /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size), [`Error::Index`](crate::Error::Index) and
+    /// [`Error::Input`](crate::Error::Input) as for [`with_damping`](MatrixModel::with_damping).
+    pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
+        check(DAMPING, &damping, self.mass.order())?;
+        Ok(Self { damping, active: true, ..self })
+    }
+
+    /// Replaces the damping by Rayleigh damping.
+    #[must_use]
+    pub fn with_rayleigh(mut self, damping: RayleighDamping) -> Self {
+        self.damping.clear();
+        self.active = false;
+        for (matrix, factor) in
+            [(&self.mass, damping.mass()), (&self.stiffness, damping.stiffness())]
+        {
+            if factor > 0.0 {
+                add(matrix, factor, &mut self.damping);
+            }
+        }
+        self
+    }
+}
+
+fn check(name: &'static str, matrix: &Triplets, order: usize) -> Result<SparseMatrix> {
+    same_length(name, matrix.order(), order)?;
+    SparseMatrix::new(name, matrix)
+}
+
+/// Adds `factor` times one matrix to another.
+fn add(matrix: &Triplets, factor: f64, sum: &mut Triplets) {
+    for &(row, column, value) in matrix.entries() {
+        sum.add(row, column, factor * value);
+    }
+}
+
+impl Structure for MatrixModel {
+    fn dofs(&self) -> usize {
+        self.mass.order()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.contact.clone()
+    }
+
+    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+        self.faces.clone()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        add(&self.mass, 1.0, matrix);
+        Ok(())
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        add(&self.stiffness, 1.0, matrix);
+        Ok(())
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        add(&self.damping, 1.0, matrix);
+        Ok(())
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.active
+    }
+}
