@@ -94,3 +94,14 @@ fn observers_stop_and_fail() {
     });
     assert_eq!(run.unwrap().end, stopped.state().time);
 }
+
+#[test]
+fn a_page_names_the_methods_that_were_fallen_back_on() {
+    let mut run = simulation().run(10, |_| {}).unwrap();
+    let line = "Fallbacks of the search for contact modes: ";
+    run.fallbacks = basemat::results::Fallbacks::default();
+    assert!(!run.to_string().contains(line), "{run}");
+    (run.fallbacks.gauss_seidel, run.fallbacks.path) = (133, 2);
+    let both = format!("\n{line}133 steps by Gauss–Seidel, 2 steps by path following");
+    assert!(run.to_string().contains(&both), "{run}");
+}

@@ -249,17 +249,25 @@ impl Run {
 
     fn effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (steps, wall) = (self.steps.max(1) as f64, self.wall.as_secs_f64());
-        // In plan sweeps are what nearly every step takes.
         let Fallbacks { gauss_seidel, path, newton, proximal } = self.fallbacks;
-        let shown = if self.in_plan { [newton, proximal] } else { [gauss_seidel, path] };
         write!(
             f,
-            "\n\nTime taken: {wall:.2} s, {:.1} µs and {:.2} linear solves per step; fallbacks {}/{}",
+            "\n\nTime taken: {wall:.2} s, {:.1} µs and {:.2} linear solves per step",
             wall / steps * 1e6,
             self.trials as f64 / steps,
-            shown[0],
-            shown[1],
-        )
+        )?;
+        // In plan sweeps are what nearly every step takes.
+        let shown = if self.in_plan {
+            [(newton, "Newton's method"), (proximal, "proximal steps")]
+        } else {
+            [(gauss_seidel, "Gauss–Seidel"), (path, "path following")]
+        };
+        let shown = shown.into_iter().filter(|(steps, _)| *steps > 0);
+        for (k, (steps, method)) in shown.enumerate() {
+            let begin = if k == 0 { "\nFallbacks of the search for contact modes:" } else { "," };
+            write!(f, "{begin} {steps} steps by {method}")?;
+        }
+        Ok(())
     }
 
     fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
