@@ -211,7 +211,7 @@ pub(super) const SYMMETRIC: f64 = 1e-9;
 const SEMI_DEFINITE: f64 = 1e-6;
 /// Masses and dampings up to this, relative to the largest entry, are rounding: reductions and sums
 /// leave as much of none. One bound for kg and kg m², which differ by far less.
-pub(super) const MASSLESS: f64 = 1e-12;
+pub(crate) const MASSLESS: f64 = 1e-12;
 
 /// Refuses a mass matrix that is not symmetric or not positive semi-definite.
 pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {

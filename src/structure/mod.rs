@@ -16,7 +16,8 @@ pub use contact_node::{ContactNode, FaceNode};
 pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{
-    HeldBase, check_attached, check_damping, check_mass, numbers as unknown_numbers, stiffest,
+    HeldBase, MASSLESS, check_attached, check_damping, check_mass, numbers as unknown_numbers,
+    stiffest,
 };
 pub use dof_combination::DofCombination;
 pub use hysteresis::{

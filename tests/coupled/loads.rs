@@ -3,7 +3,10 @@
 //! REFERENCE: statics, a structure with the same load of its own, energy, free fall, Housner's block.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::{GravityStage, Load, SimulationBuilder};
+use basemat::coupled::{
+    DissipativeMidpoint, GravityStage, HhtAlpha, Load, Midpoint, Newmark, SimulationBuilder,
+    TimeScheme,
+};
 use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
 use basemat::interface::{Bonded, Cohesive, Coulomb, FrictionLimit, ThinLayer, Yielding};
 use basemat::reference::RockingBlock;
@@ -348,6 +351,39 @@ fn a_dropped_block_falls_freely_and_lands() {
     assert!(run.energy_error < 1e-9 && highest < 0.5 * height, "{highest}");
     // In the end the soil carries the weight.
     assert!((simulation.state().normal_force / WEIGHT - 1.0).abs() < 0.01, "{run}");
+}
+
+/// A load that is there at t = 0 accelerates from the first step on, with every scheme: a block without
+/// weight is pulled off the ground by a constant force, u = F t²/2 m.
+#[test]
+fn a_load_at_the_start_accelerates_in_full() {
+    let force = 1.0e5;
+    let mass = WEIGHT / GRAVITY;
+    let schemes: [Box<dyn TimeScheme>; 4] = [
+        Box::new(Midpoint),
+        Box::new(DissipativeMidpoint::new(0.8).unwrap()),
+        Box::new(Newmark::default()),
+        Box::new(HhtAlpha::new(-0.1).unwrap()),
+    ];
+    for (k, scheme) in schemes.into_iter().enumerate() {
+        let mut simulation = on_half_plane(block())
+            .gravity(0.0)
+            .interface(Coulomb::new(0.5).unwrap())
+            .load(Load::constant(block().vertical_at(1.0), force))
+            .scheme(scheme)
+            .build()
+            .unwrap();
+        for _ in 0..20 {
+            let state = simulation.step().unwrap();
+            let wanted = 0.5 * force / mass * state.time.powi(2);
+            let found = state.displacement()[1];
+            assert!(
+                (found / wanted - 1.0).abs() < 1e-9,
+                "{k} {}: {found:e} {wanted:e}",
+                state.time
+            );
+        }
+    }
 }
 
 #[test]

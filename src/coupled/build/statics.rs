@@ -13,8 +13,8 @@ use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
 };
 use crate::linalg::matrix::Matrix;
-use crate::linalg::{SparseFactor, SparseMatrix, largest};
-use crate::structure::{Structure, nonlinear_state};
+use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
+use crate::structure::{MASSLESS, Structure, nonlinear_state};
 
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;
@@ -166,19 +166,23 @@ pub(super) fn set_in_motion(
     state: &mut State,
 ) -> Result<()> {
     let SimulationBuilder { displacement, velocity, .. } = given;
-    if displacement.is_empty() && velocity.is_empty() && !given.falls() {
+    let moves = given.falls() || !(displacement.is_empty() && velocity.is_empty());
+    if !moves && given.is_static() {
         return Ok(());
     }
-    let motion = &mut state.motion;
-    for (start, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
-    {
-        if !start.is_empty() {
-            *own = scene.model.transformation.coordinates(start, mass);
+    if moves {
+        let motion = &mut state.motion;
+        for (start, own) in
+            [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
+        {
+            if !start.is_empty() {
+                *own = scene.model.transformation.coordinates(start, mass);
+            }
         }
-    }
-    set_contact(given, scene, state)?;
-    if let Some(force) = structure.nonlinear_mut() {
-        force.commit(&scene.seen_at(&state.motion));
+        set_contact(given, scene, state)?;
+        if let Some(force) = structure.nonlinear_mut() {
+            force.commit(&scene.seen_at(&state.motion));
+        }
     }
     let c = &scene.coefficients;
     if [c.displacement, c.velocity, c.acceleration, c.new_velocity, c.new_acceleration]
@@ -234,6 +238,9 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     Ok(())
 }
 
+/// Square of a time, s², that is short to every structure.
+const SMALL: f64 = 1e-20;
+
 /// a of M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let (model, at_rest) = (&scene.model, &scene.static_state);
@@ -251,9 +258,30 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
             *force -= now - at_rest;
         }
     }
-    if let Matrix::Sparse(mass) = &model.mass {
-        let mass = SparseMatrix::weighted_sum(model.dofs, &[(1.0, mass)]);
-        SparseFactor::new("mass matrix, for the acceleration at t = 0", &mass)?.solve(&mut force);
+    let largest_force = largest(&force);
+    if let (Matrix::Sparse(mass), true) = (&model.mass, largest_force > 0.0) {
+        let masses = mass.diagonal();
+        let least = MASSLESS * largest(&masses);
+        let is_massless: Vec<_> = masses.iter().map(|mass| *mass <= least).collect();
+        for (force, _) in force.iter_mut().zip(&is_massless).filter(|(_, massless)| **massless) {
+            let needed = "zero where there is no mass, for the acceleration at t = 0, which \
+                          `Midpoint` does not take";
+            require_part("force at t = 0", force.abs() <= MASSLESS * largest_force, needed)?;
+            *force = 0.0;
+        }
+        let is_inside = |row: usize, column: usize| !(is_massless[row] || is_massless[column]);
+        let mut matrix = Triplets::new(model.dofs);
+        for (row, column, mass) in mass.entries().filter(|(i, j, _)| is_inside(*i, *j)) {
+            matrix.add(row, column, mass);
+        }
+        // Degrees of freedom without mass follow the others by their stiffness, so small that it
+        // resists nothing; with Lagrange multipliers it is the constraint of the accelerations.
+        if let Matrix::Sparse(stiffness) = &model.stiffness {
+            for (row, column, k) in stiffness.entries().filter(|(i, j, _)| !is_inside(*i, *j)) {
+                matrix.add(row, column, SMALL * k);
+            }
+        }
+        SparseFactor::new("mass matrix, for the acceleration at t = 0", &matrix)?.solve(&mut force);
     }
     Ok(force)
 }

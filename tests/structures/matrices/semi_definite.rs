@@ -2,7 +2,8 @@
 //! SCENE: floors tied by a multiplier, masses of rounding size, unstable columns.
 //! REFERENCE: the same structure without the constraint; typed errors.
 
-use basemat::structure::{ContactNode, MatrixModel, Triplets};
+use basemat::coupled::{Load, Newmark};
+use basemat::structure::{ContactNode, DofCombination, MatrixModel, Triplets};
 use basemat::{Error, Result};
 
 use super::model::on_soil;
@@ -139,4 +140,38 @@ fn masses_beyond_rounding_are_refused() {
         let refused = appended(entries).unwrap_err();
         assert_eq!(refused, Error::Indefinite { matrix: "mass matrix", row: 4, diagonal });
     }
+}
+
+/// Accelerations of the floors at the beginning, under a force on floor 3 that is there at once.
+fn thrown(model: MatrixModel, force: f64) -> Result<Vec<f64>> {
+    let simulation = on_soil(model)
+        .gravity(0.0)
+        .scheme(Newmark::default())
+        .load(Load::constant(DofCombination::from(3), force))
+        .build()?;
+    Ok(simulation.state().acceleration()[3..].to_vec())
+}
+
+/// At t = 0 tied floors accelerate as one, and what has no mass follows its springs, with no mass at
+/// all and with one of rounding; a force on it is refused.
+#[test]
+fn what_has_no_mass_follows_at_the_start() {
+    let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-9, "{found:e}");
+    for coefficient in [1.0, 1.0e6, 1.0e9] {
+        let found = thrown(tied(coefficient, 0.0, [4.0e6, 3.0e6]), 6.0e4).unwrap();
+        near(found[0], 2.0);
+        near(found[1], 2.0);
+    }
+    for rounding in [&[][..], &[(4, 4, -1e-18)], &[(4, 4, 1e-20), (0, 4, 1e-7)]] {
+        let found = thrown(appended(rounding).unwrap(), 6.0e4).unwrap();
+        near(found[0], 6.0);
+        near(found[1], 6.0);
+    }
+    let pulled = |dof: usize| {
+        let builder = on_soil(appended(&[]).unwrap()).gravity(0.0).scheme(Newmark::default());
+        builder.load(Load::constant(DofCombination::from(dof), 1.0)).build().map(|_| ())
+    };
+    pulled(3).unwrap();
+    let refused = pulled(4).unwrap_err().to_string();
+    assert!(refused.contains("force at t = 0"), "{refused}");
 }
