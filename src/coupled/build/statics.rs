@@ -238,6 +238,9 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     Ok(())
 }
 
+/// Force on a degree of freedom without mass, relative to the largest force, that counts as none.
+const BALANCED: f64 = 1e-9;
+
 /// Square of a time, s², that is short to every structure.
 const SMALL: f64 = 1e-20;
 
@@ -266,7 +269,7 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
         for (force, _) in force.iter_mut().zip(&is_massless).filter(|(_, massless)| **massless) {
             let needed = "zero where there is no mass, for the acceleration at t = 0, which \
                           `Midpoint` does not take";
-            require_part("force at t = 0", force.abs() <= MASSLESS * largest_force, needed)?;
+            require_part("force at t = 0", force.abs() <= BALANCED * largest_force, needed)?;
             *force = 0.0;
         }
         let is_inside = |row: usize, column: usize| !(is_massless[row] || is_massless[column]);
