@@ -308,6 +308,13 @@ def test_pictures_have_labels_and_units(run: bm.Run) -> None:
         assert html.startswith("<") and "<" not in re_text(html)
 
 
+def test_every_energy_term_is_an_attribute(run: bm.Run) -> None:
+    terms = run.energy_balance.to_dict()
+    assert terms["input"] > 0.0
+    for name, value in terms.items():
+        assert same(getattr(run.energy_balance, name), value), name
+
+
 def re_text(html: str) -> str:
     """A page without its tags."""
     import re
