@@ -55,28 +55,27 @@ impl Path {
         }
     }
 
-    /// Follows the path and leaves in `modes` those at its end, which the caller must check. Each
-    /// `attempt` begins elsewhere, since a path may be lost.
+    /// Follows the path and leaves in `modes` those at its end, which the caller must check; returns
+    /// the number of trials. Each `attempt` begins elsewhere, since a path may be lost.
     pub(crate) fn follow(
         &mut self,
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         attempt: usize,
         modes: &mut [Mode],
-        trials: &mut usize,
-    ) {
+    ) -> usize {
         self.begin(input, attempt, modes);
-        let (mut lambda, mut direction) = (0.0, 1.0);
+        let (mut lambda, mut direction, mut trials) = (0.0, 1.0, 0);
         for _ in 0..CHANGES * modes.len() {
-            *trials += 2;
+            trials += 2;
             if !self.line(solver, input, modes, lambda) {
-                return;
+                break;
             }
             let tolerance = solver.tolerance(input);
             let (reach, first) = self.reach(input, modes, direction, tolerance);
             let limit = if direction > 0.0 { 1.0 - lambda } else { lambda - LOST };
             if reach >= limit {
-                return;
+                break;
             }
             lambda += direction * reach;
             let leaving = modes[first];
@@ -89,7 +88,7 @@ impl Path {
                 if mode == leaving || !self.line(solver, input, modes, lambda) {
                     continue;
                 }
-                *trials += 2;
+                trials += 2;
                 let break_off = here.distance(&self.states[first], compliance);
                 // Only one sense of λ is admissible; rounding leaves the other one next to nothing.
                 let [ahead, back] = [direction, -direction]
@@ -101,9 +100,10 @@ impl Path {
             }
             (_, modes[first], direction) = best;
             if modes[first] == leaving {
-                return;
+                break;
             }
         }
+        trials
     }
 
     /// Sets the modes and d of the beginning, different for each attempt: all elements far open, or

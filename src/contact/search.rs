@@ -45,6 +45,7 @@ pub(crate) struct ModeSearch {
     path: Path,
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
+    trials: usize,
     /// Number of all sets of modes, if the last search has tried them without success.
     sets: Option<usize>,
     search: ContactSearch,
@@ -66,6 +67,7 @@ impl ModeSearch {
             path: Path::new(count),
             bonds: vec![Bond::Free; count],
             overloads: Vec::with_capacity(count),
+            trials: 0,
             sets: None,
         }
     }
@@ -96,16 +98,16 @@ impl ModeSearch {
         if let Some(cone) = &mut self.cone {
             return cone.solve(solver, input, modes);
         }
-        let mut trials = 0;
+        self.trials = 0;
         // Laws with a single mode skip the search: one solve, with factors made once.
         let bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
         }
         let mut bonds = std::mem::take(&mut self.bonds);
-        let found = self.break_bonds(solver, input, modes, &mut bonds, &mut trials);
+        let found = self.break_bonds(solver, input, modes, &mut bonds);
         self.bonds = bonds;
-        found.map(|m| (trials, m)).ok_or_else(|| self.failure(solver, input, modes, trials))
+        found.map(|m| (self.trials, m)).ok_or_else(|| self.failure(solver, input, modes))
     }
 
     /// Finds modes with all bonds held, breaks those that are overloaded most, and so on; `None` if the
@@ -116,7 +118,6 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
         bonds: &mut [Bond],
-        trials: &mut usize,
     ) -> Option<SearchMethod> {
         self.sets = None;
         bonds.fill(Bond::Free);
@@ -130,7 +131,7 @@ impl ModeSearch {
         }
         let mut most = SearchMethod::ActiveSet;
         loop {
-            let found = self.settle(solver, &ContactInput { bonds, ..*input }, modes, trials);
+            let found = self.settle(solver, &ContactInput { bonds, ..*input }, modes);
             if solver.fault.is_some() || found.is_none() && !bonds.contains(&Bond::Held) {
                 return None;
             }
@@ -173,19 +174,18 @@ impl ModeSearch {
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-        trials: &mut usize,
     ) -> Option<SearchMethod> {
-        if self.active_set(solver, input, modes, trials) {
+        if self.active_set(solver, input, modes) {
             return Some(SearchMethod::ActiveSet);
         }
         if self.search != ContactSearch::Robust || solver.fault.is_some() {
             return None;
         }
-        if self.gauss_seidel(solver, input, modes, trials) {
+        if self.gauss_seidel(solver, input, modes) {
             return Some(SearchMethod::GaussSeidel);
         }
-        let mut found = solver.fault.is_none() && self.along_path(solver, input, modes, trials);
-        found |= solver.fault.is_none() && !found && self.enumerate(solver, input, modes, trials);
+        let mut found = solver.fault.is_none() && self.along_path(solver, input, modes);
+        found |= solver.fault.is_none() && !found && self.enumerate(solver, input, modes);
         found.then_some(SearchMethod::Path)
     }
 
@@ -195,7 +195,6 @@ impl ModeSearch {
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-        trials: &mut usize,
     ) -> bool {
         let choices = |e: usize| input.modes(e).len();
         let sets = (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(choices(e)));
@@ -206,7 +205,7 @@ impl ModeSearch {
                 *mode = input.modes(e)[rest % choices(e)];
                 rest /= choices(e);
             }
-            *trials += 1;
+            self.trials += 1;
             if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
                 return true;
             }
@@ -224,11 +223,10 @@ impl ModeSearch {
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &[Mode],
-        iterations: usize,
     ) -> StepError {
         let residual = self.disagreement(solver, input, modes);
         let modes = modes.iter().map(|mode| mode.word()).collect();
-        StepError::Contact { iterations, residual, modes, sets: self.sets }
+        StepError::Contact { iterations: self.trials, residual, modes, sets: self.sets }
     }
 
     /// Distance of the tractions of `modes` from those of the modes that the laws ask for instead,
@@ -284,7 +282,6 @@ impl ModeSearch {
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-        trials: &mut usize,
     ) -> bool {
         self.visited.clear();
         let most = match self.search {
@@ -292,7 +289,7 @@ impl ModeSearch {
             ContactSearch::FlowChart { iterations } => iterations,
         };
         for _ in 0..most {
-            *trials += 1;
+            self.trials += 1;
             if !solver.trial(input, modes) {
                 return false;
             }
@@ -316,12 +313,11 @@ impl ModeSearch {
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-        trials: &mut usize,
     ) -> bool {
         for attempt in 0..PATHS {
-            self.path.follow(solver, input, attempt, modes, trials);
+            self.trials += self.path.follow(solver, input, attempt, modes);
             // Where a path was lost, the solution is often near.
-            if self.active_set(solver, input, modes, trials) {
+            if self.active_set(solver, input, modes) {
                 return true;
             }
             if solver.fault.is_some() {
@@ -336,14 +332,13 @@ impl ModeSearch {
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-        trials: &mut usize,
     ) -> bool {
         solver.traction.fill(0.0);
         solver.evaluate(input);
         self.before.copy_from_slice(modes);
         let mut wait = 1;
         for sweep in 1..=SWEEPS {
-            *trials += 1;
+            self.trials += 1;
             for e in 0..modes.len() {
                 modes[e] = local_mode(solver, input, e, modes[e]);
             }

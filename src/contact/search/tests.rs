@@ -302,14 +302,13 @@ impl Tally {
             assert!(all.iter().any(|(m, _)| m == modes), "{modes:?} is not among {all:?}");
             problem.violation(&solver.traction)
         };
-        let mut trials = 0;
         for method in 0..3 {
             solver.invalidate();
             let mut modes = problem.modes.clone();
             let good = match method {
-                0 => search.active_set(&mut solver, &input, &mut modes, &mut trials),
-                1 => search.gauss_seidel(&mut solver, &input, &mut modes, &mut trials),
-                _ => search.along_path(&mut solver, &input, &mut modes, &mut trials),
+                0 => search.active_set(&mut solver, &input, &mut modes),
+                1 => search.gauss_seidel(&mut solver, &input, &mut modes),
+                _ => search.along_path(&mut solver, &input, &mut modes),
             };
             if good {
                 self.alone[method] += 1;
