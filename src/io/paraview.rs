@@ -35,9 +35,9 @@ use crate::text::file::{unwritten, write_file};
 /// into `folder`, which is made if need be. Returns the number of grids.
 ///
 /// # Errors
-/// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]) or the name is not
-/// one of letters, digits, `-` and `_`; [`Error::Index`] if `shape` belongs to another structure;
-/// [`Error::Write`] if a file cannot be written.
+/// [`Error::Scene`](crate::Error::Scene) if no motion was kept ([`crate::results::Recorder::motion`]) or the name is
+/// not one of letters, digits, `-` and `_`; [`Error::Index`](crate::Error::Index) if `shape` belongs to another
+/// structure; [`Error::Write`](crate::Error::Write) if a file cannot be written.
 pub fn write_series(
     folder: impl AsRef<Path>,
     name: &str,
@@ -53,8 +53,8 @@ pub fn write_series(
 /// …), as [`write_series`] does: for structures without a [`DeformedShape`].
 ///
 /// # Errors
-/// [`Error::Scene`] if no contact was kept ([`crate::results::Recorder::contact`]) or for the name, [`Error::Write`] if
-/// a file cannot be written.
+/// [`Error::Scene`](crate::Error::Scene) if no contact was kept ([`crate::results::Recorder::contact`]) or for the
+/// name, [`Error::Write`](crate::Error::Write) if a file cannot be written.
 pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries) -> Result<usize> {
     let needed = "tell the recorder to keep the contact";
     require_part("series of the base", time_series.contact_frames().next().is_some(), needed)?;

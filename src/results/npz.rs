@@ -75,7 +75,7 @@ impl TimeSeries {
     /// Writes the archive of [`TimeSeries::write_npz`] to a file; its folder is made if it is not there.
     ///
     /// # Errors
-    /// [`Error::Write`] if that fails.
+    /// [`Error::Write`](crate::Error::Write) if that fails.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
         let (path, mut bytes) = (path.as_ref(), Vec::new());
         self.write_npz(&mut bytes).map_err(unwritten(path))?;
