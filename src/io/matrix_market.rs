@@ -13,6 +13,7 @@ use crate::linalg::matrix::check_order;
 use crate::structure::Triplets;
 use crate::text::bounded_line;
 use crate::text::column::{excerpt, finite};
+use crate::text::file::replaced;
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
@@ -57,21 +58,20 @@ impl Triplets {
         })
     }
 
-    /// Writes the matrix to a Matrix Market file, in the coordinate format.
+    /// Writes the matrix to a Matrix Market file, in the coordinate format; the file is whole or as it was.
     ///
     /// Entries at the same place are summed, zeros left out, and a matrix that is symmetric to the last bit is
     /// written as such. Numbers are written so that reading gives the same ones back.
     ///
     /// # Errors
     /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite, and
-    /// [`Error::Memory`] for more rows than would fit, with the file left as it was;
+    /// [`Error::Memory`] for more rows than would fit;
     /// [`Error::MatrixFile`] when it cannot be written.
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        // Before the file is opened, which empties it.
-        let matrix = self.checked()?;
-        File::create(path)
-            .and_then(|file| write(&matrix, &mut std::io::BufWriter::new(file)))
+        let mut text = Vec::new();
+        write(&self.checked()?, &mut text)
+            .and_then(|()| replaced(path, &text))
             .map_err(|error| unwritable(path.display().to_string(), &error))
     }
 

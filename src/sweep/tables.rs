@@ -14,7 +14,7 @@ use super::table::{CaseTable, Row, heading, name};
 use super::{Parameter, check_names};
 use crate::error::{CaseError, Error, Result, SweepError, same_length};
 use crate::text::csv::csv_line;
-use crate::text::file::{replaced, unwritten};
+use crate::text::file::{make_folder_of, replaced, unwritten};
 
 /// Rows by their cases, each with the file that it is from.
 type Rows = BTreeMap<usize, (Row, PathBuf)>;
@@ -91,8 +91,8 @@ impl Sweep<'_> {
         }
         let left: Vec<_> = self.cases().filter(|case| !there.contains_key(case)).collect();
         let mut rows: Vec<_> = there.into_values().map(|(row, _)| row).collect();
+        make_folder_of(path)?;
         if !left.is_empty() {
-            path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(unwritten(path))?;
             let open = || {
                 let mut file = OpenOptions::new().create(true).append(true).open(&part)?;
                 // The line within which a process was killed goes.

@@ -8,11 +8,10 @@ use crate::error::{Error, Result};
 
 /// [`Error::Write`] of `path`.
 pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
-    let file = path.display().to_string();
-    move |error| Error::Write { file: file.clone(), reason: error.kind() }
+    move |error| Error::Write { file: path.display().to_string(), reason: error.kind() }
 }
 
-/// Replaces a file by one with this content, or leaves it as it was; its folder is made if it is not there.
+/// Replaces a file by one with this content, or leaves it as it was.
 pub(crate) fn replaced(path: &Path, content: &[u8]) -> std::io::Result<()> {
     // A link stays one; a pipe or a terminal is written to.
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
@@ -24,7 +23,6 @@ pub(crate) fn replaced(path: &Path, content: &[u8]) -> std::io::Result<()> {
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(format!(".{mark:016x}.tmp"));
     let write = || {
-        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
         let mut file = std::fs::File::create(&temporary)?;
         file.write_all(content)?;
         file.sync_all()?;
@@ -35,8 +33,14 @@ pub(crate) fn replaced(path: &Path, content: &[u8]) -> std::io::Result<()> {
     })
 }
 
-/// [`replaced`], with the error of this crate.
+/// Makes the folder of a file if it is not there.
+pub(crate) fn make_folder_of(path: &Path) -> Result<()> {
+    path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(unwritten(path))
+}
+
+/// [`replaced`], in a folder that is made if it is not there.
 pub(crate) fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
+    make_folder_of(path)?;
     replaced(path, content.as_ref()).map_err(unwritten(path))
 }
 
