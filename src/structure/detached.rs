@@ -80,11 +80,10 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
             own[part].add(k, place[column].1, value);
         }
     }
-    let masses = mass.diagonal();
-    let massless = MASSLESS * largest(&masses);
+    let (masses, massless) = (mass.diagonal(), massless(mass));
     let mut found = Vec::new();
     for (part, dofs) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
-        let has_mass = dofs.iter().any(|&dof| masses[dof].abs() > massless);
+        let has_mass = dofs.iter().any(|&dof| !massless[dof]);
         let is_mode = dofs.len() == 1 && (masses[dofs[0]] - 1.0).abs() <= NORMALISED;
         let takes_part = !has_mass || is_mode || by_any.root(dofs[0]) == ground;
         let is_empty = !has_mass && own[part].entries().is_empty();
@@ -211,7 +210,14 @@ pub(super) const SYMMETRIC: f64 = 1e-9;
 const SEMI_DEFINITE: f64 = 1e-6;
 /// Masses and dampings up to this, relative to the largest entry, are rounding: reductions and sums
 /// leave as much of none. One bound for kg and kg m², which differ by far less.
-pub(crate) const MASSLESS: f64 = 1e-12;
+pub(super) const MASSLESS: f64 = 1e-12;
+
+/// Whether each degree of freedom has no mass, but for rounding.
+pub(crate) fn massless(mass: &SparseMatrix) -> Vec<bool> {
+    let masses = mass.diagonal();
+    let most = MASSLESS * largest(&masses);
+    masses.iter().map(|mass| mass.abs() <= most).collect()
+}
 
 /// Refuses a mass matrix that is not symmetric or not positive semi-definite.
 pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {

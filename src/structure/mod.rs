@@ -16,7 +16,7 @@ pub use contact_node::{ContactNode, FaceNode};
 pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{
-    HeldBase, MASSLESS, check_attached, check_damping, check_mass, numbers as unknown_numbers,
+    HeldBase, check_attached, check_damping, check_mass, massless, numbers as unknown_numbers,
     stiffest,
 };
 pub use dof_combination::DofCombination;

@@ -14,7 +14,7 @@ use crate::interface::{
 };
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
-use crate::structure::{MASSLESS, Structure, nonlinear_state};
+use crate::structure::{Structure, massless, nonlinear_state};
 
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;
@@ -166,23 +166,19 @@ pub(super) fn set_in_motion(
     state: &mut State,
 ) -> Result<()> {
     let SimulationBuilder { displacement, velocity, .. } = given;
-    let moves = given.falls() || !(displacement.is_empty() && velocity.is_empty());
-    if !moves && given.is_static() {
+    if given.is_static() && displacement.is_empty() && velocity.is_empty() {
         return Ok(());
     }
-    if moves {
-        let motion = &mut state.motion;
-        for (start, own) in
-            [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
-        {
-            if !start.is_empty() {
-                *own = scene.model.transformation.coordinates(start, mass);
-            }
+    let motion = &mut state.motion;
+    for (start, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
+    {
+        if !start.is_empty() {
+            *own = scene.model.transformation.coordinates(start, mass);
         }
-        set_contact(given, scene, state)?;
-        if let Some(force) = structure.nonlinear_mut() {
-            force.commit(&scene.seen_at(&state.motion));
-        }
+    }
+    set_contact(given, scene, state)?;
+    if let Some(force) = structure.nonlinear_mut() {
+        force.commit(&scene.seen_at(&state.motion));
     }
     let c = &scene.coefficients;
     if [c.displacement, c.velocity, c.acceleration, c.new_velocity, c.new_acceleration]
@@ -238,12 +234,6 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     Ok(())
 }
 
-/// Force on a degree of freedom without mass, relative to the largest force, that counts as none.
-const BALANCED: f64 = 1e-9;
-
-/// Square of a time, s², that is short to every structure.
-const SMALL: f64 = 1e-20;
-
 /// a of M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let (model, at_rest) = (&scene.model, &scene.static_state);
@@ -261,30 +251,41 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
             *force -= now - at_rest;
         }
     }
-    let largest_force = largest(&force);
-    if let (Matrix::Sparse(mass), true) = (&model.mass, largest_force > 0.0) {
-        let masses = mass.diagonal();
-        let least = MASSLESS * largest(&masses);
-        let is_massless: Vec<_> = masses.iter().map(|mass| *mass <= least).collect();
-        for (force, _) in force.iter_mut().zip(&is_massless).filter(|(_, massless)| **massless) {
-            let needed = "zero where there is no mass, for the acceleration at t = 0, which \
-                          `Midpoint` does not take";
-            require_part("force at t = 0", force.abs() <= BALANCED * largest_force, needed)?;
-            *force = 0.0;
-        }
-        let is_inside = |row: usize, column: usize| !(is_massless[row] || is_massless[column]);
-        let mut matrix = Triplets::new(model.dofs);
-        for (row, column, mass) in mass.entries().filter(|(i, j, _)| is_inside(*i, *j)) {
-            matrix.add(row, column, mass);
-        }
-        // Degrees of freedom without mass follow the others by their stiffness, so small that it
-        // resists nothing; with Lagrange multipliers it is the constraint of the accelerations.
-        if let Matrix::Sparse(stiffness) = &model.stiffness {
-            for (row, column, k) in stiffness.entries().filter(|(i, j, _)| !is_inside(*i, *j)) {
-                matrix.add(row, column, SMALL * k);
-            }
-        }
-        SparseFactor::new("mass matrix, for the acceleration at t = 0", &matrix)?.solve(&mut force);
+    if let (Matrix::Sparse(mass), Matrix::Sparse(stiffness)) = (&model.mass, &model.stiffness) {
+        accelerate(mass, stiffness, &mut force)?;
     }
     Ok(force)
+}
+
+/// Force on a degree of freedom without mass, relative to the largest force, that counts as none.
+const BALANCED: f64 = 1e-9;
+
+/// Square of a time, s², that is short to every structure.
+const SMALL: f64 = 1e-20;
+
+/// Replaces `force` by the acceleration that it gives a structure at rest. Degrees of freedom without mass
+/// follow the others by their stiffness, so small that it resists nothing; with Lagrange multipliers it
+/// is the constraint of the accelerations.
+fn accelerate(mass: &SparseMatrix, stiffness: &SparseMatrix, force: &mut [f64]) -> Result<()> {
+    let largest = largest(force);
+    if largest == 0.0 {
+        return Ok(());
+    }
+    let massless = massless(mass);
+    for (force, _) in force.iter_mut().zip(&massless).filter(|(_, massless)| **massless) {
+        let needed = "zero where there is no mass, for the acceleration at t = 0, which \
+                      `Midpoint` does not take";
+        require_part("force at t = 0", force.abs() <= BALANCED * largest, needed)?;
+        *force = 0.0;
+    }
+    let mut matrix = Triplets::new(mass.order());
+    for (own, factor, follows) in [(mass, 1.0, false), (stiffness, SMALL, true)] {
+        for (row, column, value) in own.entries() {
+            if (massless[row] || massless[column]) == follows {
+                matrix.add(row, column, factor * value);
+            }
+        }
+    }
+    SparseFactor::new("mass matrix, for the acceleration at t = 0", &matrix)?.solve(force);
+    Ok(())
 }
