@@ -45,6 +45,7 @@ pub(crate) struct ModeSearch {
     path: Path,
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
+    /// Trials of this search so far.
     trials: usize,
     /// Number of all sets of modes, if the last search has tried them without success.
     sets: Option<usize>,
