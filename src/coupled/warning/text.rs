@@ -1,0 +1,119 @@
+//! Texts of the warnings.
+
+use std::fmt;
+
+use super::Warning;
+use crate::error::along;
+use crate::motion::STANDARD_GRAVITY;
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LargeSlip { slip, element_length } => write!(
+                f,
+                "slip of {slip:.3e} m is beyond an element, {element_length:.3e} m on average: \
+                 contact is paired for small displacements"
+            ),
+            Self::LargeRotation { rotation } => {
+                write!(
+                    f,
+                    "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
+                )
+            }
+            Self::Tension { tension, x, y, time } => {
+                let across = y.map_or(String::new(), |y| format!(", y = {y:.2} m"));
+                write!(
+                    f,
+                    "base pulled up by {tension:.2e} Pa, x = {x:.2} m{across} at {time:.2} s: its law cannot open"
+                )
+            }
+            Self::EnergyBalance { residual } => write!(f, "energy balance open by {residual:.1e}"),
+            Self::AlgorithmicEnergy { made } => write!(
+                f,
+                "time scheme made {:.1} % of the largest energy: take `Midpoint`, or shorter steps",
+                100.0 * made
+            ),
+            Self::UnresolvedPeriod { period, time_step, needed, error } => write!(
+                f,
+                "base shear off by about {:.0} %: steps of {time_step:.2e} s, period {period:.2e} s; \
+                 take {needed:.1e} s",
+                100.0 * error
+            ),
+            Self::UnresolvedMotion { frequency, time_step, needed, error } => write!(
+                f,
+                "base shear off by about {:.0} %: steps of {time_step:.2e} s, ground {frequency:.3} Hz; \
+                 take {needed:.1e} s",
+                100.0 * error
+            ),
+            Self::UnresolvedRadiation { crossing, time_step, needed } => write!(
+                f,
+                "steps of {time_step:.2e} s damp rocking: shear waves cross the base in {crossing:.2e} s; \
+                 take {needed:.1e} s"
+            ),
+            Self::FewElements { foundation, elements, needed, axis } => write!(
+                f,
+                "elements{} under foundation {foundation}: {elements}, its rocking needs {needed}",
+                along(*axis)
+            ),
+            Self::UncoveredBase { foundation, reach, axis } => write!(
+                f,
+                "foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: nothing carries it there",
+                along(*axis)
+            ),
+            Self::SampledPassivity { checked, cells } => {
+                write!(f, "passivity of the ground checked on {checked} of {cells} cells")
+            }
+            Self::LessFriction { steps, friction } => write!(
+                f,
+                "steps solved with friction {friction:.0} in place of more: {steps}; shear is too small there"
+            ),
+            Self::MotionAcross => {
+                write!(f, "motion along y: a ground in the plane leaves it out")
+            }
+            Self::UnusualSoil { shear_wave_speed, density } => write!(
+                f,
+                "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
+                likely_slip(*shear_wave_speed, *density)
+            ),
+            Self::LongPeriod { period } => write!(
+                f,
+                "structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?"
+            ),
+            Self::UnusualMotion { acceleration } => {
+                write!(f, "ground acceleration of {acceleration:.3} m/s²: motion in cm/s²?")
+            }
+            Self::LongElements { element_length, wavelength, needed } => write!(
+                f,
+                "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \
+                 take {needed:.1e} m"
+            ),
+        }
+    }
+}
+
+/// Whether `value` lies between two bounds.
+pub(super) fn within([least, most]: [f64; 2], value: f64) -> bool {
+    (least..=most).contains(&value)
+}
+
+/// Units in which the numbers of a soil would be usual ones.
+fn likely_slip(speed: f64, density: f64) -> String {
+    let densities = [
+        (1.0, ""),
+        (1000.0 / STANDARD_GRAVITY, "density in kN/m³"),
+        (1000.0, "density in t/m³"),
+        (1.0 / STANDARD_GRAVITY, "density in N/m³"),
+    ];
+    let moduli =
+        [(1.0, ""), (1e3, "modulus in kPa"), (1e6, "modulus in MPa"), (1e9, "modulus in GPa")];
+    for (by_density, first) in densities {
+        for (by_modulus, second) in moduli {
+            let speed = speed * (by_modulus / by_density).sqrt();
+            if within([1200.0, 3500.0], density * by_density) && within([50.0, 3000.0], speed) {
+                let words = [first, second].into_iter().filter(|word| !word.is_empty());
+                return format!("{}?", words.collect::<Vec<_>>().join(", "));
+            }
+        }
+    }
+    "a model not to scale?".into()
+}
