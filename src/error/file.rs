@@ -100,6 +100,40 @@ pub enum RecordError {
         /// The file's own description of its numbers, cut to 60 characters.
         text: String,
     },
+    /// Two places of the file state different values of a quantity.
+    #[error("the {quantity} is {found}, but elsewhere the file states {stated}")]
+    Contradiction {
+        /// Name of the quantity, with its unit.
+        quantity: &'static str,
+        /// The value that the samples would be read with.
+        found: f64,
+        /// The value of the other place.
+        stated: f64,
+    },
+    /// The file holds data before their processing, which are no acceleration at equal steps.
+    #[error("'{text}': {kind}; read the file of corrected data (volume 2)")]
+    Unprocessed {
+        /// Kind of the data.
+        kind: &'static str,
+        /// The file's own description of its numbers, cut to 60 characters.
+        text: String,
+    },
+    /// A line before all numbers is neither the one title that is passed over nor numbers.
+    #[error(
+        "'{text}' is not a finite number: with more than one line of header, give their number (`header_lines`)"
+    )]
+    HeaderLine {
+        /// The first field that is no number, cut to 40 characters.
+        text: String,
+    },
+    /// The title of a column names another unit than that in which the column is read.
+    #[error("the title '{text}' names another unit than {unit}, in which the column is read")]
+    TitleUnit {
+        /// The title, cut to 40 characters.
+        text: String,
+        /// The unit of the column.
+        unit: &'static str,
+    },
     /// No channel of this number.
     #[error("{found} channels, but channel {needed} was asked for (they count from 1)")]
     Channel {

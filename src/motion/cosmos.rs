@@ -1,10 +1,16 @@
-//! Corrected records of CESMD: the COSMOS and CSMIP volume-2 formats.
+//! Records of CESMD: the COSMOS format, and its reader with that of CSMIP.
+//!
+//! Layout: *COSMOS Strong Motion Data Format, Version 1.20*, Consortium of Organizations for Strong-Motion Observation
+//! Systems, 15 August 2001, table of the real header and table 2 (units). The 34th real value is the interval of the
+//! recorder in seconds, the 62nd the interval of the data below in milliseconds, the 63rd their length in seconds.
 
 use std::io::Read;
 
-use super::format::FixedColumns;
-use super::lines::{Lines, Reason, count, push_numbers, read_numbers, record, scaled};
-use super::unit::{HeaderNumber, clause_end, unclear};
+use super::agreement;
+use super::block::{self, Block};
+use super::csmip;
+use super::lines::{Lines, Reason, Series, component, read_numbers, record, records};
+use super::unit::unclear;
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
@@ -14,9 +20,16 @@ use crate::text::column::finite;
 /// Two layouts are understood; in both, a line says what the block of numbers under it is:
 ///
 /// * COSMOS 1.20: `12091 acceleration pts, approx 120 secs, units=cm/s^2 (4), Format=(8F10.5)`,
-///   with the sampling interval (ms) as 34th of the 100 real header values;
+///   with the sampling interval of the data (ms) as 62nd of the 100 real header values; if it is
+///   unknown there (−999), the interval of the recorder (s), the 34th, counts;
 /// * CSMIP (California Geological Survey):
-///   `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`.
+///   `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`, in the 1980s
+///   `(UNITS: CM/SEC/SEC)`, and volume 1,
+///   `13200 Accelerogram points at 200 pts/sec in units of g .  Format: (8f9.6)`.
+///
+/// Header and title state interval, number of points, duration, unit and peak more than once. A
+/// file in which they disagree is an error, and so are more numbers than announced, raw counts
+/// (`.V0`) and uncorrected data in unequal steps.
 ///
 /// Numbers are read in the columns of the format that the line names, in which they may touch, and
 /// free where a line does not keep to it or none is named. In its column, a number without a
@@ -26,7 +39,8 @@ use crate::text::column::finite;
 /// that does not name its unit, unless [`CosmosFormat::unit`] does.
 ///
 /// A file may hold several channels one after the other, and blocks of velocity and displacement,
-/// which are passed over: [`channel`](Self::channel) counts acceleration blocks.
+/// which are passed over: [`channel`](Self::channel) counts acceleration blocks. [`Record::read_all`]
+/// returns all channels.
 ///
 /// ```
 /// use basemat::motion::{CosmosFormat, Record};
@@ -71,287 +85,176 @@ impl Default for CosmosFormat {
 
 impl RecordFormat for CosmosFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read(&mut Lines::new(source), self))
+        let channels = read(&mut Lines::new(source), self, Some(self.channel));
+        record(name, component(1, channels))
+    }
+
+    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
+        records(name, read(&mut Lines::new(source), self, None))
     }
 }
 
-/// Place of the sampling interval (ms) among the real header values of COSMOS.
-const SAMPLING_INTERVAL: usize = 33;
-
-fn read(lines: &mut Lines, format: &CosmosFormat) -> Reason<(f64, Vec<f64>)> {
-    let channel = format.channel;
-    let mut found = 0;
-    // Sampling interval of the last real header, s.
-    let mut interval = None;
-    while let Some(line) = lines.next()? {
+/// The channel `wanted` alone, or all of them.
+fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reason<Vec<Series>> {
+    let (mut found, mut channels) = (0, Vec::new());
+    let (mut header, mut notes) = (Header::default(), csmip::Notes::default());
+    let mut uncorrected = None;
+    // The line after a block.
+    let mut next = None;
+    while let Some(line) = match next.take() {
+        Some(line) => Some(line),
+        None => lines.next()?,
+    } {
         let lower = line.to_ascii_lowercase();
-        if lower.contains("real-header values follow") {
-            interval = real_header(lines, &lower)?;
+        // A comment.
+        if line.starts_with('|') || header.read(lines, &line, &lower)? {
             continue;
         }
-        let titles = ["points of accel data equally spaced at", "acceleration pts"];
-        if !titles.iter().any(|title| lower.contains(title)) {
+        let block = if csmip::is_title(&lower) {
+            notes.block(&line, format.unit)
+        } else if is_title(&lower) {
+            header.block(&line, format.unit)
+        } else {
+            notes.read(&lower);
+            if lines.number == 1 && lower.contains("uncorrected accelerogram") {
+                uncorrected = Some(line);
+            }
             continue;
-        }
-        found += 1;
-        if found < channel || channel == 0 {
-            continue;
-        }
-        let block = Block::read(&line, interval, format.unit);
-        let block = block.map_err(|reason| lines.refuse(reason))?;
-        let values = read_numbers(lines, block.points, block.columns)?;
-        return Ok((block.step, scaled(values, block.unit.in_metres_per_second_squared())));
-    }
-    Err(lines.refuse(RecordError::Channel { found, needed: channel }))
-}
-
-/// Numbers of a block as its title announces them.
-struct Block {
-    points: usize,
-    /// s.
-    step: f64,
-    unit: AccelerationUnit,
-    columns: Option<FixedColumns>,
-}
-
-impl Block {
-    /// COSMOS has the sampling interval (s) somewhere else than in the title; `unnamed` is the unit
-    /// if the title names none.
-    fn read(
-        line: &str,
-        interval: Option<f64>,
-        unnamed: Option<AccelerationUnit>,
-    ) -> std::result::Result<Self, RecordError> {
-        let title = line.to_ascii_lowercase();
-        let title = title.as_str();
-        let points = points(title, "number of points")?;
-        let step = match csmip(title) {
-            Some(text) => HeaderNumber::TimeStep.read(&text[..time_end(text)])?,
-            None => interval,
         };
-        let missing = RecordError::Missing { quantity: "sampling interval" };
-        let step = step.filter(|&step| step > 0.0).ok_or(missing)?;
-        let not_acceleration =
-            || RecordError::NotAcceleration { text: line.chars().take(60).collect() };
-        let unit = unit(title, unnamed).ok_or_else(not_acceleration)?;
-        let rest = after_unit(title);
-        if !FixedColumns::is_all_of(rest) {
-            return Err(unclear("unit or format", rest.trim()));
+        found += 1;
+        if wanted.is_none_or(|wanted| wanted == found) {
+            let block = block.map_err(|reason| lines.refuse(reason))?;
+            let (samples, after) = block.read(lines)?;
+            let name = header.name.take().unwrap_or_else(|| format!("channel {found}"));
+            channels.push(Series { name, step: block.step, samples });
+            next = after;
         }
-        Ok(Self { points, step, unit, columns: FixedColumns::find(title) })
+        if wanted.is_some_and(|wanted| wanted == found) {
+            return Ok(channels);
+        }
+        (header, notes) = (Header::default(), csmip::Notes::default());
+    }
+    match (uncorrected, wanted) {
+        (Some(line), _) if found == 0 => {
+            let kind = "uncorrected data in unequal steps";
+            Err((1, RecordError::Unprocessed { kind, text: line.chars().take(60).collect() }))
+        }
+        (_, None) if found > 0 => Ok(channels),
+        (_, wanted) => {
+            Err(lines.refuse(RecordError::Channel { found, needed: wanted.unwrap_or(1) }))
+        }
     }
 }
 
-/// Sampling interval (s) of a block of real header values, if it has one.
-fn real_header(lines: &mut Lines, title: &str) -> Reason<Option<f64>> {
-    let points = points(title, "number of header values").map_err(|reason| lines.refuse(reason))?;
-    let columns = FixedColumns::find(title);
-    if let Some((_, format)) = title.split_once("format=")
-        && !FixedColumns::is_all_of(format)
-    {
-        return Err(lines.refuse(unclear("format", format.trim())));
-    }
-    let values = read_numbers(lines, points, columns)?;
-    // Unknown values are −999.
-    Ok(values.get(SAMPLING_INTERVAL).filter(|&&ms| ms > 0.0).map(|ms| ms / 1e3))
+/// Whether a line in lower case is the title of a block of acceleration: `7000  acceleration pts,`,
+/// `42000 raw accel.   pts,`.
+fn is_title(line: &str) -> bool {
+    let mut words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
+    let mut before = "";
+    words.any(|word| {
+        let key = before.starts_with("accel") && matches!(word, "pts" | "points");
+        before = word;
+        key
+    })
 }
 
-/// The number that a title begins with.
-fn points(title: &str, quantity: &'static str) -> std::result::Result<usize, RecordError> {
-    let first = title.split_whitespace().next();
-    first.and_then(|field| count(finite(field)?)).ok_or(RecordError::Missing { quantity })
-}
+/// Places among the real header values, from 0, of the recorder's interval (s), the interval of the data (ms), their
+/// duration (s) and their peak.
+const RECORDER: usize = 33;
+const INTERVAL: usize = 61;
+const DURATION: usize = 62;
+const PEAK: usize = 63;
+/// Value of what is not known.
+const UNKNOWN: f64 = -999.0;
 
-/// The text of a CSMIP title after its key: time step, unit and format.
-fn csmip(title: &str) -> Option<&str> {
-    Some(title.split_once("equally spaced at")?.1)
-}
-
-/// End of the time step in a title of CSMIP.
-fn time_end(text: &str) -> usize {
-    let keys = [" in ", "units=", "format="].map(|key| text.find(key));
-    // A bracket may hold the unit of time.
-    let bracket = text
-        .match_indices('(')
-        .map(|(at, _)| at)
-        .find(|&at| text[at + 1..].starts_with(|sign: char| sign.is_ascii_digit() || sign == '*'));
-    let first = keys.into_iter().chain([bracket]).flatten().min().unwrap_or(text.len());
-    first.min(clause_end(text))
-}
-
-/// The unit in a title, from its first letter on.
-fn unit_text(title: &str) -> Option<&str> {
-    let csmip = || csmip(title)?.split_once(" in ");
-    Some(title.split_once("units=").or_else(csmip)?.1)
-}
-
-/// End of the name of a unit: `cm/s^2 (4),Format=(8F10.5)`, `cm/sec2. (8f10.3)`.
-fn name_end(text: &str) -> usize {
-    text.find([',', '(']).unwrap_or(text.len())
-}
-
-/// The text after unit or, without one, time step.
-fn after_unit(title: &str) -> &str {
-    if let Some(text) = unit_text(title) {
-        return &text[name_end(text)..];
-    }
-    match csmip(title) {
-        Some(text) => &text[time_end(text)..],
-        None => title.find("format=").map_or("", |at| &title[at..]),
-    }
-}
-
-/// Unit of the numbers under a title in lower case; `unnamed` if it names none.
-fn unit(title: &str, unnamed: Option<AccelerationUnit>) -> Option<AccelerationUnit> {
-    let Some(text) = unit_text(title) else {
-        // A unit among other words contradicts another one.
-        let mut words = title.split([' ', '\t', ',', '(', ')']).filter_map(AccelerationUnit::named);
-        return unnamed.filter(|&unit| words.all(|word| word == unit));
-    };
-    let (name, rest) = text.split_at(name_end(text));
-    let unit = AccelerationUnit::named(name)?;
-    // The code of cm/s² is 4.
-    let code = rest
-        .trim_start_matches([' ', ','])
-        .strip_prefix('(')
-        .and_then(|rest| rest.split_once(')')?.0.parse::<u8>().ok());
-    let agrees = code.is_none_or(|code| (code == 4) == (unit == AccelerationUnit::Gal));
-    agrees.then_some(unit)
-}
-
-// Records of K-NET and KiK-net.
-
-/// The ASCII files of the Japanese networks K-NET and KiK-net.
-///
-/// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder; the
-/// acceleration is the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of
-/// samples must be `Duration Time(s)` times `Sampling Freq(Hz)`. Counts have an offset: follow with
-/// [`Record::with_baseline`], at least
-/// [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
-///
-/// ```
-/// use basemat::motion::{KNetFormat, Record};
-/// let text = "Origin Time       2011/03/11 14:46:00\nStation Code      MYG004\n\
-///     Sampling Freq(Hz) 2Hz\nDuration Time(s)  3\nDir.              N-S\n\
-///     Scale Factor      2000(gal)/1000\nMemo.\n 1 2 3 4\n 5 -6\n";
-/// let record = Record::from_reader("MYG004.NS", text.as_bytes(), &KNetFormat)?;
-/// assert_eq!((record.len(), record.time_step()), (6, 0.5));
-/// assert!((record.accelerations()[5] + 0.12).abs() < 1e-15);
-/// # Ok::<(), basemat::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct KNetFormat;
-
-impl RecordFormat for KNetFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read_k_net(&mut Lines::new(source)))
-    }
-}
-
-/// Entries that the header must have.
+/// What the header of a channel says.
 #[derive(Default)]
 struct Header {
-    frequency: Option<f64>,
-    duration: Option<f64>,
-    /// Gal in a count.
-    scale: Option<f64>,
-}
-
-fn read_k_net(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
-    let mut header = Header::default();
-    loop {
-        let Some(line) = lines.next()? else {
-            return Err(lines.refuse(RecordError::Missing { quantity: "line `Memo.`" }));
-        };
-        if line.starts_with("Memo") {
-            break;
-        }
-        let understood = header.read(&line);
-        understood.map_err(|reason| lines.refuse(reason))?;
-    }
-    let need = |value: Option<f64>, quantity| {
-        value.ok_or_else(|| lines.refuse(RecordError::Missing { quantity }))
-    };
-    let frequency = need(header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
-    let duration = need(header.duration, "duration (`Duration Time(s)`)")?;
-    let scale = need(header.scale, "scale (`Scale Factor`, gal per count)")?;
-
-    let mut values = Vec::new();
-    while let Some(line) = lines.next()? {
-        push_numbers(&line, &mut values).map_err(|reason| lines.refuse(reason))?;
-    }
-    let found = values.len();
-    let needed = (duration * frequency).round();
-    if needed != found as f64 {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-        let needed = needed as usize;
-        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
-    }
-    if found < 2 {
-        return Err(lines.refuse(RecordError::TooShort { found, needed: 2 }));
-    }
-    let factor = scale * AccelerationUnit::Gal.in_metres_per_second_squared();
-    Ok((1.0 / frequency, scaled(values, factor)))
+    /// Name of the channel.
+    name: Option<String>,
+    /// Code of the unit.
+    code: Option<i64>,
+    reals: Vec<f64>,
 }
 
 impl Header {
-    /// Notes what a line of the header says, if it is one of those that are needed.
-    fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
-        let positive = |quantity: HeaderNumber, unit| match line.split_once(unit) {
-            Some((_, text)) => Ok(quantity.read(text)?.filter(|&value| value > 0.0)),
-            None => Ok::<_, RecordError>(None),
-        };
-        let (known, value) = if line.starts_with("Sampling Freq") {
-            (&mut self.frequency, positive(HeaderNumber::Frequency, "(Hz)")?)
-        } else if line.starts_with("Duration Time") {
-            (&mut self.duration, positive(HeaderNumber::Duration, "(s)")?)
-        } else if let Some(factor) = line.strip_prefix("Scale Factor") {
-            (&mut self.scale, scale(factor.trim())?)
+    /// Reads a line of the header, with the numbers under it; `false` if it says nothing here.
+    fn read(&mut self, lines: &mut Lines, line: &str, lower: &str) -> Reason<bool> {
+        if lower.contains("real-header values follow") {
+            self.reals = reals(lines, lower)?;
+        } else if lower.contains("integer-header values follow") {
+            let Some(line) = lines.next_columns()? else { return Ok(true) };
+            // Of ten values the first is the stage of processing, the third the unit.
+            let third = line.split_whitespace().nth(2).and_then(|field| field.parse().ok());
+            self.code = third.filter(|&code| code > 0);
+        } else if let Some(name) = channel_name(line) {
+            self.name = Some(name);
         } else {
-            return Ok(());
+            return Ok(false);
+        }
+        Ok(true)
+    }
+
+    /// A real header value, if it is known.
+    fn real(&self, index: usize) -> Option<f64> {
+        self.reals.get(index).copied().filter(|&value| value != UNKNOWN)
+    }
+
+    /// The block under a title; `unnamed` is the unit if it names none.
+    fn block(
+        &self,
+        line: &str,
+        unnamed: Option<AccelerationUnit>,
+    ) -> std::result::Result<Block, RecordError> {
+        let title = line.to_ascii_lowercase();
+        let title = title.as_str();
+        let points = block::points(title, "number of points")?;
+        let (unit, rest) = match title.split_once("units") {
+            Some((_, text)) => block::unit(line, text.trim_start_matches([' ', '=', ':']))?,
+            None => {
+                let format = title.find("format").map_or("", |at| &title[at..]);
+                (block::unnamed(title, unnamed)?, format)
+            }
         };
-        if known.is_some() && *known != value {
-            return Err(unclear("repeated line", line));
+        if let Some(code) = self.code.filter(|&code| block::of_code(code) != Some(unit)) {
+            return Err(unclear("unit", &format!("{unit}, and the code {code} of another one")));
         }
-        *known = value;
-        Ok(())
+        let columns = block::columns(title, rest)?;
+        let positive = |index| self.real(index).filter(|&value| value > 0.0);
+        let interval = positive(INTERVAL).map(|ms| ms / 1e3);
+        let step = block::step(interval.or_else(|| positive(RECORDER)))?;
+        if let Some(stated) = positive(DURATION) {
+            agreement::duration(points, step, stated, 0.0)?;
+        }
+        // `approx  120 secs`, without its fraction.
+        let approximate = title.split_once("approx").and_then(|(_, text)| {
+            finite(text.trim_start_matches(['.', ' ', '=']).split_whitespace().next()?)
+        });
+        if let Some(stated) = approximate {
+            agreement::duration(points, step, stated, 1.0)?;
+        }
+        Ok(Block { points, step, unit, columns, peak: self.real(PEAK) })
     }
 }
 
-/// Gal in a count: `3920(gal)/6182761`. None if the text is not of that kind, or no scale.
-fn scale(text: &str) -> std::result::Result<Option<f64>, RecordError> {
-    let Some((range, counts)) = text.split_once("(gal)/") else { return Ok(None) };
-    let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));
-    let scale = value(range)? / value(counts)?;
-    Ok((scale.is_finite() && scale != 0.0).then_some(scale))
+/// The values under a title of real header values.
+fn reals(lines: &mut Lines, title: &str) -> Reason<Vec<f64>> {
+    let number = block::points(title, "number of header values");
+    let number = number.map_err(|reason| lines.refuse(reason))?;
+    let format = title.split_once("format").map_or("", |(_, format)| format);
+    let format = format.trim_start_matches([' ', '=', ':']);
+    let columns = block::columns(title, format).map_err(|reason| lines.refuse(reason))?;
+    read_numbers(lines, number, columns)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_are_whole_words() {
-        use AccelerationUnit::{Gal, MetrePerSecondSquared, StandardGravity};
-        for (title, known) in [
-            ("4 acceleration pts, approx 1 secs, units=cm/s^2 (4),format=(8f10.5)", Some(Gal)),
-            ("4 acceleration pts, units=cm/sec2(04),format=(1e15.6)", Some(Gal)),
-            ("4 acceleration pts, units= g,format=(8f10.5)", Some(StandardGravity)),
-            ("4 points equally spaced at .01 sec, in cm/sec/sec. (8f10.3)", Some(Gal)),
-            ("4 points equally spaced at .01 sec, in g. (8f10.3)", Some(StandardGravity)),
-            ("4 points equally spaced at .01 sec, in m/s2 (8f10.3)", Some(MetrePerSecondSquared)),
-            ("galileo street: 4 acceleration pts, units=gal", Some(Gal)),
-            ("galileo street: 4 acceleration pts, units=mgal", None),
-            ("galileo street: 4 acceleration pts, units=mg (8f10.3)", None),
-            ("cm/sec2: 4 acceleration pts, units=counts (50),format=(10i8)", None),
-            ("4 acceleration pts, units=", None),
-            ("4 acceleration pts, units=cm/sec,", None),
-            ("4 acceleration pts, in the gallery", Some(MetrePerSecondSquared)),
-        ] {
-            assert_eq!(unit(title, Some(MetrePerSecondSquared)), known, "{title}");
-        }
-        assert_eq!(unit("4 points equally spaced at .010 sec.", None), None);
-        assert_eq!(unit("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)), Some(Gal));
-    }
+/// `Chan 1: 90 Deg` of `Sta Chan   1: 90 Deg (Rcrdr Chan  1) Location:Ground`, `CHAN  1:  90 DEG` or `COMP S58W`.
+fn channel_name(line: &str) -> Option<String> {
+    let text = line.strip_prefix("Sta ").unwrap_or(line);
+    let begin = text.get(..4)?.to_ascii_lowercase();
+    let named = begin == "chan" && text.contains(':') || begin == "comp" && text.contains(' ');
+    let text = text.split(['(', '=']).next()?;
+    // Digits behind `COMP S58W` are of the card.
+    let most = if begin == "comp" { 2 } else { usize::MAX };
+    let words: Vec<&str> = text.split_whitespace().take(most).collect();
+    named.then(|| words.join(" "))
 }

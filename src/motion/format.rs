@@ -1,5 +1,6 @@
-//! The trait of file formats, records read by it, and numbers in columns of fixed width.
+//! The trait of file formats, and records read by it.
 
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -9,7 +10,7 @@ use crate::error::{Error, RecordError, Result};
 /// A file format that holds a record; implement it for one of your own.
 ///
 /// The crate's formats are [`ColumnFormat`](super::ColumnFormat), [`PeerFormat`](super::PeerFormat)
-/// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`) and
+/// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`, COSMOS and CSMIP) and
 /// [`KNetFormat`](super::KNetFormat).
 #[auto_impl::auto_impl(Box)]
 pub trait RecordFormat {
@@ -19,6 +20,14 @@ pub trait RecordFormat {
     /// [`Error::Record`](crate::Error::Record) with the line and the reason, or
     /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
+
+    /// Reads all components of a file with their names; by default the one of [`parse`](Self::parse), without a name.
+    ///
+    /// # Errors
+    /// As for [`parse`](Self::parse).
+    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
+        Ok(vec![(String::new(), self.parse(name, source)?)])
+    }
 }
 
 impl Record {
@@ -28,16 +37,21 @@ impl Record {
     /// # Errors
     /// [`Error::Record`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
-        let path = path.as_ref();
-        let name = path.display().to_string();
-        match std::fs::File::open(path) {
-            Ok(file) => Self::from_reader(&name, file, format),
-            Err(error) => Err(Error::Record {
-                file: name,
-                line: 0,
-                reason: RecordError::Unreadable(error.kind()),
-            }),
-        }
+        let (name, mut file) = open(path.as_ref())?;
+        format.parse(&name, &mut file)
+    }
+
+    /// Reads all components of a file with their names, such as `N-S`, `E-W` and `U-D`, for the formats that hold
+    /// several.
+    ///
+    /// # Errors
+    /// [`Error::Record`] with the line and the reason.
+    pub fn read_all(
+        path: impl AsRef<Path>,
+        format: &dyn RecordFormat,
+    ) -> Result<Vec<(String, Self)>> {
+        let (name, mut file) = open(path.as_ref())?;
+        format.parse_all(&name, &mut file)
     }
 
     /// Reads the same from any source of bytes; `name` is what errors call it.
@@ -63,154 +77,14 @@ impl Record {
     }
 }
 
-// Columns of fixed width, as Fortran prints numbers.
-
-/// Most numbers in a line, and widest of them, that a format may ask for.
-const MOST: usize = 1000;
-
-/// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct FixedColumns {
-    /// Numbers in a full line.
-    pub(super) repeat: usize,
-    /// Characters of each.
-    pub(super) width: usize,
-    /// Decimals of a field without a point.
-    pub(super) decimals: u16,
-    /// The k of `kP`: fields without an exponent are 10ᵏ times the value.
-    pub(super) scale: u16,
-}
-
-impl FixedColumns {
-    /// The last format in brackets that `text` has, or the one after `format=` without brackets;
-    /// none if it is not one repeated item.
-    pub(super) fn find(text: &str) -> Option<Self> {
-        let inside = |piece: &str| Self::parse(piece.split_once(')')?.0);
-        let bare = || Self::parse(text.to_ascii_lowercase().split_once("format=")?.1);
-        text.rsplit('(').find_map(inside).or_else(bare)
-    }
-
-    /// `8F10.5`, `10I8`, `1E15.6E2`, `1P8E10.3`.
-    fn parse(item: &str) -> Option<Self> {
-        let (scale, item) = match item.trim().split_once(['P', 'p']) {
-            Some((scale, item)) => (scale.parse().ok().filter(|&scale| scale < 100)?, item),
-            None => (0, item.trim()),
-        };
-        let letter = item.find(|sign: char| !sign.is_ascii_digit())?;
-        let (repeat, rest) = item.split_at(letter);
-        let width = rest.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
-        let whole_numbers = rest.starts_with(['I', 'i']);
-        let (whole, decimals) = width.split_once('.').unwrap_or((width, "0"));
-        // Behind an E stand the digits of the exponent.
-        let (decimals, exponent) = decimals.split_once(['E', 'e']).unwrap_or((decimals, ""));
-        if !exponent.bytes().all(|sign| sign.is_ascii_digit()) {
-            return None;
-        }
-        let decimals = decimals.parse().ok().filter(|&decimals: &u16| decimals < 1000)?;
-        // `I8.4` asks for four digits, none of them decimals.
-        let decimals = if whole_numbers { 0 } else { decimals };
-        let repeat = if repeat.is_empty() { 1 } else { repeat.parse().ok()? };
-        let width = whole.parse().ok()?;
-        let known = (1..=MOST).contains(&repeat) && (1..=MOST).contains(&width);
-        known.then_some(Self { repeat, width, decimals, scale })
-    }
-
-    /// Whether `text` is nothing but one format, with or without `format=` and brackets, and numbers
-    /// in brackets (codes of units); `(*)` is a format that any line keeps to.
-    pub(super) fn is_all_of(text: &str) -> bool {
-        let mut rest = text.trim_matches([' ', '\t', '.', ',', ';']).to_ascii_lowercase();
-        loop {
-            let text = rest.trim_start_matches([' ', '\t', '.', ',', ';']);
-            let text = text.strip_prefix("format=").unwrap_or(text).trim_start();
-            let Some((item, after)) = text.strip_prefix('(').and_then(|text| text.split_once(')'))
-            else {
-                return text.is_empty() || Self::parse(text).is_some();
-            };
-            let code = !item.is_empty() && item.bytes().all(|sign| sign.is_ascii_digit());
-            if !(code || item.trim() == "*" || Self::parse(item).is_some()) {
-                return false;
-            }
-            rest = after.to_owned();
-        }
-    }
-
-    /// The fields of a line, as it stands in the file but for white space at its end.
-    ///
-    /// None if the line is not in these columns: longer than they are, not ASCII, with white space
-    /// inside a number, or with a number that goes on behind a column's end, which shows by its
-    /// decimals.
-    pub(super) fn fields(self, line: &str) -> Option<Vec<&str>> {
-        if !line.is_ascii() || line.len() > self.repeat * self.width {
-            return None;
-        }
-        let starts = (0..line.len()).step_by(self.width);
-        let fields = starts.map(|start| line[start..line.len().min(start + self.width)].trim());
-        let fields: Vec<_> = fields.collect();
-        let whole = |field: &&str| !field.is_empty() && !field.contains(char::is_whitespace);
-        let ends_there = |(k, field): (usize, &&str)| {
-            let next = line.as_bytes().get((k + 1) * self.width);
-            let goes_on = next.is_some_and(|sign| sign.is_ascii_digit() || *sign == b'.');
-            let mantissa = field.split(['E', 'e', 'D', 'd']).next().unwrap_or(field);
-            let decimals = mantissa.split_once('.').map(|(_, decimals)| decimals.len());
-            !goes_on || decimals.is_none_or(|decimals| decimals == usize::from(self.decimals))
-        };
-        let kept = fields.iter().all(whole) && fields.iter().enumerate().all(ends_there);
-        kept.then_some(fields)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formats_are_found() {
-        let scaled =
-            |scale, repeat, width, decimals| Some(FixedColumns { repeat, width, decimals, scale });
-        let columns = |repeat, width, decimals| scaled(0, repeat, width, decimals);
-        for (text, known) in [
-            ("4 points, in cm/sec2. (8f10.6)", columns(8, 10, 6)),
-            ("units=cm/s^2 (4),Format=(10F8.5)", columns(10, 8, 5)),
-            ("units=cm/sec2(04),Format=(1E15.6)", columns(1, 15, 6)),
-            ("Format= ( 6F13.6 )", columns(6, 13, 6)),
-            ("(E15.7E3)", columns(1, 15, 7)),
-            ("(1F15.6E)", columns(1, 15, 6)),
-            ("(10I8)", columns(10, 8, 0)),
-            ("(10I8.4)", columns(10, 8, 0)),
-            ("(1P8E10.3)", scaled(1, 8, 10, 3)),
-            ("(-1P8E10.3)", None),
-            ("(8F10.5E2X)", None),
-            ("(8F10.5,2X)", None),
-            ("(*)", None),
-            ("(4)", None),
-            ("(0F8.5) (F0.5)", None),
-            ("(99999999999999999999F8.5)", None),
-            ("units=g,Format= 8F10.5", columns(8, 10, 5)),
-            ("8F10.5", None),
-            ("", None),
-        ] {
-            assert_eq!(FixedColumns::find(text), known, "{text}");
-        }
-    }
-
-    #[test]
-    fn lines_are_cut() {
-        let columns = FixedColumns { repeat: 3, width: 4, decimals: 1, scale: 0 };
-        assert_eq!(columns.fields("12345678"), Some(vec!["1234", "5678"]));
-        assert_eq!(columns.fields("   1-2.312"), Some(vec!["1", "-2.3", "12"]));
-        assert_eq!(columns.fields(""), Some(vec![]));
-        for other in ["1 2 3", "1234        1", "123456781234 ", "é", "2.125", "1.25512"] {
-            assert_eq!(columns.fields(other), None, "{other}");
-        }
-    }
-
-    #[test]
-    fn formats_are_told_from_other_text() {
-        for text in ["", " (4),Format=(8F10.5)", ". (8f10.3)", "(04),format=8f10.5", " (*)", ","] {
-            assert!(FixedColumns::is_all_of(text), "{text}");
-        }
-        for text in ["x 1000 (8f10.3)", "(8f10.3) x 10", "(x 10)", "()", "(", "(8f10.3,2x)", "8"] {
-            assert!(!FixedColumns::is_all_of(text), "{text}");
+/// A file, and what errors call it.
+fn open(path: &Path) -> Result<(String, File)> {
+    let name = path.display().to_string();
+    match File::open(path) {
+        Ok(file) => Ok((name, file)),
+        Err(error) => {
+            let reason = RecordError::Unreadable(error.kind());
+            Err(Error::Record { file: name, line: 0, reason })
         }
     }
 }

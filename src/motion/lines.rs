@@ -2,10 +2,10 @@
 
 use std::io::Read;
 
-use super::format::FixedColumns;
+use super::fixed_columns::FixedColumns;
 use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
-use crate::text::column::{excerpt, finite, has_implied_point, in_field};
+use crate::text::column::{distinct, excerpt, finite, has_implied_point, in_field};
 
 /// Contents of lines, or number and fault of the one that cannot be read.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
@@ -133,6 +133,21 @@ pub(super) fn end_of_numbers(lines: &mut Lines, needed: usize) -> Reason<()> {
     Ok(())
 }
 
+/// The line after the numbers of a block, if there is one; more numbers than announced are an error.
+pub(super) fn line_after_block(lines: &mut Lines, needed: usize) -> Reason<Option<String>> {
+    let of_numbers = |sign: u8| sign.is_ascii_digit() || b"+-.eEdD* \t".contains(&sign);
+    while let Some(line) = lines.next()? {
+        if line.bytes().any(|sign| !of_numbers(sign)) {
+            return Ok(Some(line));
+        }
+        if !line.is_empty() {
+            let found = needed + free_fields(&line).len();
+            return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+        }
+    }
+    Ok(None)
+}
+
 /// A number of samples: a whole number, at least two, or none.
 pub(super) fn count(value: f64) -> Option<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in 2..=1e9")]
@@ -144,12 +159,43 @@ pub(super) fn scaled(values: Vec<f64>, factor: f64) -> Vec<f64> {
     values.into_iter().map(|value| value * factor).collect()
 }
 
-/// Time step and acceleration as a record, errors named after `file`.
-pub(super) fn record(file: &str, parsed: Reason<(f64, Vec<f64>)>) -> Result<super::Record> {
-    let (step, samples) = parsed.map_err(refused(file))?;
+/// The samples of one component.
+pub(super) struct Series {
+    /// Name of the component in the file.
+    pub(super) name: String,
+    /// Time step, s.
+    pub(super) step: f64,
+    /// m/s².
+    pub(super) samples: Vec<f64>,
+}
+
+/// A component as a record, errors named after `file`.
+pub(super) fn record(file: &str, parsed: Reason<Series>) -> Result<super::Record> {
+    let series = parsed.map_err(refused(file))?;
     // Faults of the file as a whole.
     let reason = |error| RecordError::Unusable(Box::new(error));
-    super::Record::new(step, samples).map_err(|error| refused(file)((0, reason(error))))
+    super::Record::new(series.step, series.samples)
+        .map_err(|error| refused(file)((0, reason(error))))
+}
+
+/// Several components as records with their names, made different from each other.
+pub(super) fn records(
+    file: &str,
+    parsed: Reason<Vec<Series>>,
+) -> Result<Vec<(String, super::Record)>> {
+    let parsed = parsed.map_err(refused(file))?;
+    let names = distinct(&[], parsed.iter().map(|series| series.name.clone()));
+    let record = |(name, series)| Ok((name, record(file, Ok(series))?));
+    names.into_iter().zip(parsed).map(record).collect()
+}
+
+/// The component with a number from 1.
+pub(super) fn component(number: usize, parsed: Reason<Vec<Series>>) -> Reason<Series> {
+    let parsed = parsed?;
+    let found = parsed.len();
+    let index = number.checked_sub(1);
+    let series = index.and_then(|index| parsed.into_iter().nth(index));
+    series.ok_or((0, RecordError::Channel { found, needed: number }))
 }
 
 /// The fields of a line: commas or else semicolons separate, and so does white space.

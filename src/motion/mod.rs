@@ -5,12 +5,17 @@
 //! in three directions, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes closures, [`AtRest`]
 //! never moves.
 
+mod agreement;
 mod baseline;
+mod block;
 mod cosmos;
+mod csmip;
 mod filter;
+mod fixed_columns;
 mod format;
 mod free_field;
 mod integral;
+mod k_net;
 mod lines;
 mod out_of_phase;
 mod peer;
@@ -21,13 +26,14 @@ mod spectrum;
 mod unit;
 
 pub use baseline::Baseline;
-pub use cosmos::{CosmosFormat, KNetFormat};
+pub use cosmos::CosmosFormat;
 pub use format::RecordFormat;
 pub use free_field::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
 };
 pub use integral::Motion;
 pub(crate) use integral::quadratic_roots_within;
+pub use k_net::KNetFormat;
 pub use peer::PeerFormat;
 pub use plane_wave::PlaneWave;
 pub(crate) use plane_wave::check_prescribed;

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::lines::{Lines, Reason, count, end_of_numbers, read_numbers, record, scaled};
+use super::lines::{Lines, Reason, Series, count, end_of_numbers, read_numbers, record, scaled};
 use super::unit::{HeaderNumber, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::{RecordError, Result};
@@ -45,7 +45,7 @@ impl RecordFormat for PeerFormat {
     }
 }
 
-fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
+fn read(lines: &mut Lines) -> Reason<Series> {
     let missing = RecordError::Missing { quantity: "number of points and time step (NPTS, DT)" };
     let mut in_g = false;
     let (points, step) = loop {
@@ -71,7 +71,7 @@ fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
     let factor = G.in_metres_per_second_squared();
     let values = read_numbers(lines, points, None)?;
     end_of_numbers(lines, points)?;
-    Ok((step, scaled(values, factor)))
+    Ok(Series { name: String::new(), step, samples: scaled(values, factor) })
 }
 
 /// Whether a line of the header, in upper case, says that the numbers are accelerations in g, or

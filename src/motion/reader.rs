@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::lines::{Fields, Lines, Reason, is_failure, is_header, record};
+use super::lines::{Fields, Lines, Reason, Series, is_failure, is_header, record};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 
@@ -94,7 +94,7 @@ impl RecordFormat for ColumnFormat {
 }
 
 /// Time step (s) and samples (m/s²).
-fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<(f64, Vec<f64>)> {
+fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<Series> {
     let samples = read_samples(lines, format)?;
     let last_line = samples.last().map_or(0, |sample| sample.line);
     let found = samples.len();
@@ -109,7 +109,8 @@ fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<(f64, Vec<f64>)> {
         None => equal_step(&samples)?,
     };
     let factor = format.unit.in_metres_per_second_squared();
-    Ok((step, samples.iter().map(|sample| sample.acceleration * factor).collect()))
+    let samples = samples.iter().map(|sample| sample.acceleration * factor).collect();
+    Ok(Series { name: String::new(), step, samples })
 }
 
 /// All lines of numbers.

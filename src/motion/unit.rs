@@ -69,7 +69,7 @@ impl AccelerationUnit {
         }
         match length.trim() {
             "m" => Some(Self::MetrePerSecondSquared),
-            "cm" => Some(Self::Gal),
+            "cm" | "cms" => Some(Self::Gal),
             "mm" => Some(Self::MillimetrePerSecondSquared),
             "ft" => Some(Self::FootPerSecondSquared),
             "in" => Some(Self::InchPerSecondSquared),
@@ -145,6 +145,8 @@ pub(super) enum HeaderNumber {
     /// Frequency, Hz.
     Frequency,
     Points,
+    /// Largest acceleration, in the unit of its line.
+    Peak,
 }
 
 impl HeaderNumber {
@@ -154,6 +156,7 @@ impl HeaderNumber {
             Self::Duration => "duration",
             Self::Frequency => "sampling frequency",
             Self::Points => "number of points",
+            Self::Peak => "peak acceleration",
         }
     }
 
@@ -161,7 +164,7 @@ impl HeaderNumber {
         match self {
             Self::TimeStep | Self::Duration => TIME,
             Self::Frequency => FREQUENCY,
-            Self::Points => NUMBER,
+            Self::Points | Self::Peak => NUMBER,
         }
     }
 

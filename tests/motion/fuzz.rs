@@ -36,7 +36,7 @@ fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
         ),
         (
             "36 Real-header values follow on   6 lines, Format= (6F13.6)\n\
-             1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 5 1 1\n\
+             1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 .5 1 1\n\
              3 acceleration pts, approx  0 secs, units=cm/s^2 (4),Format=(10F8.5)\n\
              -0.00003-0.00004 9.99999\nEnd-of-data for Chan  1 acceleration\n",
             Box::new(CosmosFormat::default()),

@@ -2,6 +2,7 @@
 //! SCENE: El Centro 1940, pulses, and any samples.
 //! REFERENCE: published values, closed forms, independent integrations.
 
+mod agency_files;
 mod baselines;
 mod filters;
 mod free_fields;

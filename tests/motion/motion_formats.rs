@@ -1,6 +1,7 @@
 //! GOAL: files of the strong-motion databases are read in every layout in use, or refused with line
 //! and reason.
-//! SCENE: PEER, COSMOS, CSMIP and K-NET files, printed here; any bytes.
+//! SCENE: variants of PEER, COSMOS, CSMIP and K-NET files, printed here after the layouts that `agency_files` reads;
+//! any bytes.
 //! REFERENCE: the samples that were printed.
 
 use basemat::motion::{
@@ -102,7 +103,7 @@ fn counted(found: usize, needed: usize) -> RecordError {
 fn k_net_counts_become_accelerations() {
     let header = "Origin Time       2011/03/11 14:46:00\nLat.              38.103\n\
         Station Code      MYG004\nSampling Freq(Hz) 100Hz\nDuration Time(s)  DUR\nDir.              N-S\n\
-        Scale Factor      7845(gal)/8223790\nMax. Acc. (gal)   2699.891\nMemo.\n";
+        Scale Factor      7845(gal)/8223790\nMax. Acc. (gal)   176.166\nMemo.\n";
     let two_seconds = header.replace("DUR", "2");
     let counts: Vec<i32> = (0..200).map(|k| 100 - 7 * k * k).collect();
     let lines: Vec<String> = counts
@@ -150,37 +151,70 @@ fn csmip_files_hold_channels() {
         assert_eq!(reason, RecordError::Channel { found: 2, needed });
     }
     let counts = CSMIP.replace("in g.", "in counts.");
-    assert!(matches!(refusal(&counts, &second).1, RecordError::NotAcceleration { .. }));
+    assert!(matches!(refusal(&counts, &second), (8, RecordError::Unprocessed { .. })));
     let short = &CSMIP[..CSMIP.len() - 5];
     assert_eq!(refusal(short, &second), (9, counted(1, 2)));
 }
 
+/// A count that is too small must not cut a record.
 #[test]
-fn cosmos_takes_the_interval_from_its_real_header() {
+fn numbers_beyond_the_announced_count_are_refused() {
+    let format = CosmosFormat::default();
+    let long = CSMIP.replace("3 points of accel", "2 points of accel");
+    assert_eq!(refusal(&long, &format), (3, counted(3, 2)));
+    let more = CSMIP.replace("12345.678     3.000\n", "12345.678     3.000\n     4.000\n");
+    assert_eq!(refusal(&more, &format), (4, counted(4, 3)));
+    let blank = CSMIP.replace("12345.678     3.000\n", "12345.678     3.000\n\n     4.000\n");
+    assert_eq!(refusal(&blank, &format), (5, counted(4, 3)));
+    let second = CosmosFormat { channel: 2, ..format };
+    assert_eq!(refusal(&format!("{CSMIP} .25\n"), &second), (10, counted(3, 2)));
+    let cosmos = cosmos_text(5.0).replace("10 acceleration pts", "9 acceleration pts");
+    assert_eq!(refusal(&cosmos, &format), (23, counted(10, 9)));
+    let cosmos = cosmos_text(5.0).replace("End-of-data", " 1.25\nEnd-of-data");
+    assert_eq!(refusal(&cosmos, &format), (24, counted(11, 10)));
+}
+
+/// Ten samples with the interval of the data (ms), −999 for unknown; that of the recorder is 20 ms.
+fn cosmos_text(interval: f64) -> String {
     let mut header = vec![-999.0; 100];
-    header[33] = 5.0;
+    (header[33], header[61]) = (0.02, interval);
     let rows: Vec<String> = header
         .chunks(6)
         .map(|row| row.iter().map(|value| format!("{value:13.6}")).collect::<Vec<_>>().concat())
         .collect();
-    let text = format!(
+    format!(
         "Corrected acceleration (Format v01.20 with 13 text lines)\n\
          100 Real-header values follow on  17 lines, Format= (6F13.6)\n{}\n\
-         1 Comment line(s) follow, each starting with a \"|\":\n| acceleration\n\
+         1 Comment line(s) follow, each starting with a \"|\":\n| 3 acceleration pts\n\
          10 acceleration pts, approx  0 secs, units=cm/s^2 (4),Format=(10F8.5)\n\
          -0.00003-0.00004-0.00004-0.00004-0.00004-0.00004-0.00004-0.00004-0.00004 9.99999\n\
          End-of-data for Chan  1 acceleration\n",
         rows.join("\n")
-    );
+    )
+}
+
+#[test]
+fn cosmos_takes_the_interval_from_its_real_header() {
+    let text = cosmos_text(5.0);
+    let format = CosmosFormat::default();
     let mut wanted = [-4e-7; 10];
     (wanted[0], wanted[9]) = (-3e-7, 0.0999_999);
-    same(&read(&text, &CosmosFormat::default()).unwrap(), 0.005, &wanted);
-    let unknown = text.replace("     5.000000", "  -999.000000");
-    let (_, reason) = refusal(&unknown, &CosmosFormat::default());
+    same(&read(&text, &format).unwrap(), 0.005, &wanted);
+    // Only that of the recorder is known.
+    let recorder = cosmos_text(-999.0);
+    same(&read(&recorder, &format).unwrap(), 0.02, &wanted);
+    let (_, reason) = refusal(&recorder.replace("     0.020000", "  -999.000000"), &format);
     assert_eq!(reason, RecordError::Missing { quantity: "sampling interval" });
     let counts = text.replace("cm/s^2 (4)", "counts (50)");
-    let (_, reason) = refusal(&counts, &CosmosFormat::default());
-    assert!(matches!(reason, RecordError::NotAcceleration { .. }));
+    assert!(matches!(refusal(&counts, &format).1, RecordError::Unprocessed { .. }));
+    let contradicted = text.replace("cm/s^2 (4)", "cm/s^2 (2)");
+    assert!(matches!(refusal(&contradicted, &format).1, RecordError::NotAcceleration { .. }));
+    // The title's duration.
+    for seconds in [3, 50, 1000] {
+        let text = text.replace("approx  0 secs", &format!("approx  {seconds} secs"));
+        let (line, reason) = refusal(&text, &format);
+        assert!(line == 22 && matches!(reason, RecordError::Contradiction { .. }), "{reason}");
+    }
 }
 
 /// What Fortran prints without a space between.
@@ -222,7 +256,7 @@ fn units_of_cosmos_files_are_words() {
         CSMIP.replace("in cm/sec2. (8f10.3)", units).replace("Corrected", "Galileo Street")
     };
     let unit = AccelerationUnit::MetrePerSecondSquared;
-    for units in ["in mgal. (8f10.3)", "units=mgal", "in cm/sec. (8f10.3)", "units=counts (50)"] {
+    for units in ["in mgal. (8f10.3)", "units=mgal", "in cm/sec. (8f10.3)", "units=mg (11)"] {
         for format in
             [CosmosFormat::default(), CosmosFormat { unit: Some(unit), ..CosmosFormat::default() }]
         {
@@ -271,7 +305,7 @@ fn el_centro_survives_all_formats() {
     );
     let gal: Vec<f64> = record.accelerations().iter().map(|a| a * 100.0).collect();
     let mut header = vec![-999.0; 100];
-    header[33] = 20.0;
+    (header[33], header[61], header[62], header[63]) = (0.02, 20.0, 31.2, 312.655);
     let cosmos = format!(
         "Corrected acceleration (Format v01.20 with 13 text lines)\n\
          100 Real-header values follow on  17 lines, Format= (6F13.6)\n{}\

@@ -275,6 +275,11 @@ fn units_and_formats_of_csmip_and_cosmos_are_whole() {
         (".01 sec, units=cm/s^2 (4),Format=(1F15.6E)", 0.01),
         (".01 sec, in g. (*)", GRAVITY),
         (".01 sec, units=g , format=8f10.3", GRAVITY),
+        (".01 SEC.  (UNITS: CM/SEC/SEC)", 0.01),
+        (".01 SEC  (UNITS: CM/SEC/SEC)  (8F10.3)", 0.01),
+        (".01 SEC.  (UNITS = G)", GRAVITY),
+        (".01 SEC.  (UNITS ARE CM/SEC**2)", 0.01),
+        (".01 sec, in units of g .  Format: (8f10.3)", GRAVITY),
         (".01 sec. (8f10.3)", 1.0),
     ] {
         let wanted = [1.0, -2.0, 3.0, 4.0].map(|a| a * factor);
@@ -305,9 +310,9 @@ fn fields_without_a_point_have_fortrans() {
         println!("{layout}: {body:?}");
         same(&read(&in_columns(layout, body), &format).unwrap(), 0.01, &wanted);
     }
-    // The interval among the real header values, ms.
+    // The recorder's interval among the real header values, s.
     let mut values = vec!["      -999000"; 36];
-    values[33] = "         5000";
+    values[33] = "            5";
     let header: Vec<String> = values.chunks(6).map(<[_]>::concat).collect();
     let cosmos = format!(
         "36 Real-header values follow on   6 lines, Format= (6F13.3)\n{}\n\

@@ -424,4 +424,9 @@ impl RecordFormat for Double {
         self.0.asked("parse");
         Err(refusal())
     }
+
+    fn parse_all(&self, _: &str, _: &mut dyn std::io::Read) -> Result<Vec<(String, Record)>> {
+        self.0.asked("parse_all");
+        Err(refusal())
+    }
 }

@@ -206,6 +206,7 @@ fn boxed_kernels() {
 fn boxed_formats() {
     fn ask(part: impl RecordFormat) {
         assert_eq!(part.parse("", &mut &b""[..]), Err(doubles::refusal()));
+        assert_eq!(part.parse_all("", &mut &b""[..]), Err(doubles::refusal()));
     }
     let log = Log::default();
     let part: Box<dyn RecordFormat> = Box::new(Double::new(&log));

@@ -1,0 +1,139 @@
+//! A block of numbers under a title that says what they are, as COSMOS and CSMIP have it.
+
+use super::AccelerationUnit;
+use super::agreement;
+use super::fixed_columns::FixedColumns;
+use super::lines::{Lines, Reason, count, line_after_block, read_numbers, scaled};
+use super::unit::unclear;
+use crate::error::RecordError;
+use crate::text::column::finite;
+
+/// What a title says of the numbers below it.
+pub(super) struct Block {
+    pub(super) points: usize,
+    /// s.
+    pub(super) step: f64,
+    pub(super) unit: AccelerationUnit,
+    pub(super) columns: Option<FixedColumns>,
+    /// Peak that the header states, in the unit of the block.
+    pub(super) peak: Option<f64>,
+}
+
+impl Block {
+    /// The samples (m/s²), and the line after them.
+    pub(super) fn read(&self, lines: &mut Lines) -> Reason<(Vec<f64>, Option<String>)> {
+        let values = read_numbers(lines, self.points, self.columns)?;
+        let factor = self.unit.in_metres_per_second_squared();
+        let samples = scaled(values, factor);
+        if let Some(peak) = self.peak {
+            agreement::peak(&samples, peak * factor).map_err(|reason| lines.refuse(reason))?;
+        }
+        let next = line_after_block(lines, self.points)?;
+        Ok((samples, next))
+    }
+}
+
+/// The number that a title begins with.
+pub(super) fn points(title: &str, quantity: &'static str) -> Result<usize, RecordError> {
+    let first = title.split_whitespace().next();
+    first.and_then(|field| count(finite(field)?)).ok_or(RecordError::Missing { quantity })
+}
+
+/// A time step of more than zero.
+pub(super) fn step(value: Option<f64>) -> Result<f64, RecordError> {
+    let missing = RecordError::Missing { quantity: "sampling interval" };
+    value.filter(|&step| step > 0.0).ok_or(missing)
+}
+
+/// Columns of the format in a title, whose text after the unit must say nothing else.
+pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, RecordError> {
+    if !FixedColumns::is_all_of(rest) {
+        return Err(unclear("unit or format", rest.trim()));
+    }
+    Ok(FixedColumns::find(title))
+}
+
+/// The unit that `text`, the part of a title from the unit's name on, begins with, and the text behind it.
+pub(super) fn unit<'a>(
+    title: &str,
+    text: &'a str,
+) -> Result<(AccelerationUnit, &'a str), RecordError> {
+    let signs = text.find([',', '(', ')']).unwrap_or(text.len());
+    let end = text.find("format").unwrap_or(text.len()).min(signs);
+    let (name, rest) = text.split_at(end);
+    let name = name.trim_matches([' ', '\t', '.']);
+    let excerpt = || title.chars().take(60).collect();
+    if is_raw(name) {
+        return Err(RecordError::Unprocessed { kind: RAW, text: excerpt() });
+    }
+    let code = rest.trim_start_matches([' ', ',']).strip_prefix('(');
+    let code = code.and_then(|rest| rest.split_once(')')?.0.trim().parse().ok());
+    let unit = AccelerationUnit::named(name);
+    let unit = unit.filter(|&unit| code.is_none_or(|code| of_code(code) == Some(unit)));
+    let unit = unit.ok_or_else(|| RecordError::NotAcceleration { text: excerpt() })?;
+    Ok((unit, rest.trim_start_matches(')')))
+}
+
+/// The unit of a code of COSMOS (format 1.20, table 2).
+pub(super) fn of_code(code: i64) -> Option<AccelerationUnit> {
+    match code {
+        2 => Some(AccelerationUnit::StandardGravity),
+        4 | 10 => Some(AccelerationUnit::Gal),
+        7 => Some(AccelerationUnit::InchPerSecondSquared),
+        _ => None,
+    }
+}
+
+/// Unit of a title without one: the one that is known otherwise, unless another stands in the title.
+pub(super) fn unnamed(
+    title: &str,
+    known: Option<AccelerationUnit>,
+) -> Result<AccelerationUnit, RecordError> {
+    let words = title.split([' ', '\t', ',', '(', ')']);
+    let mut others = words.filter_map(AccelerationUnit::named);
+    let known = known.filter(|&unit| others.all(|word| word == unit));
+    known.ok_or_else(|| RecordError::NotAcceleration { text: title.chars().take(60).collect() })
+}
+
+/// Kind of data in counts.
+const RAW: &str = "raw counts of a recorder";
+
+/// Whether a unit is that of numbers before a recorder's sensitivity is applied.
+fn is_raw(name: &str) -> bool {
+    matches!(name, "count" | "counts" | "cnt" | "cnts" | "volt" | "volts" | "mvolts" | "mv" | "v")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_whole_words() {
+        use AccelerationUnit::{Gal, InchPerSecondSquared, StandardGravity};
+        for (text, known) in [
+            ("cm/s^2 (4),format=(8f10.5)", Gal),
+            ("cm/sec2(04),format=(1e15.6)", Gal),
+            ("gal (10)", Gal),
+            ("g,format=(8f10.5)", StandardGravity),
+            ("g.     (02)format=(8f9.6)", StandardGravity),
+            ("g .      format: (8f9.6)", StandardGravity),
+            ("in/sec2 (07)", InchPerSecondSquared),
+            ("cms/sec/sec)   (8f10.3)", Gal),
+        ] {
+            let (found, rest) = unit("title", text).unwrap();
+            assert!(found == known && FixedColumns::is_all_of(rest), "{text}");
+        }
+        for text in ["mgal", "mg (8f10.3)", "", "cm/sec,", "g (4)", "cm/s^2 (25)", "cm/s^2 (50)"] {
+            let error = unit("title", text).unwrap_err();
+            assert!(matches!(error, RecordError::NotAcceleration { .. }), "{text}: {error}");
+        }
+        for text in ["counts (50),format=(10i8)", "volts", "counts(50)"] {
+            let error = unit("title", text).unwrap_err();
+            assert!(matches!(error, RecordError::Unprocessed { .. }), "{text}: {error}");
+        }
+        assert_eq!(unnamed("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)), Ok(Gal));
+        assert_eq!(unnamed("4 points, in the gallery", Some(Gal)), Ok(Gal));
+        assert!(unnamed("4 points equally spaced at .010 sec.", None).is_err());
+        assert!(unnamed("4 points equally spaced at .010 sec. g (8f10.3)", Some(Gal)).is_err());
+    }
+}

@@ -1,0 +1,136 @@
+//! Records of the Japanese networks K-NET and KiK-net, as ASCII.
+//!
+//! Layout: National Research Institute for Earth Science and Disaster Resilience, *About K-NET ASCII format* and
+//! *About KiK-net ASCII format* (kyoshin.bosai.go.jp, `man/knetform_en.html`).
+
+use std::io::Read;
+
+use super::agreement;
+use super::lines::{Lines, Reason, Series, push_numbers, record, records, scaled};
+use super::unit::{HeaderNumber, unclear};
+use super::{AccelerationUnit, Record, RecordFormat};
+use crate::error::{RecordError, Result};
+use crate::text::column::finite;
+
+/// The ASCII files of the Japanese networks K-NET and KiK-net.
+///
+/// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder; the
+/// acceleration is the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of
+/// samples must be `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak `Max. Acc. (gal)`, but
+/// for the baseline. Counts have an offset: follow with
+/// [`Record::with_baseline`], at least
+/// [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
+///
+/// ```
+/// use basemat::motion::{KNetFormat, Record};
+/// let text = "Origin Time       2011/03/11 14:46:00\nStation Code      MYG004\n\
+///     Sampling Freq(Hz) 2Hz\nDuration Time(s)  3\nDir.              N-S\n\
+///     Scale Factor      2000(gal)/1000\nMemo.\n 1 2 3 4\n 5 -6\n";
+/// let record = Record::from_reader("MYG004.NS", text.as_bytes(), &KNetFormat)?;
+/// assert_eq!((record.len(), record.time_step()), (6, 0.5));
+/// assert!((record.accelerations()[5] + 0.12).abs() < 1e-15);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct KNetFormat;
+
+impl RecordFormat for KNetFormat {
+    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
+        record(name, read(&mut Lines::new(source)))
+    }
+
+    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
+        records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
+    }
+}
+
+/// Entries that the header must have.
+#[derive(Default)]
+struct Header {
+    frequency: Option<f64>,
+    duration: Option<f64>,
+    /// Gal in a count.
+    scale: Option<f64>,
+    /// Peak after the mean was removed, gal.
+    peak: Option<f64>,
+    /// `N-S`, `E-W` and `U-D`, or a channel of KiK-net from 1 to 6.
+    direction: String,
+}
+
+fn read(lines: &mut Lines) -> Reason<Series> {
+    let mut header = Header::default();
+    loop {
+        let Some(line) = lines.next()? else {
+            return Err(lines.refuse(RecordError::Missing { quantity: "line `Memo.`" }));
+        };
+        if line.starts_with("Memo") {
+            break;
+        }
+        let understood = header.read(&line);
+        understood.map_err(|reason| lines.refuse(reason))?;
+    }
+    let need = |value: Option<f64>, quantity| {
+        value.ok_or_else(|| lines.refuse(RecordError::Missing { quantity }))
+    };
+    let frequency = need(header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
+    let duration = need(header.duration, "duration (`Duration Time(s)`)")?;
+    let scale = need(header.scale, "scale (`Scale Factor`, gal per count)")?;
+
+    let mut values = Vec::new();
+    while let Some(line) = lines.next()? {
+        push_numbers(&line, &mut values).map_err(|reason| lines.refuse(reason))?;
+    }
+    let found = values.len();
+    let needed = (duration * frequency).round();
+    if needed != found as f64 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let needed = needed as usize;
+        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+    }
+    if found < 2 {
+        return Err(lines.refuse(RecordError::TooShort { found, needed: 2 }));
+    }
+    let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
+    let samples = scaled(values, scale * gal);
+    let peak = header.peak.unwrap_or(0.0) * gal;
+    agreement::peak(&samples, peak).map_err(|reason| lines.refuse(reason))?;
+    Ok(Series { name: header.direction, step: 1.0 / frequency, samples })
+}
+
+impl Header {
+    /// Notes what a line of the header says, if it is one of those that are needed.
+    fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
+        let positive = |quantity: HeaderNumber, unit| match line.split_once(unit) {
+            Some((_, text)) => Ok(quantity.read(text)?.filter(|&value| value > 0.0)),
+            None => Ok::<_, RecordError>(None),
+        };
+        let (known, value) = if line.starts_with("Sampling Freq") {
+            (&mut self.frequency, positive(HeaderNumber::Frequency, "(Hz)")?)
+        } else if line.starts_with("Duration Time") {
+            (&mut self.duration, positive(HeaderNumber::Duration, "(s)")?)
+        } else if let Some(factor) = line.strip_prefix("Scale Factor") {
+            (&mut self.scale, scale(factor.trim())?)
+        } else if line.starts_with("Max") && line.contains("(gal)") {
+            (&mut self.peak, positive(HeaderNumber::Peak, "(gal)")?)
+        } else if let Some(direction) = line.strip_prefix("Dir.") {
+            direction.trim().clone_into(&mut self.direction);
+            return Ok(());
+        } else {
+            return Ok(());
+        };
+        if known.is_some() && *known != value {
+            return Err(unclear("repeated line", line));
+        }
+        *known = value;
+        Ok(())
+    }
+}
+
+/// Gal in a count: `3920(gal)/6182761`. None if the text is not of that kind, or no scale.
+fn scale(text: &str) -> std::result::Result<Option<f64>, RecordError> {
+    let Some((range, counts)) = text.split_once("(gal)/") else { return Ok(None) };
+    let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));
+    let scale = value(range)? / value(counts)?;
+    Ok((scale.is_finite() && scale != 0.0).then_some(scale))
+}
