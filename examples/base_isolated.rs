@@ -4,10 +4,11 @@
 //! cargo run --release --example base_isolated
 //! ```
 //!
-//! The building stands directly on its basemat, elastic or with columns that yield, on friction pendulums, and on
-//! lead–rubber bearings. The pendulums' law has the static weight and one friction coefficient: no vertical motion, no
-//! dependence on speed. In all cases the basemat may uplift and slide on the soil. The hysteretic laws turn a drift
-//! into a force; the energy balance has the heat that they made.
+//! The building stands directly on its basemat (elastic, or with columns that yield), on friction pendulums,
+//! and on lead–rubber bearings. The law of the pendulums uses the static weight and one friction coefficient;
+//! it neglects vertical motion and the influence of speed. In all cases the basemat may uplift and slide on
+//! the soil. The hysteretic laws return a force for a drift; the energy balance includes the energy that they
+//! dissipate.
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -17,15 +18,17 @@ const FLOORS: usize = 5;
 const FLOOR_MASS: f64 = 20.0e3;
 const SLAB_MASS: f64 = 30.0e3;
 
-/// Five storeys of 3 m, per metre of thickness, with 2 % of critical damping at the fixed-base frequency. The damping
-/// does not change where columns yield.
+/// Five storeys of 3 m, per metre of thickness, with 2 % of critical damping at the fixed-base frequency.
+///
+/// The damping does not change where columns yield.
 fn building() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOORS];
     ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.02)
 }
 
-/// Runs 20 s of El Centro, with a probe for the drift of each of the lowest `levels` and one for the acceleration of
-/// the roof.
+/// Runs 20 s of El Centro, with probes for drifts and for the roof acceleration.
+///
+/// The lowest `levels` levels get one drift probe each.
 fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let mut probes = vec![Probe::acceleration("roof", structure.roof())];
@@ -61,7 +64,7 @@ fn main() -> Result<()> {
         ("lead-rubber", building()?.isolated(level, rubber)?),
     ];
     let direct = [("elastic", building()?), ("yielding", yielding)];
-    // Bearings are the lowest level of an isolated building.
+    // In an isolated building the lowest level is the bearings.
     let cases = direct.map(|case| (case, 0)).into_iter().chain(isolated.map(|case| (case, 1)));
 
     println!("                   bearing  1st storey  roof     base     uplift  input  hysteresis");

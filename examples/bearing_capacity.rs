@@ -4,8 +4,8 @@
 //! cargo run --release --example bearing_capacity
 //! ```
 //!
-//! The soil beneath an element sinks permanently where the pressure reaches q, and the half-plane below stays elastic.
-//! The lower q is, the more the edges sink, the less the block is shaken, and the more it leans.
+//! The soil beneath an element settles permanently where the pressure reaches q; the half-plane below stays
+//! elastic. A lower q makes the edges settle more, the block shake less, and the block lean more.
 
 use basemat::Result;
 use basemat::interface::Yielding;

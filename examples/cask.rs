@@ -1,14 +1,14 @@
-//! A spent-fuel cask that stands free on a concrete pad, beside Newmark's sliding block and a slice in plane strain.
+//! A free-standing spent-fuel cask on a concrete pad, compared with a sliding block and a plane-strain slice.
 //!
 //! ```text
 //! cargo run --release --example cask
 //! ```
 //!
-//! Three records at once shake a cylinder 3.4 m wide and 5.6 m high on a stiff pad over soil of 200 m/s. With friction
-//! 0.3 it slides; with 0.8 it rocks on its rim and walks along it. Newmark's block is rigid on rigid ground, under one
-//! record. The slice, a wall of the same section, also has one record, and stands on an edge instead of a rim. Other
-//! cells and steps change sliding by a few percent; walking depends on every impact, and changes by factors of up to
-//! four.
+//! A cylinder 3.4 m wide and 5.6 m high stands on a stiff pad over soil of 200 m/s. Three records shake it at
+//! the same time. With friction 0.3 it slides; with 0.8 it rocks on its rim and walks along it. Newmark's
+//! block is rigid on rigid ground, under one record. The slice, a wall of the same section, also has one
+//! record; it rocks on an edge instead of a rim. Other cells and steps change sliding by a few percent.
+//! Walking depends on every impact, and changes by factors of up to four.
 
 use basemat::bem::plan::Plan;
 use basemat::motion::Triaxial;
@@ -26,7 +26,7 @@ const DENSITY: f64 = 3200.0;
 const STEP: f64 = 0.00125;
 const STEPS: usize = 4800;
 
-/// A pad 1.5 m thick on soil of 200 m/s, both without lateral ends and with 3 % damping.
+/// Pad 1.5 m thick on soil of 200 m/s; both are laterally unbounded and have 3 % damping.
 fn pad() -> basemat::Result<SoilProfile> {
     let damping = || GeneralizedMaxwell::constant_q(0.03, [0.1, 30.0], 1.0);
     let soil = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
@@ -35,10 +35,10 @@ fn pad() -> basemat::Result<SoilProfile> {
     Ok(base.with_layer(pad, 1.5)?.with_damping(damping()?))
 }
 
-/// Runs the cask under `motion`, and returns its time series too.
+/// Runs the cask under `motion`; returns the run and its time series.
 fn cask(friction: f64, motion: &Triaxial) -> basemat::Result<(Run, TimeSeries)> {
     let body = RigidBody::cylinder(0.5 * DIAMETER, HEIGHT, DENSITY)?;
-    // Cells on a disc, eight to its diameter.
+    // Cells on a disc, eight along its diameter.
     let disc = Plan::disc([0.0; 2], 0.5 * DIAMETER, 8)?;
     let mut simulation = Simulation::builder(STEP)
         .structure(body.with_p_delta(STANDARD_GRAVITY)?)
@@ -66,7 +66,8 @@ fn slice(friction: f64, record: &Record) -> basemat::Result<Run> {
 }
 
 fn main() -> basemat::Result<()> {
-    // Only one record is built in: it arrives along y half a second later, and vertically a second later.
+    // The crate contains one record only. The same record therefore acts along y half a second later, and
+    // vertically a second later.
     let record = el_centro_1940().scaled(2.0)?;
     let late = |factor: f64, quiet: f64| record.scaled(factor)?.padded(quiet, 0.0);
     let x = Some(record.clone());

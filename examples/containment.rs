@@ -5,9 +5,10 @@
 //! cargo run --release --example containment
 //! ```
 //!
-//! Five runs as in the paper's Table 1: bonded, uplift only, friction 0.4, 0.3 and 0.2. Prints a table; writes
-//! time series as CSV and pictures to `target/containment`. The figure with the dimensions is lost: contact
-//! length and height are calibrated on the first two rows of Table 1, the density of the soil is assumed.
+//! Five runs as in the paper's Table 1: bonded, uplift only, friction 0.4, 0.3 and 0.2. Prints a table;
+//! writes time series as CSV and pictures to `target/containment`. The paper's figure with the dimensions is
+//! not available. Contact length and height are therefore calibrated on the first two rows of Table 1, and
+//! the density of the soil is assumed.
 
 use std::path::Path;
 
@@ -52,7 +53,7 @@ fn structure() -> Result<FemModel> {
     FemModel::on_base(Mesh::layered_block(-half..half, ELEMENTS, &[foundation, superstructure])?)
 }
 
-/// Runs the whole record, and returns its time series too.
+/// Runs the whole record; returns the run and its time series.
 fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
     let model = structure()?;
     let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
@@ -85,7 +86,7 @@ fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
 
 fn main() -> Result<()> {
     let out = Path::new("target/containment");
-    // Runs are independent: with the feature `rayon`, as many at a time as there are processors.
+    // Runs are independent: with the feature `rayon`, they run in parallel on all processors.
     let runs = Sweep::new(CASES.len()).collect(|case| shake(CASES[case.index].1));
     let runs: Vec<_> = runs.into_iter().collect::<std::result::Result<_, _>>()?;
     println!(

@@ -4,8 +4,9 @@
 //! cargo run --release --example eccentric_building
 //! ```
 //!
-//! Four floors of 20 × 12 m on a mat are shaken across their long side. A stiff staircase moves the centre of stiffness
-//! 5 m to the left, so the right end drifts most. The mat twists on the soil, which takes part of that drift.
+//! Four floors of 20 × 12 m on a mat are shaken across their long side. A stiff staircase moves the centre of
+//! stiffness 5 m to the left, so the right end drifts most. The mat twists on the soil, which reduces that
+//! drift.
 
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
@@ -14,14 +15,14 @@ use basemat::structure::{ModalDamping, PlanStorey, RigidBody, StoreyBuilding};
 const SIDES: [f64; 2] = [20.0, 12.0];
 const STEP: f64 = 0.005;
 
-/// The building with its walls at this distance from the middle (m).
+/// The building with its walls at the distance `eccentricity` (m) from the middle.
 fn building(eccentricity: f64) -> basemat::Result<StoreyBuilding> {
     let mat = RigidBody::cuboid([SIDES[0], SIDES[1], 1.0], 2500.0)?;
     let storey = PlanStorey::new(3.2, 240.0e3, SIDES, [4.0e8, 3.0e8, 1.5e10]);
     StoreyBuilding::new(mat, &[PlanStorey { stiffness_center: [eccentricity, 0.0], ..storey }; 4])
 }
 
-/// Largest drifts across of the lowest storey at the left and at the right end (mm), and the run.
+/// Largest transverse drifts of the lowest storey at its left and right end (mm), and the run.
 fn shake(eccentricity: f64, law: impl InterfaceLaw + 'static) -> basemat::Result<([f64; 2], Run)> {
     let own = building(eccentricity)?;
     let [left, right] = [-0.5, 0.5].map(|part| own.drift_at(0, [part * SIDES[0], 0.0]));

@@ -1,12 +1,12 @@
-//! A building that may uplift on soft clay, with the properties of small strain and with strain-compatible ones.
+//! A building that may uplift on soft clay, with small-strain and with strain-compatible soil properties.
 //!
 //! ```text
 //! cargo run --release --example equivalent_linear
 //! ```
 //!
-//! The record, El Centro at 0.3 g, is that of the rock's outcrop. Strain-compatible moduli and damping are iterated
-//! with the curves of Vucetic & Dobry and of EPRI; the building's ground and surface motion follow from them. Writes
-//! wave speeds, strains and spectra to `target/equivalent_linear.svg`.
+//! The record, El Centro at 0.3 g, is the motion of the rock's outcrop. Strain-compatible moduli and damping
+//! are iterated with the curves of Vucetic & Dobry and of EPRI. The building's ground and the surface motion
+//! follow from them. Writes wave speeds, strains and spectra to `target/equivalent_linear.svg`.
 
 use basemat::bem::ElasticGround;
 use basemat::motion::SpectralOrdinate;
@@ -39,7 +39,7 @@ fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
     Ok((profile, curves))
 }
 
-/// Runs fifteen seconds of a six-storey building, and returns the spectrum of its roof too.
+/// Runs fifteen seconds of a six-storey building; returns the run and the spectrum of its roof.
 fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
     let building = ShearBuilding::new(9.0, 60.0e3, 5.0e5, &[Storey::new(3.0, 25.0e3, 70.0e6); 6])?;
     let roof = building.roof();
@@ -66,7 +66,7 @@ fn main() -> Result<()> {
     let compatible = column.equivalent_linear(&rock, &curves, &options)?;
     println!("{compatible}\n\n{}\n", compatible.profile);
 
-    // This site with the properties of small strain.
+    // The same site with small-strain properties.
     let small = |curves: &StrainCurves| Ok(StrainCurves::Linear { damping: curves.at(0.0)?[1] });
     let small = curves.iter().map(small).collect::<Result<Vec<_>>>()?;
     let linear = column.equivalent_linear(&rock, &small, &options)?;

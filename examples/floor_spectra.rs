@@ -4,9 +4,9 @@
 //! cargo run --release --example floor_spectra
 //! ```
 //!
-//! The total acceleration of a floor, recorded by an acceleration probe, is the ground motion of equipment that stands
-//! on it, and its response spectrum is the floor spectrum. Peaks are broadened by 15 % for uncertain properties of soil
-//! and structure (U.S. NRC Regulatory Guide 1.122).
+//! An acceleration probe records the total acceleration of a floor. It is the ground motion of equipment on
+//! that floor, so its response spectrum is the floor spectrum. Peaks are broadened by 15 % for uncertain
+//! properties of soil and structure (U.S. NRC Regulatory Guide 1.122).
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -20,7 +20,8 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); 5];
     let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?;
     let (first, roof) = (building.floor(0)?, building.roof());
-    // Equipment responds to high modes, so each has 5 %; damping proportional to stiffness would give the fifth 34 %.
+    // High modes excite the equipment, so each mode has 5 %; damping proportional to stiffness would give the
+    // fifth 34 %.
     let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
@@ -38,7 +39,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
 }
 
 fn main() -> Result<()> {
-    // Periods fine enough for the peaks; every fourth one is printed, and that of the roof's peak.
+    // Periods are fine enough for the peaks; every fourth one is printed, and the period of the roof's peak.
     let periods = log_spaced(0.05, 2.0, 61)?;
     let (held, free) = (shake(Bonded)?, shake(Coulomb::new(0.25)?)?);
 

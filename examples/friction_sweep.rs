@@ -5,9 +5,10 @@
 //! cargo run --release --features rayon --example friction_sweep
 //! ```
 //!
-//! Each motion of a small set is scaled to one peak acceleration, all cases are run, and the fraction of motions with
-//! more slip than a limit makes a row of a fragility table. The set is far too small for a design; it shows the method.
-//! [`Sweep`] runs the cases on all processors if the crate is built with the feature `rayon`.
+//! Each motion of a small set is scaled to the same peak acceleration, and all cases are run. The fraction of
+//! motions with more slip than a limit is one row of a fragility table. The set is far too small for a
+//! design; it shows the method. [`Sweep`] runs the cases on all processors if the crate is built with the
+//! feature `rayon`.
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -16,10 +17,10 @@ const FRICTIONS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
 /// Peak accelerations, g.
 const PEAKS: [f64; 4] = [0.2, 0.3, 0.45, 0.6];
 
-/// Slip that counts as too much, m.
+/// Slip above which a motion counts in the fraction, m.
 const LIMIT: f64 = 0.025;
 
-/// The ensemble: El Centro as it is, compressed and stretched in time, and sine pulses.
+/// Set of motions: El Centro unchanged, compressed and stretched in time, and sine pulses.
 fn motions() -> Result<Vec<(&'static str, Record)>> {
     let record = el_centro_1940();
     let stretched =
@@ -55,8 +56,8 @@ fn main() -> Result<()> {
     let motions = motions()?;
     let (kinds, peaks) = (motions.len(), PEAKS.len());
 
-    // Every combination is a case; the last parameter varies fastest. A case that fails has a row that says why, and
-    // does not stop the others.
+    // Every combination is a case; the last parameter varies fastest. The row of a case that fails holds its
+    // error; the other cases continue.
     let sweep = Sweep::grid([
         Parameter::numbers("friction", FRICTIONS),
         Parameter::numbers("peak_g", PEAKS),

@@ -4,9 +4,10 @@
 //! cargo run --release --example from_matrices
 //! ```
 //!
-//! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals writes them into
-//! `target`. The files are read back, contact nodes are named, and a Craig–Bampton reduction keeps these and the lowest
-//! modes of the rest. Two periods of the full model are computed as well, to compare.
+//! Usually another program writes `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals writes them
+//! into `target`. The files are read back and contact nodes are named. A Craig–Bampton reduction keeps these
+//! nodes and the lowest modes of the rest. Two periods of the full model are computed as well, for
+//! comparison.
 
 use std::path::Path;
 use std::time::Instant;
@@ -19,11 +20,12 @@ use basemat::structure::{CraigBampton, DofCombination, MatrixModel};
 
 const TIME_STEP: f64 = 0.01;
 const MODES: usize = 20;
-/// Steps in two of the tower's longest periods, 2.1 s each.
+/// Number of steps in two of the tower's longest periods, 2.1 s each.
 const TWO_PERIODS: usize = 430;
 
-/// Writes the matrices of a tower, 10 m wide and 100 m high, of quadrilaterals of 0.2 m; returns its contact nodes and
-/// the displacement of its top.
+/// Writes the matrices of a tower; returns its contact nodes and the displacement of its top.
+///
+/// The tower is 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
 fn write_files(
     mass_file: &Path,
     stiffness_file: &Path,
@@ -58,7 +60,7 @@ fn scene(
         .build()
 }
 
-/// Runs, and returns the displacement of the top at every step, and seconds per step.
+/// Runs the simulation; returns the displacement of the top at every step, and the seconds per step.
 fn march(simulation: &mut Simulation, steps: usize) -> Result<(Vec<f64>, f64)> {
     let start = Instant::now();
     let mut sway = Vec::new();

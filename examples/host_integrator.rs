@@ -1,13 +1,14 @@
-//! A program with a time integrator of its own (central differences for the structure), which takes the ground and the
-//! contact problem of each step from the crate.
+//! A program with its own time integrator, which uses the crate for the ground and the contact of each step.
+//!
+//! The structure is integrated by central differences.
 //!
 //! ```text
 //! cargo run --release --example host_integrator
 //! ```
 //!
-//! The structure is a rigid base with a mass on a column: degrees of freedom are base to the right, base up,
-//! rotation, mass to the right. Its mass matrix is diagonal, so a step needs no solve:
-//! `u₁ = 2u₀ − u₋₁ + Δt² M⁻¹ (−K u₀ − BᵀA τ)`, and `W = G¹ + Δt² B M⁻¹ BᵀA`.
+//! The structure is a rigid base with a mass on a column. Its degrees of freedom are base to the right, base
+//! up, rotation, mass to the right. Its mass matrix is diagonal, so a step needs no solve: `u₁ = 2u₀ − u₋₁ +
+//! Δt² M⁻¹ (−K u₀ − BᵀA τ)`, and `W = G¹ + Δt² B M⁻¹ BᵀA`.
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::ContactProblem;
@@ -22,7 +23,7 @@ const HEIGHT: f64 = 6.0;
 const MASS: [f64; 4] = [10.0e3, 30.0e3, 40.0e3, 20.0e3];
 const COLUMN: f64 = 4.0e6;
 
-/// Element means of the base displacement (2Q, normal components down), for elements at `centers`.
+/// Element means of the base displacement for elements at `centers` (2Q, normal components down first).
 fn base(u: &[f64; 4], centers: &[f64]) -> Vec<f64> {
     let down = centers.iter().map(|x| -(u[1] + x * u[2]));
     down.chain(centers.iter().map(|_| u[0])).collect()
@@ -63,7 +64,7 @@ fn main() -> Result<()> {
         }
     }
 
-    // The weight, spread evenly when the run begins.
+    // The weight is spread evenly at the beginning of the run.
     let pressure = STANDARD_GRAVITY * MASS[1] / (2.0 * HALF_WIDTH);
     let mut at_rest = vec![0.0; size];
     at_rest[..count].fill(pressure);
@@ -94,7 +95,8 @@ fn main() -> Result<()> {
         peak = if shear.abs() > peak.abs() { shear } else { peak };
         open = open.max(solution.modes.iter().filter(|mode| !mode.is_closed()).count());
         slip = solution.states.iter().fold(slip, |most, s| most.max(s.slip.abs()));
-        // The step is accepted: its end is the previous contact of the next one, state variables of the laws included.
+        // Accepts the step: its end, with the laws' state variables, becomes the previous contact of the next
+        // step.
         solution.commit(&mut start)?;
         (before, now) = (now, next);
     }

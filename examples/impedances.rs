@@ -4,11 +4,11 @@
 //! cargo run --release --example impedances
 //! ```
 //!
-//! A strip 6 m wide is bonded to soil of 150 m/s: an undamped half-plane; a layer of 6 m with 5 % damping on rock of
-//! 450 m/s with 1 %; and that layer on a rigid base. Every K(ω) is split into a spring Re K and a dashpot Im K/ω. The
-//! half-plane's dashpots are radiation damping alone. Those of the layers contain the soil's own damping, and hardly
-//! anything else below the first frequency of the layer, 6.25 Hz: a half-plane overestimates the damping of such a
-//! site.
+//! A strip 6 m wide is bonded to soil of 150 m/s in three cases: an undamped half-plane; a layer of 6 m with
+//! 5 % damping on rock of 450 m/s with 1 %; and the same layer on a rigid base. Every K(ω) is split into a
+//! spring Re K and a dashpot Im K/ω. The dashpots of the half-plane represent radiation damping only. The
+//! dashpots of the layers contain the soil's own damping, and almost nothing else below the first frequency
+//! of the layer, 6.25 Hz. A half-plane therefore overestimates the damping of such a site.
 
 use std::error::Error;
 use std::path::Path;
@@ -21,14 +21,14 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 
 /// Half the strip's width, m.
 const HALF: f64 = 3.0;
-/// Elements, graded: errors below 1 %.
+/// Number of elements, graded: errors below 1 %.
 const ELEMENTS: usize = 24;
 const COMPONENTS: [&str; 4] = ["hh", "vv", "rr", "hr"];
 
 /// A ground's name and its impedances.
 type Case = (&'static str, Vec<StripImpedance>);
 
-/// K over μ, μ, μ B² and μ B, as tables have it: real and imaginary parts.
+/// K over μ, μ, μ B² and μ B, as in published tables: real and imaginary parts.
 fn normalized(found: &StripImpedance, soil: Soil) -> [[f64; 2]; 4] {
     let scales = [1.0, 1.0, HALF * HALF, HALF].map(|scale| soil.shear_modulus() * scale);
     let values = [found.horizontal, found.vertical, found.rocking, found.coupling];
@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = Path::new("target/impedances");
     let soil = Soil::from_shear_wave_speed(150.0, 1.0 / 3.0, 1800.0)?;
     let rock = Soil::from_shear_wave_speed(450.0, 0.3, 2160.0)?;
-    // Constant over the band; the soils' stiffness is that at 4 Hz.
+    // Damping is constant over the band; the moduli of the soils apply at 4 Hz.
     let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 4.0);
     let on_rock = SoilProfile::on_half_plane(rock).with_base_damping(damping(0.01)?);
     let layer = |profile: SoilProfile| -> basemat::Result<SoilProfile> {
@@ -104,7 +104,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     draw(&cases, out)?;
     println!("\npictures in {}", out.display());
 
-    // Im K/μ, horizontal and vertical, at a₀ = 0.5 from tables of other programs.
+    // Im K/μ, horizontal and vertical, at a₀ = 0.5, from tables of other programs.
     for ((name, found), wanted) in
         cases.iter().zip([[1.315, 2.019], [0.602, 0.934], [0.256, 0.490]])
     {

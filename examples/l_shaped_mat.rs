@@ -1,11 +1,12 @@
-//! An L-shaped mat given by matrices that lifts and slides: one record along x, a response in all directions.
+//! An L-shaped mat given by matrices that uplifts and slides: a record along x, motion in all directions.
 //!
 //! ```text
 //! cargo run --release --example l_shaped_mat
 //! ```
 //!
-//! Two rigid wings of 24 × 8 m and 8 × 12 m, 18 m high, stand on one mat on soil of 250 m/s. The mass matrix is written
-//! by hand, as another program would give it; the base has two faces. Writes a picture of the contact to `target`.
+//! Two rigid wings of 24 × 8 m and 8 × 12 m, 18 m high, stand on one mat on soil of 250 m/s. The mass matrix
+//! is written by hand, as another program would provide it; the base has two faces. Writes a picture of the
+//! contact to `target`.
 
 use basemat::motion::Triaxial;
 use basemat::plot::contact_plan;
@@ -19,7 +20,7 @@ const DENSITY: f64 = 350.0;
 /// Point of the degrees of freedom u_x, u_y, u_z, r_x, r_y, r_z: the middle of the bounding box.
 const CENTER: [f64; 2] = [12.0, 10.0];
 
-/// Adds the mass of a cuboid: its centre moves by u + r × (x, y, z), and it turns about that.
+/// Adds the mass of a cuboid. Its centre moves by u + r × (x, y, z), and it rotates about its centre.
 fn add_wing(mass: &mut Triplets, [along, across]: [[f64; 2]; 2]) {
     let [length, width] = [along, across].map(|[low, high]| high - low);
     let m = DENSITY * length * width * HEIGHT;

@@ -1,14 +1,15 @@
-//! One building on four grounds: rock, a half-plane of the surface soil, and the layers of the site without and with
-//! damping.
+//! One building on four grounds: rock, half-plane, and layers without and with damping.
+//!
+//! The half-plane has the properties of the surface soil.
 //!
 //! ```text
 //! cargo run --release --example layered_site
 //! ```
 //!
-//! The record, El Centro at 0.15 g, is that of the rock's outcrop. A simulation takes the motion of the free surface:
-//! on rock the record itself, elsewhere what `site::SoilColumn` makes of it on the way up through the damped layers.
-//! The three soils have the same surface motion, so differences come from the ground under the building alone. Writes
-//! floor spectra to `target/layered_site.svg`.
+//! The record, El Centro at 0.15 g, is the motion of the rock's outcrop. A simulation takes the motion of the
+//! free surface. On rock this is the record itself; elsewhere `site::SoilColumn` computes it from the record
+//! and the damped layers. The three soils have the same surface motion, so differences come only from the
+//! ground under the building. Writes floor spectra to `target/layered_site.svg`.
 
 use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::coupled::EnergyTerm;
@@ -24,14 +25,15 @@ const STEP: f64 = 5.0e-3;
 const ELEMENTS: usize = 10;
 const FRICTION: f64 = 0.3;
 
-/// Six metres of soft clay and twelve of sand on rock; shear wave speed, ν, density, thickness,
-/// damping ratio.
+/// Six metres of soft clay and twelve of sand on rock.
+///
+/// Shear wave speed (m/s), ν, density (kg/m³), thickness (m), damping ratio.
 const LAYERS: [(f64, f64, f64, f64, f64); 2] =
     [(150.0, 0.40, 1800.0, 6.0, 0.05), (280.0, 0.35, 1950.0, 12.0, 0.03)];
 const ROCK: (f64, f64, f64, f64) = (800.0, 0.25, 2300.0, 0.01);
 
 fn site(damped: bool) -> Result<SoilProfile> {
-    // A band that contains the frequencies of the record, the building and the layers.
+    // The band contains the frequencies of the record, the building and the layers.
     let law = |ratio: f64| {
         GeneralizedMaxwell::constant_q(if damped { ratio } else { 0.0 }, [0.2, 25.0], 2.0)
     };
@@ -44,7 +46,7 @@ fn site(damped: bool) -> Result<SoilProfile> {
     Ok(profile)
 }
 
-/// Runs ten seconds of a building, and returns the spectrum of its roof too.
+/// Runs ten seconds of a building; returns the run and the spectrum of its roof.
 fn shake(
     motion: &Record,
     ground: impl FnOnce(&dyn Structure) -> Result<Box<dyn Ground>>,
@@ -80,7 +82,7 @@ fn main() -> Result<()> {
             Ok(Box::new(ElasticGround::under(soil, structure, ELEMENTS)?))
         }
     };
-    // Convolution weights of a profile that comes again are computed once.
+    // The convolution weights of a repeated profile are computed once.
     let kernels = SharedKernels::default();
     let layered = |profile: &SoilProfile| {
         let (profile, kernels) = (profile.clone(), kernels.clone());

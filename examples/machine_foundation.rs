@@ -5,9 +5,9 @@
 //! cargo run --release --example machine_foundation
 //! ```
 //!
-//! The unbalance m e turns at the top of the block and pulls outwards with m e ω². Of a bonded block, the amplitude is
-//! that of (K(ω) − ω² M) u = F with the impedances K of the ground. At high speed the machine lifts the block, and the
-//! frequency domain no longer applies.
+//! The unbalance m e rotates at the top of the block and pulls outwards with m e ω². For a bonded block, the
+//! amplitude follows from (K(ω) − ω² M) u = F with the impedances K of the ground. At high speed the machine
+//! lifts the block, and the frequency domain no longer applies.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ use basemat::{Complex, Result};
 
 const WIDTH: f64 = 6.0;
 const HEIGHT: f64 = 2.0;
-/// kg m per metre.
+/// Unbalance m e, kg m per metre.
 const UNBALANCE: f64 = 14.0;
 const TIME_STEP: f64 = 1.0e-3;
 
@@ -31,7 +31,7 @@ fn ground() -> Result<ElasticGround> {
     ElasticGround::new(soil, Strip::graded(-0.5 * WIDTH..0.5 * WIDTH, 16)?)
 }
 
-/// The block under an unbalance at the angle `turned(t)` and the speed `speed(t)` (rad/s).
+/// The block under an unbalance at the angle `turned(t)` (rad) and the speed `speed(t)` (rad/s).
 fn machine(
     turned: impl Fn(f64) -> f64 + Clone + Send + 'static,
     speed: impl Fn(f64) -> f64 + Clone + Send + 'static,
@@ -46,10 +46,10 @@ fn machine(
         .structure(block))
 }
 
-/// Amplitude of the top at a steady `frequency` (Hz) in time: the last ten turns of a run.
+/// Amplitude of the top at a steady `frequency` (Hz), in the time domain: the last ten turns of a run.
 fn marched(frequency: f64) -> Result<f64> {
     let omega = TAU * frequency;
-    // The force grows for ten turns, and the vibration settles for thirty.
+    // The force grows for ten turns, and the vibration becomes steady in thirty.
     let up = move |t: f64| omega * (0.1 * frequency * t).min(1.0).sqrt();
     let mut simulation = machine(move |t| omega * t, up)?.interface(Bonded).build()?;
     let steps = |turns: f64| simulation.steps_for(turns / frequency);
@@ -68,7 +68,9 @@ fn marched(frequency: f64) -> Result<f64> {
     Ok(cosine.hypot(sine))
 }
 
-/// That amplitude by (K(ω) − ω² M) u = F, with u the horizontal displacement of the base and its rotation to the right.
+/// The same amplitude by (K(ω) − ω² M) u = F.
+///
+/// u holds the horizontal displacement of the base and its rotation to the right.
 fn in_frequency_domain(impedance: &StripImpedance) -> Result<f64> {
     let block = foundation()?;
     let square = (TAU * impedance.frequency).powi(2);

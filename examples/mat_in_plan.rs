@@ -1,12 +1,12 @@
-//! Dynamic stiffness of a square mat, beside that of a strip of the same width taken in its place.
+//! Dynamic stiffness of a square mat, compared with a strip of the same width.
 //!
 //! ```text
 //! cargo run --release --example mat_in_plan
 //! ```
 //!
-//! A mat of 20 × 20 m on soil of 200 m/s is compared with 20 m of an endless strip 20 m wide, as a calculation in plane
-//! strain takes it. The strip is softer, because its parts share their soil, and radiates more, above all in rocking.
-//! Plane strain makes square mats rock too little.
+//! A mat of 20 × 20 m on soil of 200 m/s is compared with 20 m of an endless strip 20 m wide, its usual model
+//! in plane strain. The strip is softer, because its parts share the soil. It also radiates more, above all
+//! in rocking. Plane strain therefore underestimates the rocking of square mats.
 
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
@@ -24,7 +24,7 @@ fn main() -> basemat::Result<()> {
     let unit = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF);
     let frequencies = [0.25, 0.5, 1.0].map(|a0| a0 * unit);
 
-    // 16 cells along a side; the outermost reach a tenth of a cell beyond the edge.
+    // 16 cells along a side; the outermost cells extend a tenth of a cell beyond the edge.
     let mat = Plan::rectangle(-HALF..HALF, -HALF..HALF, 16)?;
     let mats = impedances_in_plan(&profile, &mat, &frequencies, StripContact::Bonded)?;
     let ground = ElasticGround::new(soil, Strip::new(-HALF..HALF, 24, Grading::Cosine)?)?;
@@ -42,7 +42,7 @@ fn main() -> basemat::Result<()> {
         ] {
             let (spring, dashpot) = (mat.stiffnesses()[axis][axis], mat.dashpots()[axis][axis]);
             let omega = std::f64::consts::TAU * mat.frequency;
-            // All 20 m of the strip.
+            // The strip's impedances are multiplied by its length of 20 m.
             let [stiffness, damping] = [2.0 * HALF * strip.re, 2.0 * HALF * strip.im / omega];
             println!(
                 "{:>9.2}  {name:<8} {spring:>14.3e} {dashpot:>14.3e} {:>18.2} {:>8.2} {:>18.1} % {:>5.1} %",

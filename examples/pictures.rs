@@ -1,10 +1,10 @@
-//! All the pictures of a run, and its files for ParaView.
+//! All pictures of a run, and its files for ParaView.
 //!
 //! ```text
 //! cargo run --release --features png --example pictures
 //! ```
 //!
-//! A flexible tower on soil under El Centro, once bonded and once free to uplift and slide.
+//! A flexible tower on soil under El Centro, with a bonded base and with a base that may uplift and slide.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
     let tower = FemModel::on_base(mesh)?.with_rayleigh(damping);
     let roof = tower.row(tower.mesh().node_at(0.0, 20.0)?, Direction::X)?;
-    // The structure moves into the simulation: its shape is kept for the pictures.
+    // The simulation takes ownership of the structure, so its shape is copied for the pictures.
     let shape = DeformedShape::of_model(&tower);
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
@@ -35,7 +35,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
         .interface(law)
         .motion(el_centro_1940())
         .probe(Probe::acceleration("roof", roof))
-        // The bonded base has no friction of its own: its factor of safety takes this one.
+        // The bonded base has no friction of its own; its factor of safety uses this coefficient.
         .safety_friction([FRICTION])
         .build()?;
     // Base and structure at every sixth step, for pictures in time.
@@ -46,7 +46,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
 
 fn main() -> Result<()> {
     let out = Path::new("target/pictures");
-    // SVG for the web and for paper, PNG for programs that take no SVG.
+    // SVG for the web and for paper, PNG for programs that do not read SVG.
     let save = |name: &str, picture: Svg| {
         picture.save(out.join(format!("{name}.svg")))?;
         picture.save_png(out.join(format!("{name}.png")), 2.0)
@@ -81,7 +81,7 @@ fn main() -> Result<()> {
     let rotation = free_run.whole.base_rotation;
     let times = [rotation.lowest.time, rotation.highest.time];
     save("shapes", plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?)?;
-    // Browsers play it.
+    // Browsers play the animation.
     plot::animation("Tower", &shape, &free, 50.0, 2.0)?.save(out.join("tower_moving.svg"))?;
     let grids = paraview::write_series(out.join("vtk"), "tower", &shape, &free)?;
 

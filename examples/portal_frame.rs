@@ -1,11 +1,12 @@
-//! A portal frame on two strip footings: what uplift and friction do to each of them.
+//! A portal frame on two strip footings: the effect of uplift and friction on each footing.
 //!
 //! ```text
 //! cargo run --release --example portal_frame
 //! ```
 //!
-//! Each column has a rigid footing of its own. Held by friction alone, the footings turn on their edges, move towards
-//! each other, and stay there; a [`Sweep`] over widths and friction coefficients shows how far.
+//! Each column has its own rigid footing. Only friction resists sliding. The footings rotate on their edges,
+//! move towards each other, and stay there. A [`Sweep`] over widths and friction coefficients shows how far
+//! they move.
 
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
@@ -26,7 +27,9 @@ const FREQUENCY: f64 = 2.707;
 /// Thickness (m) and density (kg/m³) of the footings.
 const FOOTING: [f64; 2] = [0.6, 2400.0];
 
-/// The frame on footings of `width` (m), and the drift of its roof against the mean of the footings.
+/// The frame on footings of `width` (m), and the drift of its roof.
+///
+/// The drift is relative to the mean displacement of the footings.
 fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
     let member = |ends, [area, second_moment]: [f64; 2]| {
         Beam::new(ends, YOUNG_MODULUS, area, second_moment, 0.0)
@@ -62,7 +65,7 @@ fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
 fn shake(width: f64, law: impl InterfaceLaw + 'static) -> Result<Run> {
     let (model, drift) = portal(width)?;
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
-    // 5 % of critical damping of lateral vibration on a fixed base.
+    // 5 % of critical damping for lateral vibration on a fixed base.
     let damping = RayleighDamping::new(0.0, 0.05 / (std::f64::consts::PI * FREQUENCY))?;
     let mut simulation = Simulation::builder(0.005)
         .ground(ElasticGround::under(soil, &model, 8)?)

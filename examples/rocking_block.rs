@@ -1,12 +1,12 @@
-//! A slender rigid block under one sine pulse of growing strength: when does it lift off, how far
-//! does it rock, and when does it fall?
+//! A slender rigid block under one sine pulse: limits of uplift, rocking angle, and overturning.
 //!
 //! ```text
 //! cargo run --release --example rocking_block
 //! ```
 //!
-//! On rigid ground the block lifts off at the ground acceleration g b/h (Housner 1963). Elastic soil deforms under the
-//! edge, so the block rocks on less than its whole base, and loses energy by radiation as well as by impacts.
+//! On rigid ground the block lifts off at the ground acceleration g b/h (Housner 1963). Elastic soil deforms
+//! under the edge. The block therefore rocks on less than its whole base, and loses energy by radiation as
+//! well as by impacts.
 
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -19,7 +19,7 @@ const HALF_HEIGHT: f64 = 2.0;
 const TIME_STEP: f64 = 2.0e-3;
 const STEPS: usize = 2000;
 
-/// One cycle of sine, of this peak acceleration (m/s²) and period (s).
+/// One sine cycle with the peak acceleration `peak` (m/s²) and the `period` (s).
 fn pulse(peak: f64, period: f64) -> Result<Record> {
     let sine = |time: f64| peak * (std::f64::consts::TAU * time / period).sin();
     Record::from_fn(period / 200.0, period, sine)
@@ -28,7 +28,7 @@ fn pulse(peak: f64, period: f64) -> Result<Record> {
 /// Rocks the block on soil of this shear wave speed (m/s).
 fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(shear_wave_speed, 0.33, 1900.0)?;
-    // P–Δ lets the weight help to overturn the block once it leans.
+    // With P–Δ the weight helps to overturn the block once it leans.
     let block = RigidBlock::new(2.0 * HALF_WIDTH, 2.0 * HALF_HEIGHT, 2400.0)?
         .with_p_delta(STANDARD_GRAVITY)?;
     let mut simulation = Simulation::builder(TIME_STEP)
@@ -73,7 +73,7 @@ fn main() -> Result<()> {
             } else {
                 "stands"
             };
-            // The crate assumes small rotations, and warns where they are not.
+            // The crate assumes small rotations, and warns when they become large.
             let large = if run.warnings.is_empty() { ' ' } else { '*' };
             warned |= large == '*';
             print!(

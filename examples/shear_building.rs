@@ -1,18 +1,18 @@
-//! A five-storey shear building on soil: what uplift and sliding of its base do to the storeys.
+//! A five-storey shear building on soil: the effect of uplift and sliding on the storeys.
 //!
 //! ```text
 //! cargo run --release --example shear_building
 //! ```
 //!
-//! Each storey gets two probes, one for the shear in its columns and one for its drift. Probes are
-//! weighted sums of the structure's degrees of freedom; the building hands out the weights.
+//! Each storey gets two probes, one for the shear force in its columns and one for its drift. Probes are
+//! weighted sums of the structure's degrees of freedom; the building returns the weights.
 
 use basemat::Result;
 use basemat::prelude::*;
 
 const STOREYS: usize = 5;
 
-/// Twelve seconds of El Centro; `friction` is that of the factor of safety against sliding.
+/// Runs twelve seconds of El Centro; `friction` is used for the factor of safety against sliding.
 fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
     // Storeys of 3 m, 30 t/m and 60 MN/m² on a mat 8 m wide; soil with a shear wave speed of 250 m/s.
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); STOREYS];
@@ -39,7 +39,7 @@ fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
 
 fn main() -> Result<()> {
     let cases = [
-        // The bonded base has no friction of its own: its factor of safety takes 0.25.
+        // The bonded base has no friction of its own; its factor of safety uses 0.25.
         ("bonded", shake(Bonded, 0.25)?),
         ("uplift", shake(Coulomb::uplift_only(), f64::INFINITY)?),
         ("uplift, slip", shake(Coulomb::new(0.25)?, 0.25)?),

@@ -1,10 +1,11 @@
-//! Surface motion of a damped soil profile over that of rock, by frequency, as a table.
+//! Transfer function from rock to the surface of a damped soil profile, as a table.
 //!
 //! `cargo run --release --example site_amplification`
 //!
-//! Lines `layer` hold thickness (m), shear wave speed (m/s), density (kg/m³) and damping ratio from the surface
-//! down, the half-plane without a thickness. Lines `transfer` hold frequency (Hz) and the transfer function's
-//! real and imaginary part, to the surface from the rock's outcrop and from the rock within.
+//! Lines `layer` hold thickness (m), shear wave speed (m/s), density (kg/m³) and damping ratio from the
+//! surface down; the half-plane has no thickness. Lines `transfer` hold frequency (Hz) and the real and
+//! imaginary parts of two transfer functions: to the surface from the rock's outcrop, and from the rock
+//! within.
 
 use basemat::Result;
 use basemat::prelude::*;

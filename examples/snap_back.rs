@@ -4,8 +4,9 @@
 //! cargo run --release --example snap_back
 //! ```
 //!
-//! The pull belongs to the static state and is gone from the first step on. The building then vibrates in its lowest
-//! mode on the soil, whose period is longer than on a fixed base, damped by radiation alone.
+//! The pull belongs to the static state, and is removed at the first step. The building then vibrates in its
+//! lowest mode on the soil. Its period is longer than on a fixed base, and its damping is radiation damping
+//! alone.
 
 use basemat::Result;
 use basemat::coupled::Load;
@@ -31,7 +32,7 @@ fn main() -> Result<()> {
         let pulled = simulation.static_displacement()[roof];
         let mut sway = Vec::new();
         let run = simulation.run(2000, |state| sway.push(state.probes[0]))?;
-        // Peaks on the side of the pull, relative to the position of rest.
+        // Peaks on the side of the pull, relative to the position at rest.
         let rest = sway[sway.len() - 1];
         let peaks: Vec<(usize, f64)> = (1..sway.len() - 1)
             .filter(|&k| sway[k] > sway[k - 1] && sway[k] >= sway[k + 1] && sway[k] > rest)

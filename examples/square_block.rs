@@ -1,13 +1,14 @@
-//! A square block that lifts and slides in three dimensions, beside a bonded one and a slice of plane strain.
+//! A square block that uplifts and slides in three dimensions, compared with a bonded block and a
+//! plane-strain slice.
 //!
 //! ```text
 //! cargo run --release --example square_block
 //! ```
 //!
-//! Three records at once shake a block of 16 × 16 m, 20 m high, on soil of 250 m/s, mostly along a diagonal. Free to
-//! lift and slide, its corner rises by a quarter more than bonded. Turned by 45° under this motion, the block rocks
-//! about an edge, and that corner rises less. In plane strain one metre of it stands on an endless strip under one
-//! horizontal record.
+//! A block of 16 × 16 m, 20 m high, stands on soil of 250 m/s. Three records shake it at the same time,
+//! mostly along a diagonal. If the block may uplift and slide, its corner rises a quarter more than if it is
+//! bonded. If the block is turned by 45° under the same motion, it rocks about an edge, and that corner rises
+//! less. In plane strain, one metre of the block stands on an endless strip under one horizontal record.
 
 use std::f64::consts::PI;
 
@@ -22,7 +23,9 @@ const DENSITY: f64 = 400.0;
 /// Time step, s.
 const STEP: f64 = 0.005;
 
-/// The run, and the largest rise or fall of a corner by the rotations of the base (m), which `corner` combines.
+/// The run, and the largest vertical motion of a corner due to rotations of the base, m.
+///
+/// `corner` holds the weights of the rotations.
 fn shake(
     builder: basemat::coupled::SimulationBuilder,
     law: impl InterfaceLaw + 'static,
@@ -36,11 +39,12 @@ fn shake(
     Ok((run, rise))
 }
 
-/// The block in three dimensions, turned by `angle` about the vertical axis: the motion is turned back.
+/// The block in three dimensions, turned by `angle` about the vertical axis; in the code the motion is turned
+/// back.
 fn block(soil: Soil, angle: f64) -> basemat::Result<basemat::coupled::SimulationBuilder> {
     let block = RigidBody::cuboid(SIDES, DENSITY)?;
     let record = el_centro_1940();
-    // Along the record's own direction 1, across it 0.8.
+    // Components: 1 along the record's own direction, 0.8 across it.
     let (s, c) = angle.sin_cos();
     let motion = Triaxial {
         x: Some(record.scaled(c + 0.8 * s)?),
@@ -56,8 +60,9 @@ fn main() -> basemat::Result<()> {
     let [width, _, height] = SIDES;
     let record = el_centro_1940();
 
-    // Three dimensions: 8 × 8 cells under the block's base, records to the right, away and up. Of u_x, u_y, u_z, r_x,
-    // r_y, r_z the rotations about x and y lift the corner to the right and away.
+    // In three dimensions: 8 × 8 cells under the block's base; records act to the right, away and up. Degrees
+    // of freedom are u_x, u_y, u_z, r_x, r_y, r_z; the rotations about x and y lift the corner to the right
+    // and away.
     let corner = || vec![(3, 0.5 * width), (4, -0.5 * width)];
     let (bonded, edge) = shake(block(soil, 0.0)?, Bonded, corner())?;
     let (square, square_edge) = shake(block(soil, 0.0)?, Coulomb::new(0.5)?, corner())?;

@@ -1,11 +1,11 @@
-//! A slender block that is tilted and released: the time until it stands upright, and its largest tilt to the other
-//! side.
+//! A slender block is tilted and released: time until it is upright, and largest opposite tilt.
 //!
 //! ```text
 //! cargo run --release --example tilted_block
 //! ```
 //!
-//! On rigid ground both are Housner's (1963). Soil deforms under the edge, and less energy is lost at an impact.
+//! On rigid ground Housner's formulas (1963) give both. Soil deforms under the edge, and less energy is lost
+//! at an impact.
 
 use basemat::Result;
 use basemat::coupled::GravityStage;
@@ -26,7 +26,7 @@ fn main() -> Result<()> {
             .ground(ElasticGround::under(soil, &block, 24)?)
             .structure(block)
             .interface(Coulomb::new(1.0)?)
-            // No contact pressure at t = 0, when the block stands on its left edge.
+            // The contact pressure is zero at t = 0, when the block stands on its left edge.
             .gravity_stage(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.5 * width * tilt, tilt])
             .build()?;

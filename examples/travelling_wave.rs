@@ -1,5 +1,7 @@
-//! Does the kind of wave matter? A tower that may uplift and slide under one horizontal record, taken as a vertical S
-//! wave, an inclined SV wave, a Rayleigh wave, and a horizontal motion that travels along the surface.
+//! A tower that may uplift and slide under one horizontal record, as four kinds of waves.
+//!
+//! The record is taken as a vertical S wave, an inclined SV wave, a Rayleigh wave, and a horizontal motion
+//! that travels along the surface.
 //!
 //! ```text
 //! cargo run --release --example travelling_wave
@@ -17,7 +19,7 @@ use basemat::prelude::*;
 const HALF_WIDTH: f64 = 5.0;
 const HEIGHT: f64 = 20.0;
 const FRICTION: f64 = 0.4;
-/// Quiet time before the record: the vertical part of a Rayleigh wave precedes the horizontal one.
+/// Quiet time before the record, s: the vertical part of a Rayleigh wave precedes the horizontal part.
 const LEAD: f64 = 10.0;
 
 /// Angle of the SV wave from the vertical, degrees.

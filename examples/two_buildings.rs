@@ -1,7 +1,7 @@
-//! Two buildings side by side: the influence of a neighbour.
+//! Two buildings side by side: structure–soil–structure interaction.
 //!
-//! A tall building stands beside a low one on soft soil. Each is computed alone, then both
-//! together, coupled by the soil between them (structure–soil–structure interaction).
+//! A tall building stands next to a low one on soft soil. Each building is computed alone. Then both are
+//! computed together, coupled by the soil between them.
 //!
 //! ```text
 //! cargo run --release --example two_buildings
@@ -20,7 +20,7 @@ fn low() -> Result<ShearBuilding> {
     ShearBuilding::new(10.0, 100.0e3, 0.9e6, &storeys)?.with_stiffness_damping(0.05)
 }
 
-/// 30 s of El Centro; the probes are roof accelerations, one for each building.
+/// Runs 30 s of El Centro; the probes record roof accelerations, one for each building.
 fn shake<const N: usize>(structure: impl Structure + 'static, roofs: [Probe; N]) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0)?;
     let mut simulation = Simulation::builder(0.005)

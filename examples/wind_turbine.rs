@@ -4,11 +4,11 @@
 //! cargo run --release --example wind_turbine
 //! ```
 //!
-//! The hub stands at 92 m on an octagon 20 m wide. The gust is the "Mexican hat" of IEC 61400-1, and the rotor keeps
-//! its thrust coefficient, as before any control acts. Practice allows no gap under the mat in normal operation (IEC
-//! 61400-6), and requires contact of at least half of it under extreme loads: steady wind leaves the mat closed, the
-//! gust opens more than a third. Structure matrices are written by hand: the mass of a `RigidBody`, and a hub that
-//! moves along x and y on a cantilever.
+//! The hub stands at 92 m on an octagon 20 m wide. The gust is the "Mexican hat" of IEC 61400-1. The rotor
+//! keeps its thrust coefficient, as before the control acts. In normal operation, practice allows no gap
+//! under the mat (IEC 61400-6). Under extreme loads, it requires contact of at least half of the mat. Steady
+//! wind leaves the mat closed; the gust opens more than a third of it. Structure matrices are written by
+//! hand: the mass of a `RigidBody`, and a hub that moves along x and y on a cantilever.
 
 use std::f64::consts::{PI, TAU};
 
@@ -55,7 +55,7 @@ fn turbine() -> basemat::Result<MatrixModel> {
     let reach = 0.5 * WIDTH / (PI / 8.0).cos();
     let outline = corners.map(|angle| [reach * angle.cos(), reach * angle.sin()]).collect();
     let mat = DENSITY * 2.0 * WIDTH * side * DEPTH;
-    // Tilting and twisting about the mat's centre.
+    // Moments of inertia about the mat's centre, for tilting and twisting.
     let flat = mat * (WIDTH * WIDTH / 16.0 + side * side / 48.0);
     let steep = flat + mat * DEPTH * DEPTH / 12.0;
     let inertia = [[steep, 0.0, 0.0], [0.0, steep, 0.0], [0.0, 0.0, 2.0 * flat]];
@@ -68,7 +68,8 @@ fn turbine() -> basemat::Result<MatrixModel> {
     mass.add_outer([(1, 1.0), (3, -quarter)], FOOT);
     mass.add(2, 2, FOOT + TOP);
     let omega = TAU * FREQUENCY;
-    // The tower bends by the hub's displacement less that carried along by the mat, u + r × (0, 0, HUB).
+    // Bending of the tower is the hub's displacement less the part carried along by the mat, u + r × (0, 0,
+    // HUB).
     for bending in [[(6, 1.0), (0, -1.0), (4, -HUB)], [(7, 1.0), (1, -1.0), (3, HUB)]] {
         mass.add(bending[0].0, bending[0].0, TOP);
         stiffness.add_outer(bending, TOP * omega * omega);

@@ -1,12 +1,13 @@
-//! A ground of your own: independent elastic columns that send all waves straight down.
+//! A ground of your own: independent elastic columns that radiate all waves straight down.
 //!
 //! ```text
 //! cargo run --release --example your_own_ground
 //! ```
 //!
-//! Under each element stands an endless column of soil: a pressure p moves its top at the velocity p/(ρ c_P), a shear
-//! traction τ at τ/(ρ c_S), for ever. The column has no memory except its present displacement, radiates as much as a
-//! ground can, and has no static stiffness; a spring of `held` Pa/m adds one, so that the structure can stand.
+//! Under each element stands an endless column of soil. A pressure p moves its top at the velocity p/(ρ c_P),
+//! a shear traction τ at τ/(ρ c_S), without end. The present displacement is the column's only memory. It
+//! radiates as much as a ground can, and has no static stiffness. A spring of `held` Pa/m adds one, so that
+//! the structure can stand.
 
 use basemat::bem::{ContactElement, Ground, Strip};
 use basemat::interface::Coulomb;
@@ -18,10 +19,11 @@ struct Columns {
     elements: Vec<ContactElement>,
     /// ρ c_P and ρ c_S, Pa·s/m.
     impedance: [f64; 2],
-    /// Springs beside the dashpots, Pa/m.
+    /// Stiffness of springs parallel to the dashpots, Pa/m.
     held: f64,
     time_step: f64,
-    /// Displacements at the end of the last accepted step: normal components (down), then tangential ones.
+    /// Displacements at the end of the last accepted step: normal components (down), then tangential
+    /// components.
     displacement: Vec<f64>,
 }
 
@@ -37,8 +39,9 @@ impl Columns {
         })
     }
 
-    /// Displacement at the end of the next step is `kept · old + gained · traction`: the midpoint
-    /// rule for `z ds/dt + k s = traction`.
+    /// Factors of the displacement at the end of the next step, `kept · old + gained · traction`.
+    ///
+    /// They follow from the midpoint rule for `z ds/dt + k s = traction`.
     fn step_factors(&self, component: usize) -> [f64; 2] {
         let z = self.impedance[usize::from(component >= self.elements.len())] / self.time_step;
         let k = 0.5 * self.held;

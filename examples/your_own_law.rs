@@ -4,25 +4,24 @@
 //! cargo run --release --example your_own_law
 //! ```
 //!
-//! A law looks at one contact element at a time and answers three questions:
+//! A law handles one contact element at a time. It provides three things:
 //!
-//! 1. which modes are there ([`InterfaceLaw::modes`]);
-//! 2. what does a mode demand of the end of the step: two linear conditions between gap, slip,
-//!    pressure and shear ([`InterfaceLaw::conditions`]);
-//! 3. is the trial that came out admissible, and if not, which mode should be tried next
-//!    ([`InterfaceLaw::next_mode`]).
+//! 1. the list of possible modes ([`InterfaceLaw::modes`]);
+//! 2. the conditions of a mode at the end of the step: two linear equations between gap, slip, pressure and
+//!    shear ([`InterfaceLaw::conditions`]);
+//! 3. whether a trial is admissible, and if not, the mode to try next ([`InterfaceLaw::next_mode`]).
 //!
-//! The end of the previous step is in [`PreviousContact`], here the speed at which the element slid. What a law has to
-//! remember for longer are its state variables ([`InterfaceLaw::state_variables`]).
+//! The end of the previous step is in [`PreviousContact`]; here the law uses the speed at which the element
+//! slid. Values that a law needs for longer are its state variables ([`InterfaceLaw::state_variables`]).
 //!
-//! Where only the coefficient changes, a closure in [`VariableFriction`] is enough, as in the last but one row.
+//! If only the coefficient changes, a closure in [`VariableFriction`] is enough, as in the last but one row.
 
 use basemat::interface::{
     Condition, ContactState, Mode, PreviousContact, Tolerance, VariableFriction,
 };
 use basemat::prelude::*;
 
-/// Friction that falls as the speed of sliding (m/s) grows: fast + (slow − fast) e^(−|v|/speed).
+/// Friction that decreases with the speed of sliding (m/s): fast + (slow − fast) e^(−|v|/speed).
 struct VelocityWeakening {
     slow: f64,
     fast: f64,
@@ -30,7 +29,8 @@ struct VelocityWeakening {
 }
 
 impl VelocityWeakening {
-    /// The coefficient of this step, by its start alone, so that it stays while modes are searched for.
+    /// Coefficient of this step. It depends on the start of the step alone, so it is constant in the search
+    /// of modes.
     fn friction(&self, start: &PreviousContact) -> f64 {
         self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
     }
@@ -42,8 +42,8 @@ impl InterfaceLaw for VelocityWeakening {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        // ±shear − friction · pressure = 0, divided by the friction where that is large: up to
-        // infinite friction the condition then stays one.
+        // ±shear − friction · pressure = 0, divided by the friction where the friction is large. The
+        // condition thus stays valid up to infinite friction.
         let cone = |side: f64| {
             let friction = self.friction(start);
             let [shear, pressure] =
@@ -70,16 +70,16 @@ impl InterfaceLaw for VelocityWeakening {
         let limit = self.friction(start) * trial.pressure.max(0.0) + tolerance.traction;
         let advance = trial.slip - start.state.slip;
         match mode {
-            // An open element that would enter the soil closes, a closed one in tension opens.
+            // An open element that would penetrate the soil closes; a closed element in tension opens.
             Mode::Open if trial.gap < -tolerance.length => Mode::Stick,
             Mode::Open => Mode::Open,
             _ if trial.pressure < -tolerance.traction => Mode::Open,
             Mode::Stick if trial.shear > limit => Mode::SlipRight,
             Mode::Stick if trial.shear < -limit => Mode::SlipLeft,
-            // Shear against the sense of slip belongs to a negative pressure.
+            // Shear opposite to the direction of slip means a negative pressure.
             Mode::SlipRight if trial.shear < -tolerance.traction => Mode::Open,
             Mode::SlipLeft if trial.shear > tolerance.traction => Mode::Open,
-            // Friction must not push: an element that slides the wrong way sticks.
+            // Friction must not drive the motion: an element that slides the wrong way sticks.
             Mode::SlipRight if advance < -tolerance.length => Mode::Stick,
             Mode::SlipLeft if advance > tolerance.length => Mode::Stick,
             admissible => admissible,
@@ -87,7 +87,7 @@ impl InterfaceLaw for VelocityWeakening {
     }
 }
 
-/// Runs a squat block, which slides before it rocks, under 10 s of El Centro times 1.5.
+/// Runs a squat block, which slides before it rocks, under 10 s of El Centro scaled by 1.5.
 fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let block = RigidBlock::new(8.0, 4.0, 2000.0)?;

@@ -4,9 +4,9 @@
 //! cargo run --release --example your_own_structure
 //! ```
 //!
-//! `basemat` knows nothing of storeys and columns here. It asks a [`Structure`] for its degrees of freedom,
-//! the points of its base, and its matrices; everything else (ground, contact, time steps, energy balance) comes with
-//! the crate. Four methods are needed; `damping` is the fifth below.
+//! `basemat` contains no storeys and columns in this example. It takes from a [`Structure`] its degrees of
+//! freedom, the points of its base, and its matrices. The crate provides ground, contact, time steps and
+//! energy balance. Four methods are needed; `damping` is the fifth below.
 
 use basemat::prelude::*;
 
@@ -26,8 +26,9 @@ struct Building {
 const BASE: [usize; 3] = [0, 1, 2];
 
 impl Building {
-    /// Drift of a storey as (degree of freedom, weight) pairs: `u_j − u_(j−1) + h θ`, for a base that turns
-    /// counter-clockwise moves what is above it to the left.
+    /// Drift of a storey as (degree of freedom, weight) pairs: `u_j − u_(j−1) + h θ`.
+    ///
+    /// A base that rotates counter-clockwise moves the points above it to the left.
     fn drift(&self, storey: usize) -> [(usize, f64); 3] {
         let below = if storey == 0 { BASE[0] } else { storey + 2 };
         [(storey + 3, 1.0), (below, -1.0), (BASE[2], self.storey_height)]
@@ -39,12 +40,12 @@ impl Structure for Building {
         3 + FLOORS
     }
 
-    // A rigid base needs its two ends only.
+    // A rigid base needs only its two ends.
     fn contact_nodes(&self) -> Vec<ContactNode> {
         ContactNode::rigid_base(-0.5 * self.width, 0.5 * self.width, BASE)
     }
 
-    // Entries at the same place add up.
+    // Entries at the same place are summed.
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let total = self.base_mass + FLOORS as f64 * self.floor_mass;
         let [sway, heave, turn] = BASE;

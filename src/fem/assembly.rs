@@ -1,4 +1,4 @@
-//! Assembly of element matrices into those of the whole mesh.
+//! Assembly of element matrices into the matrices of the whole mesh.
 
 use super::element::{Element, MassKind};
 use super::mesh::Mesh;
@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::geometry::Direction;
 use crate::linalg::Triplets;
 
-/// Matrix of the elements that is assembled.
+/// Kind of element matrix to assemble.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MatrixKind {
     /// Stiffness without the geometric stiffness.
@@ -17,9 +17,9 @@ pub(crate) enum MatrixKind {
     Damping,
 }
 
-/// Adds `factor` times a matrix of the elements that `keep` picks by their coordinates.
+/// Adds `factor` times the matrices of the elements that `keep` selects by their coordinates.
 ///
-/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
+/// `numbering` must belong to `mesh`; otherwise `matrix` gets indices out of range.
 pub(crate) fn assemble(
     mesh: &Mesh,
     numbering: &Numbering,
@@ -43,7 +43,7 @@ pub(crate) fn assemble(
             MatrixKind::Mass(kind) => element.mass(&coordinates, kind, &mut block),
             MatrixKind::Damping => element.damping(&coordinates, &mut block),
         }
-        // An element without, say, damping adds no entries to the pattern.
+        // An element whose matrix is zero, say without damping, adds no entries to the pattern.
         if block.iter().all(|&value| value == 0.0) {
             continue;
         }
@@ -55,12 +55,12 @@ pub(crate) fn assemble(
     }
 }
 
-/// Lets every element of `mesh` take the static state; `displacement` (m, rad) in the degrees of freedom of
-/// `numbering`, `gravity` in m/s².
+/// Replaces elements of `mesh` by their versions in the static state, with its axial forces.
+///
+/// `displacement` (m, rad) holds the degrees of freedom of `numbering`; `gravity` is in m/s².
 ///
 /// # Errors
-/// [`Error::Scene`](crate::Error::Scene) for an element that would then have other nodes or
-/// directions.
+/// [`Error::Scene`](crate::Error::Scene) for an element whose new version has other nodes or directions.
 pub(crate) fn set_static_state(
     mesh: &mut Mesh,
     numbering: &Numbering,
@@ -76,7 +76,7 @@ pub(crate) fn set_static_state(
     })
 }
 
-/// Numbers of the degrees of freedom: node by node, only the directions that some element uses.
+/// Numbers of the degrees of freedom, node by node; only directions that some element uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbering {
     numbers: Vec<[Option<usize>; 3]>,
@@ -115,7 +115,7 @@ impl Numbering {
         self.numbers.get(node)?[direction as usize]
     }
 
-    /// Indices of the degrees of freedom of `element`, in the order of its matrices; replaces `indices`.
+    /// Replaces `indices` by those of the degrees of freedom of `element`, in the order of its matrices.
     pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
         indices.clear();
         for &node in element.nodes() {

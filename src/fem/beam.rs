@@ -8,14 +8,14 @@ use crate::linalg::gauss;
 
 /// Straight prismatic beam between two nodes that rotate with it.
 ///
-/// Euler–Bernoulli with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness)
-/// makes it Timoshenko's. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural
-/// Analysis, 1968, ch. 5). Rotary inertia of the cross-section is left out unless
-/// [`with_rotary_inertia`](Beam::with_rotary_inertia) asks for it, and so is the P–Δ effect of an axial
-/// force unless [`with_compression`](Beam::with_compression) gives one or
-/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds it.
-/// Quadrilaterals do not hold the rotation of their nodes: a beam that ends on one is hinged there,
-/// unless it runs on along the edge of a second one.
+/// Euler–Bernoulli with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness) makes it a
+/// Timoshenko beam. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
+/// ch. 5). Rotary inertia of the cross-section is included only with
+/// [`with_rotary_inertia`](Beam::with_rotary_inertia). The P–Δ effect of an axial force is included only if
+/// [`with_compression`](Beam::with_compression) gives the force or
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes it. Quadrilaterals do not
+/// restrain the rotation of their nodes: a beam that ends on a quadrilateral is hinged there, unless it
+/// continues along the edge of a second one.
 ///
 /// ```
 /// use basemat::fem::{Beam, Element};
@@ -36,21 +36,22 @@ pub struct Beam {
     /// ρ I, kg m.
     section_inertia: f64,
     has_rotary_inertia: bool,
-    /// Mean axial force for P–Δ, N; by how much it is larger at the first node than at the second;
-    /// and whether it was given, so that no static state changes it.
+    /// Mean axial force for P–Δ, N; the amount by which it is larger at the first node than at the second, N;
+    /// and whether the user gave it, so that no static state changes it.
     compression: f64,
     taper: f64,
     is_given: bool,
 }
 
 impl Beam {
-    /// Beam with Young's modulus (Pa), area (m²), second moment of area (m⁴) and density (kg/m³),
-    /// area and second moment per metre of thickness.
+    /// Beam with Young's modulus (Pa), area (m²), second moment of area (m⁴) and density (kg/m³).
+    ///
+    /// Area and second moment are per metre of thickness.
     ///
     /// A plate strip in plane strain has E/(1−ν²) in place of E.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless all are positive (density: not negative).
+    /// [`Error::Input`](crate::Error::Input) unless all are positive; the density may be zero.
     pub fn new(
         nodes: [usize; 2],
         young_modulus: f64,
@@ -92,13 +93,13 @@ impl Beam {
         Self { has_rotary_inertia: true, ..self }
     }
 
-    /// Makes the beam a beam–column: a constant axial force `compression` P (N, negative for
-    /// tension) works on its lateral displacement w, −½ P ∫ w′² dx in the potential energy (P–Δ and P–δ).
+    /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
     ///
-    /// The force is that of the static state, the weight above for example; what is given here
-    /// stays when [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds those
-    /// of the other elements. The beam then meets a rigid rotation with the moment of its ends'
-    /// offset, as a real column does.
+    /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and
+    /// P–δ). It is the force of the static state, for example the weight above. A force given here stays when
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes the forces of the other
+    /// elements. The beam then resists a rigid rotation with the moment of its offset end forces, as a real
+    /// column does.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
@@ -198,8 +199,8 @@ impl Element for Beam {
             return None;
         }
         let lengthening = line.lengthening([x0, y0], [x1, y1]);
-        // The nodes' displacements are exact, so the compression is the mean; between them hangs
-        // the element's own weight.
+        // Displacements of the nodes are exact, so the compression is the mean over the length. The element's
+        // own weight makes it vary between the nodes.
         let rise = coordinates[1][1] - coordinates[0][1];
         Some(Box::new(Self {
             compression: -self.axial_stiffness / line.length * lengthening,
@@ -212,8 +213,9 @@ impl Element for Beam {
         Some(self.compression)
     }
 
-    /// Lumped: halves at the nodes, with the rotary inertia m L²/78 that keeps the ratio of the
-    /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the sections' own.
+    /// Lumped: half the mass at each node, with the rotary inertia m L²/78, which keeps the ratio of the
+    /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the rotary inertia of the
+    /// sections.
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let length = line.length;

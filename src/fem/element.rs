@@ -9,7 +9,7 @@ use crate::geometry::Direction;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum MassKind {
-    /// Mass by the shape functions of the stiffness: a full matrix.
+    /// Mass distributed by the shape functions of the stiffness: a full matrix.
     #[default]
     Consistent,
     /// Mass at the nodes: a diagonal matrix of the same total mass.
@@ -23,11 +23,10 @@ words! { pub(crate) MassKind, "kind of mass", {
 
 /// A finite element: implement this to bring your own.
 ///
-/// Its matrices are dense, row-major and square, of order [`order`](Element::order); the degrees of freedom
+/// Its matrices are dense, row-major and square, of order [`order`](Element::order). The degrees of freedom
 /// run through the nodes in the element's order and, within a node, through
-/// [`directions`](Element::directions). `coordinates` holds one [x, y] (m) for each of the
-/// element's nodes. Every matrix is **added to**; the caller passes a zeroed buffer when it wants
-/// the matrix alone.
+/// [`directions`](Element::directions). `coordinates` holds one [x, y] (m) for each of the element's nodes.
+/// Every matrix is **added to** the buffer; for the matrix alone the caller passes a zeroed buffer.
 ///
 /// ```
 /// use basemat::fem::{Direction, Element, MassKind, Mesh};
@@ -57,23 +56,25 @@ pub trait Element: Send + Sync {
     /// Nodes of the element, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 
-    /// The degrees of freedom it uses, the same ones at each of its nodes.
+    /// Directions of the element's degrees of freedom, the same at each of its nodes.
     fn directions(&self) -> &[Direction];
 
     /// Adds the stiffness matrix (N/m per metre) to `matrix`. Symmetric; a rigid motion of all
     /// nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
 
-    /// Adds the geometric stiffness (N/m per metre) of the axial force that the element carries in
-    /// the static state: P–Δ. Symmetric; a translation of all nodes must give no force, a rotation
-    /// gives the moment of the offset force. It is part of the structure's stiffness, but
-    /// not of its stiffness-proportional damping. Default: none.
+    /// Adds the geometric stiffness (P–Δ) of the axial force in the static state, N/m per metre.
+    ///
+    /// Symmetric. A translation of all nodes must give no force; a rotation gives the moment of the offset
+    /// force. The matrix is part of the structure's stiffness, but not of its stiffness-proportional damping.
+    /// Default: none.
     fn geometric_stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
-    /// This element with the geometric stiffness of the static state under the structure's weight:
-    /// `displacement` holds the element's degrees of freedom there, `gravity` (m/s²) acts downwards. Called by
-    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: `None`, the
-    /// element stays what it is.
+    /// This element with the geometric stiffness of the static state under the structure's weight.
+    ///
+    /// `displacement` holds the element's degrees of freedom in that state; `gravity` (m/s²) acts downwards.
+    /// Called by [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: `None`, the
+    /// element does not change.
     fn in_static_state(
         &self,
         _coordinates: &[[f64; 2]],
@@ -83,8 +84,9 @@ pub trait Element: Send + Sync {
         None
     }
 
-    /// The compressive axial force (N, negative for tension) of its geometric stiffness, the mean
-    /// along it. Default: none, for elements that are no bars.
+    /// Mean compressive axial force of the geometric stiffness, N (negative for tension).
+    ///
+    /// Default: `None`, for elements that are not bars.
     fn compression(&self) -> Option<f64> {
         None
     }
@@ -92,26 +94,26 @@ pub trait Element: Send + Sync {
     /// Adds the mass matrix (kg/m) to `matrix`. Symmetric, positive semi-definite.
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
 
-    /// Adds the viscous damping matrix to `matrix`, Rayleigh damping excepted. Default: none.
+    /// Adds the viscous damping matrix to `matrix`, without Rayleigh damping. Default: none.
     fn damping(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
-    /// Corner nodes of the area that the element fills with material, in any order. Default: none,
-    /// for bars, springs and masses, which act in parallel where they lie on the same nodes.
+    /// Corner nodes of the area that the element fills with material, in any order. Default: none, for bars,
+    /// springs and masses, which act in parallel where they share nodes.
     ///
     /// [`Mesh::add`](super::Mesh::add) returns an error for a second element over the same corners.
     fn corners(&self) -> &[usize] {
         &[]
     }
 
-    /// Checks the shape when the element enters a mesh. Default: any shape will do.
+    /// Checks the shape when the element is added to a mesh. Default: any shape is accepted.
     ///
     /// # Errors
-    /// Whatever makes the element unusable at these coordinates.
+    /// Any error that makes the element unusable at these coordinates.
     fn check(&self, _coordinates: &[[f64; 2]]) -> Result<()> {
         Ok(())
     }
 
-    /// Number of its degrees of freedom: nodes × directions.
+    /// Number of the element's degrees of freedom: nodes × directions.
     fn order(&self) -> usize {
         self.nodes().len() * self.directions().len()
     }
@@ -150,7 +152,7 @@ validated! {
 impl Material {
     /// Material from Young's modulus E (Pa), Poisson's ratio ν and density ρ (kg/m³; 0 allowed).
     ///
-    /// E and ν are those of the solid; the plane-strain stiffness follows from them.
+    /// E and ν belong to the solid; the plane-strain stiffness follows from them.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless E > 0, −1 < ν < 0.5, ρ ≥ 0, all finite.

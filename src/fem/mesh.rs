@@ -11,11 +11,12 @@ use crate::error::{
     require_part,
 };
 
-/// Farthest that a node may be from the place at which it is sought, over the size of the mesh: far below
-/// any element, far above the rounding of a coordinate.
+/// Largest distance of a node from the point at which it is sought, over the size of the mesh.
+///
+/// It is far below the size of any element and far above the rounding of a coordinate.
 const SAME_POINT: f64 = 1e-6;
 
-/// Relative difference of matrices up to which they are the same: rounding.
+/// Relative difference below which matrix entries count as equal: rounding.
 const ALIKE: f64 = 1e-12;
 
 /// Nodes and elements. Clones share their elements, which never change.
@@ -35,7 +36,7 @@ const ALIKE: f64 = 1e-12;
 pub struct Mesh {
     nodes: Vec<[f64; 2]>,
     elements: Vec<Arc<dyn Element>>,
-    /// The elements over the same corners or, without any, on the same nodes, both ascending.
+    /// Indices of elements by sorted corner nodes or, for elements without corners, by all their nodes.
     places: HashMap<Vec<usize>, Vec<usize>>,
 }
 
@@ -63,16 +64,16 @@ impl Mesh {
 
     /// Adds an element and returns its index.
     ///
-    /// Elements may share all their nodes: springs, dashpots, masses and beams of different sections
-    /// act in parallel, and a beam may stiffen the edge of a quadrilateral.
+    /// Elements may share all their nodes: springs, dashpots, masses and beams of different sections act in
+    /// parallel, and a beam may stiffen the edge of a quadrilateral.
     ///
     /// # Errors
-    /// [`Error::Index`] when one of its nodes does not exist; [`Error::Size`] when it has no nodes
-    /// or no directions; [`Error::Scene`] when a node or direction comes twice;
-    /// [`Error::DuplicateElement`] when its [`corners`](Element::corners) are those of another
-    /// element, or when it has mass and two or more nodes and has stiffness, mass
-    /// and damping of another one on them (two equal bars are one of twice the section); and what
-    /// [`Element::check`] finds.
+    /// [`Error::Index`] when one of its nodes does not exist; [`Error::Size`] when it has no nodes or no
+    /// directions; [`Error::Scene`] when a node or direction occurs twice. [`Error::DuplicateElement`] when
+    /// another element has the same [`corners`](Element::corners). [`Error::DuplicateElement`] also when the
+    /// element has mass and at least two nodes, and another element on these nodes has the same stiffness,
+    /// mass and damping: enter two equal bars as one bar of twice the section. Any error of
+    /// [`Element::check`].
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
         let nodes = element.nodes();
         at_least("degrees of freedom of the element", element.order(), 1)?;
@@ -92,7 +93,7 @@ impl Mesh {
         Ok(self.elements.len() - 1)
     }
 
-    /// Whether `element` would count twice beside the element `other` at the same place.
+    /// Whether `element` would duplicate the element `other` at the same place.
     fn counts_twice(&self, other: usize, element: &dyn Element) -> bool {
         let other = self.elements[other].as_ref();
         if !element.corners().is_empty() {
@@ -110,7 +111,7 @@ impl Mesh {
         mass && own.iter().zip(&others).all(|(a, b)| near(a, b))
     }
 
-    /// Stiffness, mass and damping of an element, its nodes ascending, and whether it has mass.
+    /// Stiffness, mass and damping of an element with its nodes in ascending order, and whether it has mass.
     fn matrices_by_node(&self, element: &dyn Element) -> (Vec<f64>, bool) {
         let (nodes, points) = (element.nodes(), self.coordinates(element.nodes()));
         let (order, directions) = (element.order(), element.directions().len());
@@ -127,7 +128,7 @@ impl Mesh {
         for matrix in [stiffness, mass, damping] {
             let largest = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
             for &row in &places {
-                // The rounding left of a zero depends on the order of the nodes.
+                // An entry that cancels keeps a rounding error, which depends on the order of the nodes.
                 let entry = |&column: &usize| matrix[row * order + column];
                 let clean = |entry: f64| if entry.abs() > ALIKE * largest { entry } else { 0.0 };
                 all.extend(places.iter().map(entry).map(clean));
@@ -166,15 +167,17 @@ impl Mesh {
         }
     }
 
-    /// Node nearest to (`x`, `y`), however far that is, the first one when several are; `None` for
-    /// an empty mesh. [`Mesh::node_at`] returns an error for a point without a node.
+    /// Index of the node nearest to (`x`, `y`), at any distance; `None` for an empty mesh.
+    ///
+    /// If several nodes are equally near, the first. [`Mesh::node_at`] returns an error for a point without a
+    /// node.
     pub fn nearest_node(&self, x: f64, y: f64) -> Option<usize> {
         let distance = |node: &[f64; 2]| (node[0] - x).hypot(node[1] - y);
         let pairs = self.nodes.iter().map(distance).enumerate();
         pairs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     }
 
-    /// Nodes other than `node` at its place; `node` must exist.
+    /// Other nodes at the same point as `node`, which must exist.
     pub(crate) fn nodes_beside(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
         let [x, y] = self.nodes[node];
         let near = SAME_POINT * self.extent();
@@ -203,7 +206,7 @@ impl Mesh {
         self.nodes.iter().map(|node| node[1]).reduce(f64::min).unwrap_or(0.0)
     }
 
-    /// A length far below that of any element: the default tolerance for equal heights, m.
+    /// Default tolerance for equal heights, m; far below the size of any element.
     pub(crate) fn tolerance(&self) -> f64 {
         1e-9 * self.extent()
     }
@@ -220,8 +223,9 @@ impl Mesh {
         extent(0).max(extent(1))
     }
 
-    /// Replaces every element for which `other` returns one; its arguments are the element and the
-    /// coordinates of its nodes.
+    /// Replaces every element for which `other` returns a new element.
+    ///
+    /// The arguments of `other` are the element and the coordinates of its nodes.
     ///
     /// # Errors
     /// [`Error::Scene`] for a replacement with other nodes or directions.
@@ -248,7 +252,7 @@ impl Mesh {
     }
 }
 
-/// Corners of what fills an area, all nodes of other elements.
+/// Corner nodes of an element that fills an area, and all nodes of other elements, sorted.
 fn place(element: &dyn Element) -> Vec<usize> {
     let corners = element.corners();
     let mut key = if corners.is_empty() { element.nodes() } else { corners }.to_vec();
@@ -278,7 +282,8 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Layer with the default formulation of the quadrilaterals (incompatible modes); for another one set the field.
+    /// Layer with the default formulation of its quadrilaterals (incompatible modes); set the field for
+    /// another one.
     pub fn new(height: f64, rows: usize, material: Material) -> Self {
         Self { height, rows, material, formulation: QuadFormulation::default() }
     }
@@ -290,16 +295,16 @@ impl Mesh {
     /// Nodes are numbered row by row from the base, left to right.
     ///
     /// # Errors
-    /// [`Error::Input`] or [`Error::Size`] when the range is empty or not finite, when there are
-    /// no columns, layers or rows, or when a height is not positive; [`Error::Memory`] for more
-    /// elements than would fit.
+    /// [`Error::Input`] or [`Error::Size`] when the range is empty or not finite, when there are no columns,
+    /// layers or rows, or when a height is not positive; [`Error::Memory`] when the elements would not fit
+    /// into memory.
     pub fn layered_block(x: Range<f64>, columns: usize, layers: &[Layer]) -> Result<Self> {
         finite("left end of the block", x.start)?;
         finite("right end of the block", x.end)?;
         positive("width of the block", x.end - x.start)?;
         check_size(columns, layers)?;
         let fraction = |k: usize| k as f64 / columns.max(1) as f64;
-        // Weighted ends rather than start + step: both ends come out exact.
+        // Weighted ends instead of start + step, so that both ends are exact.
         let place = |k: usize| x.start * (1.0 - fraction(k)) + x.end * fraction(k);
         let grid: Vec<f64> = (0..=columns).map(place).collect();
         Self::graded_block(&grid, layers)
@@ -351,13 +356,13 @@ impl Mesh {
     }
 }
 
-/// Bytes of a quadrilateral in a mesh, with the node and the place that it adds.
+/// Bytes of a quadrilateral in a mesh, with the node and the map entry that it adds.
 const BYTES: f64 = 500.0;
 
-/// Error for so many quadrilaterals that they would not fit into memory.
+/// Error if so many quadrilaterals would not fit into memory.
 fn check_size(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
     let rows: f64 = layers.iter().map(|layer| layer.rows as f64).sum();
-    // A row of nodes lies below the first row of elements.
+    // There is one more row of nodes than rows of elements.
     let count = columns as f64 * (rows + 1.0);
     memory::check("columns times rows of the block", count, BYTES * count)
 }

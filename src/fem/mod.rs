@@ -1,8 +1,7 @@
 //! Finite elements in the plane: solids, beams, trusses, masses, springs, and your own.
 //!
-//! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a
-//! structure of it. Everything is per metre of thickness; x to the right, y up, rotations
-//! counter-clockwise.
+//! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a structure of it.
+//! All quantities are per metre of thickness. x points to the right, y up; rotations are counter-clockwise.
 //!
 //! ```
 //! use basemat::fem::{Layer, Material, Mesh};

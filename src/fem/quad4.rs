@@ -13,21 +13,25 @@ use crate::linalg::gauss;
 pub enum QuadFormulation {
     /// 2 × 2 Gauss points. Far too stiff in bending (shear locking) and as ν → 1/2.
     Full,
-    /// 2 × 2 Gauss points and two internal bending modes, corrected so that distorted elements
-    /// pass the patch test (QM6: Taylor, Beresford & Wilson, 1976). The default: rectangles bend
-    /// exactly, and nothing locks as ν → 1/2.
+    /// 2 × 2 Gauss points and two internal bending modes. The default.
+    ///
+    /// The bending modes are corrected so that distorted elements pass the patch test (QM6: Taylor, Beresford
+    /// & Wilson, 1976). Rectangles bend exactly, and nothing locks as ν → 1/2.
     #[default]
     IncompatibleModes,
-    /// One point at the centre: constant strain, as in Patel & Spyrakos. The two hourglass
-    /// patterns (nodes moving +, −, +, − in x or in y) meet no resistance: a mesh of these bends
-    /// too easily, and is a mechanism unless its mass or its neighbours hold it. On a rectangle,
-    /// `IncompatibleModes` is this element plus the hourglass stiffness that makes bending exact.
+    /// One point at the centre: constant strain, as in Patel & Spyrakos.
+    ///
+    /// The element has no stiffness against the two hourglass patterns (nodes moving +, −, +, − in x or in
+    /// y). A mesh of these elements is too flexible in bending, and is a mechanism unless its mass or its
+    /// neighbours restrain it. On a rectangle, `IncompatibleModes` is this element plus the hourglass
+    /// stiffness that makes bending exact.
     OnePoint,
-    /// [`OnePoint`](Self::OnePoint) with that many hundredths of the resistance that `Full` has to
-    /// the hourglass patterns, as in Flanagan & Belytschko (1981), who take about five: 0 is
-    /// `OnePoint`, 100 is `Full`. Constant strains see nothing of it.
+    /// [`OnePoint`](Self::OnePoint) with a percentage of the hourglass stiffness of `Full`.
+    ///
+    /// As in Flanagan & Belytschko (1981), who take about 5 %: 0 is `OnePoint`, 100 is `Full`. Constant
+    /// strains are not affected.
     Hourglass {
-        /// Hundredths of the hourglass stiffness of `Full`.
+        /// Hourglass stiffness, in per cent of that in `Full`.
         percent: u8,
     },
 }
@@ -52,8 +56,9 @@ pub struct Quad4 {
     formulation: QuadFormulation,
 }
 
-/// Displacement-to-strain columns `[ε_xx, ε_yy, γ_xy]` of a unit displacement in x and in y of a
-/// function with slopes (∂/∂x, ∂/∂y).
+/// Columns `[ε_xx, ε_yy, γ_xy]` for unit displacements in x and in y of a shape function.
+///
+/// The argument holds the slopes (∂/∂x, ∂/∂y) of the shape function.
 pub(super) fn strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
     [[dx, 0.0, dy], [0.0, dy, dx]]
 }
@@ -84,8 +89,8 @@ impl Quad4 {
             let jacobian = Jacobian::at(point, coordinates);
             let mut strain = [[0.0; 3]; 12];
             strain[..8].copy_from_slice(&node_strains(point, &jacobian));
-            // Slopes of 1 − ξ² and 1 − η² through the centre's Jacobian, scaled so that their
-            // integral over the element vanishes: a constant stress does no work on them.
+            // Slopes of 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that their
+            // integral over the element vanishes, and a constant stress does no work on them.
             let scale = -2.0 * centre.determinant / jacobian.determinant;
             let bend_xi = strains(centre.global([scale * point[0], 0.0]));
             let bend_eta = strains(centre.global([0.0, scale * point[1]]));
@@ -93,7 +98,7 @@ impl Quad4 {
             strain[10..].copy_from_slice(&bend_eta);
             (strain, jacobian.determinant)
         });
-        // The internal modes are condensed out one after another.
+        // The internal modes are condensed one after another.
         for pivot in (8..12).rev() {
             let row = full[pivot];
             for i in 0..pivot {
@@ -107,8 +112,9 @@ impl Quad4 {
     }
 }
 
-/// ∫ Sᵀ D S over points with their weights, S the strains of N patterns at a point, which come with the determinant of
-/// its Jacobian.
+/// ∫ Sᵀ D S over points with their weights.
+///
+/// `strains` returns the strains S of N patterns at a point, and the determinant of the Jacobian there.
 pub(super) fn integrate<const N: usize>(
     material: &Material,
     points: impl Iterator<Item = ([f64; 2], f64)>,
@@ -130,7 +136,7 @@ pub(super) fn integrate<const N: usize>(
     matrix
 }
 
-/// Strains of unit displacements of the nodes, x and y in turn.
+/// Strains due to unit displacements of the nodes, in x and y alternately.
 fn node_strains(point: [f64; 2], jacobian: &Jacobian) -> [[f64; 3]; 8] {
     let slopes = jacobian.slopes(point).map(strains);
     std::array::from_fn(|i| slopes[i / 2][i % 2])
@@ -213,7 +219,7 @@ pub(super) fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
     CORNERS.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
 }
 
-/// Jacobian ∂(x, y)/∂(ξ, η) at a point, its inverse transpose and determinant.
+/// Inverse transpose and determinant of the Jacobian ∂(x, y)/∂(ξ, η) at a point.
 pub(super) struct Jacobian {
     /// Rows: ∂ξ/∂x, ∂η/∂x; ∂ξ/∂y, ∂η/∂y.
     inverse: [[f64; 2]; 2],

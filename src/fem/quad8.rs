@@ -12,19 +12,19 @@ use crate::linalg::gauss;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quad8Integration {
-    /// 2 × 2 Gauss points, the default: rectangles bend exactly, and nothing locks as ν → 1/2. One
-    /// pattern of a single element meets no resistance, but two elements cannot follow it together.
+    /// 2 × 2 Gauss points, the default: rectangles bend exactly, and nothing locks as ν → 1/2. A single
+    /// element has no stiffness against one pattern, but two neighbours cannot deform in it together.
     #[default]
     Reduced,
-    /// 3 × 3 Gauss points: no such pattern, stiffer when distorted or nearly incompressible.
+    /// 3 × 3 Gauss points: no such pattern; stiffer when distorted or nearly incompressible.
     Full,
 }
 
-/// Plane-strain serendipity quadrilateral, 1 m thick: four corners counter-clockwise, then the
-/// nodes between the first and second corner, the second and third, and so on.
+/// Eight-node plane-strain serendipity quadrilateral, 1 m thick.
 ///
-/// Edges may be curved. At the base, where the ground sees straight lines between neighbouring
-/// nodes, the nodes in the middle of edges are contact nodes like the corners.
+/// Nodes are the four corners counter-clockwise, then the nodes between the first and second corner, the
+/// second and third, and so on. Edges may be curved. At the base, the ground assumes straight lines between
+/// neighbouring nodes. There the mid-edge nodes are contact nodes, as the corners are.
 ///
 /// ```
 /// use basemat::fem::{Element, MassKind, Material, Quad8};
@@ -114,7 +114,7 @@ fn slopes(point: [f64; 2], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 8], f64) {
 }
 
 impl Quad8Integration {
-    /// Gauss points along a side of the square.
+    /// Number of Gauss points along a side of the square.
     fn order(self) -> usize {
         match self {
             Self::Reduced => 2,
@@ -146,8 +146,8 @@ impl Element for Quad8 {
         add_square(matrix, &block);
     }
 
-    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton,
-    /// Rock & Zienkiewicz 1976); row sums would be negative at the corners.
+    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton, Rock &
+    /// Zienkiewicz 1976). Row sums would be negative at the corners.
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let mut one = [[0.0; 8]; 8];
         let mut total = 0.0;

@@ -7,9 +7,9 @@ use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 
 /// Linear spring between two nodes.
 ///
-/// Along the line between its nodes, or in one given direction. In the latter case the nodes
-/// should lie on that direction's line or at the same place: otherwise a rigid rotation of both
-/// meets a force, or the pair of forces leaves a moment.
+/// It acts along the line between its nodes, or in one given direction. In the latter case the nodes should
+/// lie on a line in that direction or at the same place. Otherwise a rigid rotation of both nodes causes a
+/// force, or the pair of forces leaves a moment.
 ///
 /// ```
 /// use basemat::fem::{Direction, Element, Spring};
@@ -24,8 +24,9 @@ use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 pub struct Spring(Pair);
 
 impl Spring {
-    /// Spring that sees the relative motion of two nodes in one `direction`; `coefficient` in N/m (N m/rad for
-    /// rotations) per metre of thickness.
+    /// Spring against the relative motion of two nodes in one `direction`.
+    ///
+    /// `coefficient` in N/m (N m/rad for rotations) per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -34,8 +35,9 @@ impl Spring {
         Ok(Self(Pair { nodes, direction: Some(direction), coefficient }))
     }
 
-    /// Spring that sees the change of distance between two nodes; `coefficient` in N/m (N m/rad for rotations) per
-    /// metre of thickness.
+    /// Spring against the change of distance between two nodes.
+    ///
+    /// `coefficient` in N/m per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -67,11 +69,11 @@ impl Element for Spring {
     }
 }
 
-/// Two nodes and what acts between them.
+/// Two nodes, and the coefficient of the spring or dashpot between them.
 #[derive(Debug, Clone, PartialEq)]
 struct Pair {
     nodes: [usize; 2],
-    /// The one direction in which it acts; else along the line between the nodes.
+    /// Direction of the force; `None`: along the line between the nodes.
     direction: Option<Direction>,
     coefficient: f64,
 }
@@ -81,7 +83,7 @@ impl Pair {
         self.direction.as_ref().map_or(TRANSLATIONS, std::slice::from_ref)
     }
 
-    /// Adds its matrix.
+    /// Adds the 2 × 2 or 4 × 4 matrix of the pair to `matrix`.
     fn add(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
         let c = self.coefficient;
         if self.direction.is_some() {
@@ -91,7 +93,7 @@ impl Pair {
         }
     }
 
-    /// Refuses nodes at one place, between which there is no line.
+    /// Error if an axial pair has both nodes at one place.
     fn check(&self, length: &'static str, coordinates: &[[f64; 2]]) -> Result<()> {
         self.direction.map_or_else(|| Line::check(length, coordinates), |_| Ok(()))
     }
@@ -99,9 +101,9 @@ impl Pair {
 
 /// Linear viscous dashpot between two nodes.
 ///
-/// Along the line between its nodes, or in one given direction. In the latter case the nodes
-/// should lie on that direction's line or at the same place: otherwise a rigid rotation of both
-/// meets a force, or the pair of forces leaves a moment.
+/// It acts along the line between its nodes, or in one given direction. In the latter case the nodes should
+/// lie on a line in that direction or at the same place. Otherwise a rigid rotation of both nodes causes a
+/// force, or the pair of forces leaves a moment.
 ///
 /// ```
 /// use basemat::fem::{Direction, Element, Dashpot};
@@ -116,8 +118,9 @@ impl Pair {
 pub struct Dashpot(Pair);
 
 impl Dashpot {
-    /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for
-    /// rotations) per metre of thickness.
+    /// Dashpot against the relative velocity of two nodes in one `direction`.
+    ///
+    /// `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -126,8 +129,9 @@ impl Dashpot {
         Ok(Self(Pair { nodes, direction: Some(direction), coefficient }))
     }
 
-    /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per
-    /// metre of thickness.
+    /// Dashpot against the rate of the distance between two nodes.
+    ///
+    /// `coefficient` in N s/m per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -181,7 +185,7 @@ pub struct LumpedMass {
 }
 
 impl LumpedMass {
-    /// Point mass (kg per metre of thickness) at `node`; it makes no rotation degree of freedom.
+    /// Point mass at `node`, kg per metre of thickness; adds no rotation degree of freedom.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the mass is positive.
@@ -189,8 +193,10 @@ impl LumpedMass {
         Ok(Self { node: [node], mass: positive("lumped mass", mass)?, rotary_inertia: 0.0 })
     }
 
-    /// Adds rotary inertia about the node, kg m² per metre of thickness. Above
-    /// zero, the node gets a rotation degree of freedom, which other elements should hold.
+    /// Adds rotary inertia about the node, kg m² per metre of thickness.
+    ///
+    /// If the rotary inertia is above zero, the node gets a rotation degree of freedom. Other elements should
+    /// restrain it.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative.

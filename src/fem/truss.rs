@@ -1,4 +1,4 @@
-//! Straight elements of two nodes, and the bar that carries axial force only.
+//! Straight elements with two nodes, and the bar with axial force only.
 
 use super::element::{Element, MassKind, add_square};
 use crate::error::{Result, not_negative, positive, same_length};
@@ -6,8 +6,8 @@ use crate::geometry::{Direction, TRANSLATIONS};
 
 /// Straight bar between two nodes, hinged at both.
 ///
-/// The P–Δ effect of its axial force is left out unless
-/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds the force.
+/// The P–Δ effect of its axial force is included only if
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes the force.
 ///
 /// ```
 /// use basemat::fem::{Element, Truss};
@@ -86,7 +86,7 @@ impl Element for Truss {
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let mass = self.density * self.area * line.length;
-        // The bar's points move linearly between the ends in both directions.
+        // Points of the bar move linearly between the ends, in both directions.
         let (own, other) = match kind {
             MassKind::Consistent => (mass / 3.0, mass / 6.0),
             MassKind::Lumped => (mass / 2.0, 0.0),
@@ -108,7 +108,7 @@ impl Element for Truss {
 
 // Geometry shared by the two-node elements.
 
-/// Straight line from its first to its second node: length and direction.
+/// Length and direction of the straight line from the first to the second node.
 pub(super) struct Line {
     pub(super) length: f64,
     cosine: f64,
@@ -116,40 +116,42 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Line between two points; `None` unless there are two.
+    /// Line between two points; `None` unless there are exactly two.
     pub(super) fn between(coordinates: &[[f64; 2]]) -> Option<Self> {
         let &[[x0, y0], [x1, y1]] = coordinates else { return None };
         let length = (x1 - x0).hypot(y1 - y0);
         Some(Self { length, cosine: (x1 - x0) / length, sine: (y1 - y0) / length })
     }
 
-    /// Error unless there are two points apart.
+    /// Error unless there are two points at different places.
     pub(super) fn check(quantity: &'static str, coordinates: &[[f64; 2]]) -> Result<()> {
         same_length(quantity, coordinates.len(), 2)?;
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }
 
-    /// Adds `stiffness` against lengthening of the line; degrees of freedom x, y at both ends.
+    /// Adds the axial `stiffness` of the line; degrees of freedom x, y at both ends.
     pub(super) fn add_axial(&self, stiffness: f64, matrix: &mut [f64]) {
         let row = [-self.cosine, -self.sine, self.cosine, self.sine];
         add_square(matrix, &row.map(|a| row.map(|b| stiffness * a * b)));
     }
 
-    /// Adds the geometric stiffness −P/L of a bar with a compressive force P against displacements across
-    /// itself; degrees of freedom x, y at both ends.
+    /// Adds the geometric stiffness −P/L of a bar with the compressive force P.
+    ///
+    /// It acts on relative displacements across the bar; degrees of freedom x, y at both ends.
     pub(super) fn add_sway(&self, compression: f64, matrix: &mut [f64]) {
         let row = [self.sine, -self.cosine, -self.sine, self.cosine];
         let factor = -compression / self.length;
         add_square(matrix, &row.map(|a| row.map(|b| factor * a * b)));
     }
 
-    /// Lengthening, m, when its ends are displaced by [x, y].
+    /// Lengthening of the line, m, when its ends are displaced by [x, y].
     pub(super) fn lengthening(&self, first: [f64; 2], second: [f64; 2]) -> f64 {
         self.cosine * (second[0] - first[0]) + self.sine * (second[1] - first[1])
     }
 
-    /// Adds a `local` matrix (along the line, across it to the left, rotation; both ends) in global
-    /// degrees of freedom x, y, rotation.
+    /// Transforms a `local` matrix to global degrees of freedom and adds it.
+    ///
+    /// Local: along the line, across it to the left, rotation; both ends. Global: x, y, rotation; both ends.
     pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {
         let mut to_local = [[0.0; 6]; 6];
         for end in [0, 3] {

@@ -2,10 +2,10 @@
 //!
 //! The kernel is a sum of branches, each a square root times a rational function whose poles are
 //! the roots of the Rayleigh polynomial. On each branch a variable s removes the square root, and
-//! pieces are subdivided until the nearest singularity is far enough for a Gauss rule. The poles
-//! that may come arbitrarily close to the path are subtracted and integrated in closed form: the
-//! Rayleigh root, which lies on it (principal value), and for small Poisson's ratios the root near
-//! the pressure wave, which lies beside it.
+//! pieces are subdivided until the nearest singularity is far enough for a Gauss rule. Two poles may come
+//! arbitrarily close to the path; they are subtracted and integrated in closed form. The Rayleigh root lies
+//! on the path (principal value). For small Poisson's ratios, the root near the pressure wave lies next to
+//! the path.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -59,7 +59,7 @@ pub(crate) enum Branch {
     Tail,
 }
 
-/// Branches of the kernel of one soil: where they end and where they are singular.
+/// Branches of the kernel of one soil: their ends and their singularities.
 #[derive(Debug, Clone)]
 pub(crate) struct Branches {
     pub(crate) rayleigh: Rayleigh,
@@ -75,7 +75,7 @@ pub(crate) struct Branches {
     pub(crate) pulse: f64,
     /// a² − y for the root near the pressure wave, when it is subtracted.
     near: Option<f64>,
-    /// Singularities that only ask for subdivision, for each part.
+    /// Singularities of each branch for which pieces are subdivided, and which are not subtracted.
     regular: [[[f64; 2]; 4]; 5],
     /// The Rayleigh pole in the variables of `Pressure` and `Shear`.
     pole: [f64; 2],
@@ -256,7 +256,8 @@ impl Branches {
             sum[1] += weight * value[1];
         }
         if let (Some(residue), Some(s)) = (residue, pole) {
-            // The floor stands for the pole at the end of a piece: the next piece cancels it.
+            // The lower limit 1e-30 replaces a zero distance when a piece ends at the pole; the next piece
+            // cancels it.
             let log = ((high - s).abs().max(1e-30) / (low - s).abs().max(1e-30)).ln();
             sum[0] += residue[0] * log;
             sum[1] += residue[1] * log;
@@ -269,7 +270,7 @@ impl Branches {
         }
     }
 
-    /// Kernel times dτ/ds at `s`, without 1/(s − pole) where there is one, and u.
+    /// Kernel times dτ/ds at `s`, and u; the kernel's factor 1/(s − pole) is left out if there is a pole.
     fn smooth(&self, part: Branch, s: f64, pole: Option<f64>) -> [f64; 3] {
         let r = &self.rayleigh;
         let (square, sixteen) = (s * s, 16.0 * r.h);

@@ -40,7 +40,7 @@ impl FullPlane {
 
     fn functions(&self, r: f64, time: f64, load: LoadHistory) -> Functions {
         let mut out = Functions { difference: 0.0, logarithm: 0.0, shear: 0.0, slope: 0.0 };
-        // With both waves past, Z may lose any term that does not depend on the wave speed.
+        // Once both waves have passed, terms of Z that do not depend on the wave speed cancel in Z₁ − Z₂.
         let both = self.shear * time / r > 1.0;
         for (c, sign) in [(self.pressure, 1.0), (self.shear, -1.0)] {
             let z = c * time / r;

@@ -161,9 +161,13 @@ impl HalfPlane {
         }
     }
 
-    /// Mean displacement (m/Pa) of `receiver` at `time` (s) after a unit traction was switched on
-    /// over `source`; exactly zero before the pressure wave arrives. Differences of J: good to
-    /// rounding times (offset/length)²; [`crate::bem::InfluenceKernel`] has no such loss.
+    /// Mean displacement of `receiver` (m/Pa) after a unit traction acts on `source`.
+    ///
+    /// `time` is the time since the traction was switched on, s.
+    ///
+    /// The displacement is exactly zero before the pressure wave arrives. It is computed from differences of
+    /// J, so its relative error is rounding times (offset/length)²; [`crate::bem::InfluenceKernel`] has no
+    /// such loss.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `time` and the elements' ends are finite, the left one first.
@@ -263,7 +267,7 @@ impl HalfPlane {
         }
     }
 
-    /// Regular ∫ f η^m dη of zx up to τ for every weight (elliptic for m = ±1: by Gauss rules).
+    /// Regular ∫ f η^m dη of zx up to τ for every weight; elliptic integrals (m = ±1) by Gauss rules.
     fn odd(&self, tau: f64) -> [f64; 4] {
         POWERS.map(|power| self.odd_power(tau, power))
     }
@@ -296,8 +300,8 @@ impl FundamentalSolution for HalfPlane {
         self.soil
     }
 
-    /// Load and receiver on the surface: `offset[1]` must be 0. [`LoadHistory::Impulse`] leaves
-    /// out the Rayleigh pulse of the coupled components.
+    /// Load and receiver lie on the surface: `offset[1]` must be 0. [`LoadHistory::Impulse`] omits the
+    /// Rayleigh pulse of the coupled components.
     fn displacement(
         &self,
         offset: [f64; 2],

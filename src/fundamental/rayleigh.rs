@@ -15,15 +15,15 @@
 //! | g | `g` | 1 − 2a² = ν/(1−ν) |
 //! | z | | y − a², not below zero once the pressure wave has passed |
 //! | `y_R`, `z_R` | `square`, `z` | the Rayleigh root, and `y_R` − a² |
-//! | σ, ϖ | `sum`, `product` | the other two roots in z are those of z² + σ z + ϖ |
+//! | σ, ϖ | `sum`, `product` | the other two roots in z solve z² + σ z + ϖ = 0 |
 
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
 /// Roots of the Rayleigh polynomial of one soil.
 ///
-/// The quadratic factor is kept by its coefficients, which are smooth in Poisson's ratio where
-/// its roots collide (ν = 0.26308…) and precise where one of them tends to a² like ν⁴ (ν → 0).
+/// The quadratic factor is stored by its coefficients. They are smooth in Poisson's ratio where its roots
+/// collide (ν = 0.26308…), and precise where one of its roots tends to a² like ν⁴ (ν → 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rayleigh {
     /// a² = (`c_S`/`c_P`)².
@@ -127,7 +127,7 @@ impl Soil {
     }
 }
 
-/// Terms kept: enough for rounding from three Rayleigh arrivals on.
+/// Number of terms: enough for an error at rounding level from three Rayleigh arrivals on.
 pub(crate) const TERMS: usize = 20;
 
 /// `c_k` of f = Σ `c_k` τ^(−2k−1), for zz and xx; converges for τ above the Rayleigh arrival.

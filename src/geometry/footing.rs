@@ -1,10 +1,10 @@
-//! Shape of a foundation: outward edges of its outline, and lever arms about its middle.
+//! Shape of a foundation: outward edges of its outline, and lever arms about its centre.
 
 use std::ops::Range;
 
 use super::{Patch, far_ends, middle, span};
 
-/// Components of an edge's normal that are equal but for rounding.
+/// Ratio of the two components of an edge's normal from which they count as equal.
 const ALIKE: f64 = 1.0 - 1e-9;
 
 /// Edge of a polygon whose corners go counter-clockwise.
@@ -17,7 +17,7 @@ pub(crate) struct Edge {
 }
 
 impl Edge {
-    /// Edges of the polygon with these corners, the last of which leads back to the first.
+    /// Edges of the polygon with these corners; the last edge ends at the first corner.
     pub(crate) fn all(corners: &[[f64; 2]]) -> impl Iterator<Item = Self> {
         let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
         pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
@@ -28,28 +28,30 @@ impl Edge {
         self.normal[0] * vector[0] + self.normal[1] * vector[1]
     }
 
-    /// Distance from a point inside, times the length of the edge.
+    /// Distance of the edge from a point inside the polygon, times the length of the edge.
     pub(crate) fn reach(&self, from: [f64; 2]) -> f64 {
         self.outward([0, 1].map(|axis| self.start[axis] - from[axis]))
     }
 }
 
-/// Lever arms of a foundation about the middle of its elements, in plan of its outline.
+/// Lever arms of a foundation about its centre: the middle of its elements, in plan of its outline.
 #[derive(Debug)]
 pub(crate) struct Footing {
     /// Left and right end, front and back end, m; no depth in the plane.
     pub(crate) ends: [[f64; 2]; 2],
-    /// Middle of the foundation from the point of the base moment, m.
+    /// Centre of the foundation relative to the point of the base moment, m.
     pub(crate) center: [f64; 2],
-    /// Middle of each element from that of the foundation, m.
+    /// Middle of each element relative to the foundation's centre, m.
     pub(crate) arms: Vec<[f64; 2]>,
-    /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the middle.
+    /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the centre.
     pub(crate) edges: [Vec<(Edge, f64)>; 2],
 }
 
 impl Footing {
-    /// Footing of these elements, with the corners of the convex outline, counter-clockwise; none in the plane.
-    /// `origin` is the point of the base moment.
+    /// Footing of these elements.
+    ///
+    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: point of
+    /// the base moment.
     pub(crate) fn new(
         patch: &Patch,
         elements: Range<usize>,

@@ -2,10 +2,10 @@
 
 use std::ops::Mul;
 
-/// Series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
+/// Number of series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
 pub(crate) const SERIES: usize = 6;
 
-/// A lattice of cells. Compliances depend on the offset alone, and its signs.
+/// Lattice of equal cells. Compliances depend only on the offset between two cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Lattice {
     /// Sides of a cell along x and y, m.
@@ -31,18 +31,18 @@ impl Lattice {
         self.pitch[0].min(self.pitch[1])
     }
 
-    /// Whether x and y may be exchanged.
+    /// Whether cells are square, so that x and y may be exchanged.
     fn is_square(&self) -> bool {
         self.pitch[0] == self.pitch[1]
     }
 
-    /// Offsets along x and y that are integrated, with the most columns second if cells are square.
+    /// Number of offsets along x and y that are integrated; the smaller number first if cells are square.
     pub(crate) fn extent(&self) -> [usize; 2] {
         let [i, j] = self.counts;
         if self.is_square() { [i.min(j), i.max(j)] } else { [i, j] }
     }
 
-    /// Offsets that stand for all others, both not negative; of square cells those with i ≤ j.
+    /// Offsets whose compliances give all others by symmetry: none negative, and i ≤ j if cells are square.
     pub(crate) fn classes(&self) -> Vec<[usize; 2]> {
         let [columns, rows] = self.extent();
         let square = self.is_square();
@@ -61,8 +61,10 @@ impl Lattice {
         (i * rows - i * (i + 1) / 2 + j, exchanged)
     }
 
-    /// Class of an offset, and per component of the receiver's displacement (down, along x, along y) and of the
-    /// source's traction the series and its factor: for a receiver that is `offset` cells from the source.
+    /// Class of an offset, and the series and factor of each pair of components.
+    ///
+    /// Rows: components of the receiver's displacement (down, along x, along y). Columns: components of the
+    /// source's traction. The receiver is `offset` cells from the source.
     pub(crate) fn terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
         let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
         let [right, away] = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
@@ -73,7 +75,7 @@ impl Lattice {
         (class, terms)
     }
 
-    /// 3 × 3 values of such a pair, out of those of all classes.
+    /// 3 × 3 values for a receiver `offset` cells from the source, taken from the values of all classes.
     pub(crate) fn block<T>(&self, values: &[[T; SERIES]], offset: [isize; 2]) -> [[T; 3]; 3]
     where
         T: Copy + Mul<f64, Output = T>,

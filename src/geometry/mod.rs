@@ -1,4 +1,4 @@
-//! Geometry: contact elements, their order and that of their numbers; cells of a lattice; directions; shapes of
+//! Geometry: contact elements and the order of their numbers, cells of a lattice, directions, and shapes of
 //! foundations.
 
 mod footing;
@@ -95,7 +95,7 @@ impl ContactLayout {
         [place / self.elements, place % self.elements]
     }
 
-    /// The first N components of a contact vector, all elements each; short vectors lack some.
+    /// The first N components of a contact vector, each for all elements; a short vector gives short slices.
     pub(crate) fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
         std::array::from_fn(|_| {
             let (own, rest) = vector.split_at(self.elements.min(vector.len()));
@@ -104,7 +104,7 @@ impl ContactLayout {
         })
     }
 
-    /// Components of a contact vector as by [`ContactLayout::split`], to be changed.
+    /// Mutable components of a contact vector, split as by [`ContactLayout::split`].
     pub(crate) fn split_mut<T, const N: usize>(self, mut vector: &mut [T]) -> [&mut [T]; N] {
         std::array::from_fn(|_| {
             let all = std::mem::take(&mut vector);
@@ -119,18 +119,21 @@ impl ContactLayout {
 #[derive(Debug, Clone)]
 pub(crate) struct Patch {
     elements: Vec<ContactElement>,
-    /// Front and back end of each along y, m.
+    /// Front and back end of each element along y, m.
     depths: Vec<[f64; 2]>,
-    /// Part of the area of each that is inside the outline of the mat, and that area, m²; in the plane its length.
+    /// Fraction of each element's area inside the mat's outline, and the area inside, m² (in the plane:
+    /// length, m).
     inside: Vec<f64>,
     areas: Vec<f64>,
     components: usize,
 }
 
 impl Patch {
-    /// Elements of a ground with this number of directions, with their `depths` from front to back along y (m) and the
-    /// fractions of their areas inside the outline; an error unless they have a size and do not overlap, in the plane
-    /// from left to right.
+    /// Elements of a ground with this number of directions.
+    ///
+    /// `depths`: front and back end of each element along y, m. `inside`: fraction of each element's area
+    /// inside the outline. Returns an error unless all elements have a size and none overlap; in the plane
+    /// they must also run from left to right.
     pub(crate) fn new(
         components: usize,
         elements: Vec<ContactElement>,
@@ -176,12 +179,14 @@ impl Patch {
         [self.elements[element].length(), back - front]
     }
 
-    /// Areas of the elements inside the outline, to which tractions refer, m²; in the plane their lengths.
+    /// Areas of the elements inside the outline, m²; in the plane their lengths, m. Tractions refer to these
+    /// areas.
     pub(crate) fn areas(&self) -> &[f64] {
         &self.areas
     }
 
-    /// Changes a matrix from tractions of whole elements to displacements into one from those inside the outline.
+    /// Converts a matrix that takes tractions of whole elements to one that takes tractions inside the
+    /// outline.
     pub(crate) fn refer_inside(&self, matrix: &mut [f64]) {
         let layout = self.layout();
         for row in matrix.chunks_exact_mut(layout.len()) {
@@ -189,14 +194,14 @@ impl Patch {
         }
     }
 
-    /// Changes tractions inside the outline into those of whole elements.
+    /// Converts tractions inside the outline to tractions spread over whole elements.
     pub(crate) fn spread_inside(&self, traction: &mut [f64]) {
         for component in traction.chunks_exact_mut(self.elements.len()) {
             component.iter_mut().zip(&self.inside).for_each(|(value, part)| *value *= part);
         }
     }
 
-    /// The middle `[x, y]` between the farthest ends of all, m.
+    /// Middle `[x, y]` of the bounding box of all elements, m.
     pub(crate) fn center(&self) -> [f64; 2] {
         let along = self.elements.iter().map(|element| [element.left, element.right]);
         [far_ends(along), far_ends(self.depths.iter().copied())].map(middle)
@@ -209,13 +214,13 @@ impl Patch {
     }
 }
 
-/// The least and the greatest of all ends.
+/// The smallest low end and the largest high end.
 pub(crate) fn far_ends(ends: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];
     ends.fold(none, |[least, most], [low, high]| [least.min(low), most.max(high)])
 }
 
-/// The least and the greatest of all values.
+/// The smallest and the largest value.
 pub(crate) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     far_ends(values.map(|value| [value; 2]))
 }
@@ -225,7 +230,7 @@ pub(crate) fn middle([low, high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// Name of the axis x (0) or y (1) in plan; `None` in the plane, where there is but one.
+/// Name of the axis x (0) or y (1) in plan; `None` in the plane, which has one axis along the surface.
 pub(crate) fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
 }
@@ -238,11 +243,11 @@ impl std::ops::Deref for Patch {
     }
 }
 
-/// Bytes for each pair of elements: a dozen matrices of 2 × 2 numbers. Measured, 300 to 800
-/// elements: 202 to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
+/// Bytes for each pair of elements: a dozen matrices of 2 × 2 numbers. Measured with 300 to 800 elements: 202
+/// to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
 const BYTES_PER_PAIR: f64 = 400.0;
 
-/// Error for more elements, with this number of components each, than fit into memory with the matrices between them.
+/// Error if the matrices between this many elements, with this number of components each, exceed the memory.
 pub(crate) fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
     let numbers = count * (components as f64 / PLANE as f64);
@@ -261,7 +266,7 @@ fn check_lengths(elements: &[ContactElement], components: usize) -> Result<()> {
     Ok(())
 }
 
-/// Part of an element's side by which neighbours may overlap: rounding of a common node.
+/// Fraction of an element's side by which neighbours may overlap, for the rounding of a common node.
 const OVERLAP: f64 = 1e-9;
 
 /// Error unless the elements have positive length, in order, without overlap.
@@ -284,7 +289,7 @@ fn check_cells(elements: &[ContactElement], depths: &[[f64; 2]]) -> Result<()> {
         finite("back end of a contact element", *back)?;
         positive("depth of a contact element", back - front)?;
     }
-    // By their left ends: what begins beyond an element's right end does not meet it.
+    // Sorted by left ends: an element that begins beyond another's right end cannot overlap it.
     let mut order: Vec<_> = elements.iter().zip(depths).collect();
     order.sort_by(|one, other| one.0.left.total_cmp(&other.0.left));
     for (place, (element, [front, back])) in order.iter().enumerate() {

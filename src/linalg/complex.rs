@@ -14,15 +14,16 @@ use realfft::num_complex::Complex64;
 
 #[cfg(feature = "full-plane")]
 impl DenseFactor<Complex64> {
-    /// ln det A: its imaginary part up to multiples of 2π.
+    /// ln det A; its imaginary part is determined up to multiples of 2π.
     pub(crate) fn log_determinant(&self) -> Complex64 {
         let sign = if self.transpositions.is_multiple_of(2) { 0.0 } else { std::f64::consts::PI };
         self.pivots().map(Complex64::ln).sum::<Complex64>() + Complex64::new(0.0, sign)
     }
 }
 
-/// Smallest and largest eigenvalue of the Hermitian part (A + Aᴴ)/2 of a row-major matrix, real or
-/// complex; nothing if it is empty or not finite.
+/// Smallest and largest eigenvalue of the Hermitian part (A + Aᴴ)/2 of a row-major matrix.
+///
+/// The matrix may be real or complex. `None` if it is empty or not finite.
 pub(crate) fn hermitian_range<T>(matrix: &[T], order: usize) -> Option<[f64; 2]>
 where
     T: ComplexField<Real = f64> + Copy,
@@ -100,7 +101,7 @@ impl Complex {
     /// Absolute value.
     pub fn abs(self) -> f64 {
         let square = self.square();
-        // Squares that leave the range of f64 take the slow way.
+        // If the square leaves the range of f64, `hypot` is used, which is slower.
         if square.is_normal() { square.sqrt() } else { self.re.hypot(self.im) }
     }
 
@@ -171,10 +172,10 @@ impl Complex {
         Self::polar(self.abs().powf(exponent), exponent * self.im.atan2(self.re))
     }
 
-    /// Principal artanh; on the real axis beyond ±1 its real part.
+    /// Principal artanh; on the real axis beyond ±1, its real part.
     pub(crate) fn atanh(self) -> Self {
         let above = (1.0 + self.re).powi(2) + self.im * self.im;
-        // The floor stands for the pole itself.
+        // The lower limit 1e-30 replaces zero at the pole.
         let below = ((1.0 - self.re).powi(2) + self.im * self.im).max(1e-30);
         let above = above.max(1e-30);
         let re = if self.re.abs() < 0.5 * above.min(below) {
@@ -189,7 +190,7 @@ impl Complex {
         Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - size))
     }
 
-    /// This number for transforms and matrices.
+    /// This number in the type that transforms and matrices use.
     pub(crate) fn inner(self) -> Complex64 {
         Complex64::new(self.re, self.im)
     }

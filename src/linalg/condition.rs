@@ -1,13 +1,14 @@
 //! Condition numbers from factors.
 //!
-//! The condition is that of the matrix scaled by the roots of its diagonal, SAS with sᵢ = |aᵢᵢ|^−½: it does not depend on
-//! units (a degree of freedom may be a length or an angle), it is within a factor of the order of the least that any
-//! scaling reaches for positive definite matrices (van der Sluis 1969), and it is what bounds the error of a Cholesky
-//! solve, scaled or not (Higham 2002, theorem 10.6 with § 10.1.1).
+//! The condition number is computed for the matrix scaled by the roots of its diagonal: SAS with sᵢ =
+//! |aᵢᵢ|^−½. It does not depend on units (a degree of freedom may be a length or an angle). For positive
+//! definite matrices it is at most the order times the smallest condition number that any diagonal scaling
+//! reaches (van der Sluis 1969). It bounds the error of a Cholesky solve, scaled or not (Higham 2002, theorem
+//! 10.6 with § 10.1.1).
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
-/// Solves of the estimator, at most, with A and with Aᵀ.
+/// Largest number of solves of the estimator, with A and with Aᵀ.
 const ITERATIONS: usize = 5;
 
 /// Estimate of ‖A⁻¹‖₁ from `solve(b, transposed)`, which overwrites b with A⁻¹ b or A⁻ᵀ b.
@@ -42,7 +43,7 @@ fn inverse_norm(order: usize, solve: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
         x.fill(0.0);
         x[place] = 1.0;
     }
-    // A vector that catches what the iteration may miss.
+    // This vector finds norms that the iteration may miss.
     let last = order.max(2) as f64 - 1.0;
     for (i, x) in x.iter_mut().enumerate() {
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
@@ -62,8 +63,9 @@ fn scale(values: &mut [f64], scales: &[f64]) {
     values.iter_mut().zip(scales).for_each(|(x, s)| *x *= s);
 }
 
-/// Condition of a dense row-major matrix scaled by its diagonal, in the 1-norm; infinite if it is
-/// singular.
+/// Condition number of a dense row-major matrix scaled by its diagonal, in the 1-norm.
+///
+/// Infinite if the matrix is singular.
 pub(crate) fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     if order == 0 {
         return 1.0;
@@ -82,7 +84,7 @@ pub(crate) fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     })
 }
 
-/// Condition of a sparse matrix with its factors.
+/// Condition number of a sparse matrix scaled by its diagonal, from its factors, in the 1-norm.
 pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &mut SparseFactor) -> f64 {
     let order = matrix.order();
     let scales = scales(matrix.diagonal().into_iter());
@@ -121,7 +123,7 @@ mod tests {
             let skew = if case % 3 == 0 { 0.5 } else { 0.0 };
             let mut matrix = vec![0.0; n * n];
             for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
-                // One direction is as good as missing.
+                // One direction is almost missing.
                 let product: f64 = (1..n).map(|k| root[i * n + k] * root[j * n + k]).sum();
                 let rest = if i == j { own } else { skew * root[i.min(j) * n + i.max(j)] };
                 let sign = if i < j { -1.0 } else { 1.0 };
@@ -138,7 +140,7 @@ mod tests {
             let sparse = SparseMatrix::new("test", &triplets).unwrap();
             let mut factor = SparseFactor::new("test", &triplets).unwrap();
             for found in [dense_condition(&matrix, n), sparse_condition(&sparse, &mut factor)] {
-                // A lower bound but for rounding, and seldom far below.
+                // The estimate is a lower bound up to rounding, and rarely far below the exact value.
                 let ratio = exact / found;
                 assert!(ratio > 0.99 && ratio < 3.0, "{case}: {found:e} for {exact:e}");
                 worst = worst.max(ratio);

@@ -9,7 +9,7 @@ use faer::perm::PermRef;
 use faer::traits::ComplexField;
 use faer::{Conj, MatMut, MatRef, Par, Spec};
 
-/// LU factors of a dense matrix with partial pivoting, in memory that is kept between factorings.
+/// LU factors of a dense matrix with partial pivoting; factoring again reuses the memory.
 pub(crate) struct DenseFactor<T = f64> {
     order: usize,
     /// L and U, column by column.
@@ -24,12 +24,12 @@ pub(crate) struct DenseFactor<T = f64> {
 }
 
 impl<T: ComplexField + Copy> DenseFactor<T> {
-    /// Room for matrices up to order `capacity`, and solves of one right-hand side.
+    /// Allocates for matrices up to order `capacity` and solves of one right-hand side.
     pub(crate) fn with_capacity(capacity: usize) -> Self {
         Self::with_columns(capacity, 1)
     }
 
-    /// Room for matrices up to order `capacity`, and solves of up to `columns` right-hand sides.
+    /// Allocates for matrices up to order `capacity` and solves of up to `columns` right-hand sides.
     pub(crate) fn with_columns(capacity: usize, columns: usize) -> Self {
         let factor = dense_factor::lu_in_place_scratch::<usize, T>(
             capacity,
@@ -56,8 +56,9 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
         })
     }
 
-    /// Factors the matrix of `order` whose columns `extend` appends, one after the other; false if it is singular or not
-    /// finite.
+    /// Factors the matrix of `order` whose columns `extend` appends, one after the other.
+    ///
+    /// Returns false if the matrix is singular or not finite.
     pub(crate) fn factor_columns(
         &mut self,
         order: usize,
@@ -137,8 +138,9 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
 }
 
 impl DenseFactor {
-    /// Overwrites `rhs` with A⁻¹ rhs, four columns at a time: for the few numbers of a contact problem, where faer's
-    /// blocked solve takes ten times as long.
+    /// Overwrites `rhs` with A⁻¹ rhs, four columns at a time.
+    ///
+    /// Meant for the small systems of a contact problem, where faer's blocked solve takes ten times as long.
     pub(crate) fn solve_small(&mut self, rhs: &mut [f64]) {
         self.permuted.clear();
         self.permuted.extend(self.forward.iter().map(|&row| rhs[row]));
@@ -170,7 +172,7 @@ impl WithSimd for Substitute<'_> {
             add_rows(simd, factors, columns.map(|column| &column[COLUMNS..]), rest);
         }
         solve_lower(|j| &column(whole + j)[whole..], &mut x[whole..]);
-        // The columns that fill no block come first, so that no rows are left above them.
+        // The columns that fill no block come first, so that every block has all its rows above it.
         let first = order % COLUMNS;
         for k in (first..order).step_by(COLUMNS).rev() {
             let (rest, known) = x[..k + COLUMNS].split_at_mut(k);

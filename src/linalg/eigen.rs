@@ -14,7 +14,7 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, MatRef, Par, Side, Spec};
 
-/// Row at which a symmetric row-major matrix is found not to be positive definite, if it is not.
+/// Row at which a symmetric row-major matrix fails to be positive definite; `None` if it is.
 pub(crate) fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order);
     match matrix.llt(Side::Lower) {
@@ -23,9 +23,10 @@ pub(crate) fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     }
 }
 
-/// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1, for symmetric K and
-/// positive definite M. Eigenvectors are columns of the row-major matrix returned. `None` if M is
-/// not positive definite or the iteration fails.
+/// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1.
+///
+/// K is symmetric, M symmetric positive definite. Eigenvectors are columns of the row-major matrix returned.
+/// `None` if M is not positive definite or the iteration fails.
 ///
 /// With M = L Lᵀ these are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ = L⁻ᵀ times its eigenvectors.
 pub(crate) fn generalised_modes(
@@ -51,8 +52,9 @@ pub(crate) fn generalised_modes(
     finite.then_some((values, vectors))
 }
 
-/// Eigenvalues, ascending, and eigenvectors, columns of the row-major matrix returned, of a
-/// symmetric row-major matrix. `None` if the iteration fails.
+/// Eigenvalues, ascending, and eigenvectors of a symmetric row-major matrix.
+///
+/// Eigenvectors are columns of the row-major matrix returned. `None` if the iteration fails.
 pub(crate) fn symmetric_modes(matrix: &[f64], order: usize) -> Option<(Vec<f64>, Vec<f64>)> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order).to_owned();
     let (values, vectors) = symmetric_eigen(&matrix)?;
@@ -66,13 +68,14 @@ fn by_rows(matrix: &Mat<f64>) -> Vec<f64> {
 
 fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let n = matrix.nrows();
-    // faer takes no empty matrix.
+    // faer does not accept an empty matrix.
     if n == 0 {
         return Some((Vec::new(), Mat::zeros(0, 0)));
     }
     let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
-    // Divide and conquer, faer's way from order 128 on, left residuals of 6e-7 of the largest force
-    // (order 308, the containment of the examples); the QR iteration leaves none above rounding.
+    // From order 128 on, faer uses divide and conquer by default. It left residuals of 6e-7 of the largest
+    // force (order 308, the containment of the examples); the QR iteration leaves residuals at rounding
+    // level.
     let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
     parameters.recursion_threshold = usize::MAX;
     let scratch =
@@ -97,22 +100,24 @@ fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
 // | V | basis, M-orthonormal, a row per vector |
 // | H | Vᵀ M A V, built from the coefficients of the orthogonalisation |
 //
-// Every new vector is made orthogonal to all before it, twice (Parlett 1998, § 13): no spurious
-// copies come. Modes of the same frequency are found up to the size of the block.
+// Every new vector is made orthogonal to all earlier ones, twice (Parlett 1998, § 13), so no spurious copies
+// appear. As many modes of the same frequency are found as a block has vectors.
 
 /// Vectors of a block.
 const BLOCK: usize = 8;
-/// Residual ‖A x − θ x‖ of a mode that counts as found, relative to θ.
+/// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
 const TOLERANCE: f64 = 1e-9;
-/// A vector that orthogonalisation shortens to this lay in the space of the others.
+/// A vector counts as dependent if orthogonalisation shortens it to this fraction of its length.
 const DEPENDENT: f64 = 1e-10;
 
 /// Eigenvalues and eigenvectors.
 type Pairs = (Vec<f64>, Vec<f64>);
 
-/// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors, a row of the
-/// matrix returned each, φ·M φ = 1, for positive definite K (by its factor) and positive semi-definite
-/// M. Fewer where M has a lower rank; `None` if the iteration fails.
+/// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
+///
+/// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
+/// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration
+/// fails.
 pub(crate) fn lowest_modes(
     stiffness: &SparseFactor,
     mass: &SparseMatrix,
@@ -123,8 +128,8 @@ pub(crate) fn lowest_modes(
     loop {
         let applied = space.columns.len();
         if applied == space.vectors() {
-            // At the beginning, or when A leads nowhere new: what there is is exact, unless there
-            // are more modes of one frequency than a block holds.
+            // At the beginning, or when A yields no new vector. The modes found are then exact, unless a
+            // frequency has more modes than a block has vectors.
             space.extend_at_random();
             if applied == space.vectors() {
                 return space.modes(&space.approximations(count)?);
@@ -140,12 +145,12 @@ pub(crate) fn lowest_modes(
     }
 }
 
-/// The Krylov space so far.
+/// The Krylov space built so far.
 struct Space<'a> {
     stiffness: &'a SparseFactor,
     mass: &'a SparseMatrix,
     basis: Vec<f64>,
-    /// Columns of H: the coefficients of A v, for every v that A was applied to.
+    /// Columns of H: the coefficients of A v, for every v to which A was applied.
     columns: Vec<Vec<f64>>,
     seed: u64,
 }
@@ -170,7 +175,7 @@ impl Space<'_> {
         self.stiffness.solve_many(vectors);
     }
 
-    /// Puts a vector into the basis, if it leads out of it, and returns its coefficients.
+    /// Appends a vector to the basis if it is independent of it, and returns its coefficients.
     fn append(&mut self, vector: &mut [f64]) -> Vec<f64> {
         let mut coefficients = vec![0.0; self.vectors()];
         let mut product = vec![0.0; self.order()];
@@ -195,7 +200,7 @@ impl Space<'_> {
         coefficients
     }
 
-    /// Puts a block of random vectors into the basis, after A has taken away what has no mass.
+    /// Appends a block of random vectors, multiplied by A to remove their parts without mass.
     fn extend_at_random(&mut self) {
         let mut block: Vec<f64> = (0..BLOCK * self.order()).map(|_| self.random()).collect();
         self.apply(&mut block);
@@ -213,7 +218,7 @@ impl Space<'_> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 
-    /// Applies A to the newest vectors and puts what is new into the basis.
+    /// Applies A to the newest vectors and appends the independent results to the basis.
     fn step(&mut self) {
         let n = self.order();
         let begin = self.columns.len();
@@ -249,7 +254,7 @@ impl Space<'_> {
         Some(found)
     }
 
-    /// λ and φ.
+    /// λ and φ of the approximations.
     fn modes(&self, found: &Approximations) -> Option<Pairs> {
         let (n, m) = (self.order(), self.columns.len());
         let mut modes = vec![0.0; found.theta.len() * n];
@@ -264,7 +269,7 @@ impl Space<'_> {
 /// Eigenpairs of H.
 struct Approximations {
     theta: Vec<f64>,
-    /// Coordinates in the basis, a vector each.
+    /// Coordinates in the basis, one vector for each mode.
     shares: Vec<Vec<f64>>,
     /// Largest ‖A x − θ x‖/θ.
     residual: f64,

@@ -1,4 +1,4 @@
-//! Gauss–Legendre rules, and how many points an integrand with known singularities needs.
+//! Gauss–Legendre rules, and the number of points for an integrand with known singularities.
 
 use std::sync::OnceLock;
 
@@ -14,11 +14,13 @@ pub(crate) struct Rule {
     reach: f64,
 }
 
-/// Relative error aimed at on one piece.
+/// Target relative error on one piece.
 const TOLERANCE: f64 = 1e-14;
 
 impl Rule {
-    /// Closed forms of two and three points, then Newton's iteration on the Legendre polynomial
+    /// Rule of `order` points.
+    ///
+    /// Two and three points have closed forms; others use Newton's iteration on the Legendre polynomial
     /// (Davis & Rabinowitz 1984, § 2.7).
     pub(crate) fn new(order: usize) -> Self {
         let [third, far] = [1.0 / 3.0_f64.sqrt(), 0.6_f64.sqrt()];
@@ -53,8 +55,8 @@ impl Rule {
     }
 }
 
-/// Legendre polynomial of `degree` at `x` from the two of lower degrees:
-/// k Pₖ = (2k−1) x Pₖ₋₁ − (k−1) Pₖ₋₂.
+/// Legendre polynomial of `degree` at `x` from the two polynomials of lower degree: k Pₖ = (2k−1) x Pₖ₋₁ −
+/// (k−1) Pₖ₋₂.
 pub(crate) fn next_legendre(degree: usize, x: f64, [before, last]: [f64; 2]) -> f64 {
     let k = degree as f64;
     ((2.0 * k - 1.0) * x * last - (k - 1.0) * before) / k
@@ -96,8 +98,9 @@ pub(crate) fn largest() -> &'static Rule {
     &rules()[ORDERS.len() - 1]
 }
 
-/// The cheapest rule for an integrand analytic inside the ellipse (|z−1| + |z+1|)/2 < `reach`, if
-/// it is small enough.
+/// The cheapest rule for an integrand analytic inside the ellipse (|z−1| + |z+1|)/2 < `reach`.
+///
+/// `None` if that rule would be larger than the largest rule for a piece.
 pub(crate) fn rule_for(reach: f64) -> Option<&'static Rule> {
     rules()[..=LARGEST].iter().find(|rule| rule.reach <= reach)
 }
@@ -105,7 +108,7 @@ pub(crate) fn rule_for(reach: f64) -> Option<&'static Rule> {
 /// (|p − a| + |p − b|)/(b − a) of a point p in the complex plane and the interval [a, b].
 pub(crate) fn reach(point: [f64; 2], low: f64, high: f64) -> f64 {
     if point[1] == 0.0 {
-        // Squares of tiny slownesses would vanish, and pieces be split without end.
+        // Squares of tiny slownesses would underflow to zero, and pieces would be split without end.
         return ((point[0] - low).abs() + (point[0] - high).abs()) / (high - low);
     }
     let square = point[1] * point[1];

@@ -5,11 +5,10 @@ use std::ops::Deref;
 use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::linalg::{Triplets, dense_multiply_add, weighted_dot};
 
-/// Bytes of a degree of freedom in the sparse matrices of a structure, their factor and its states.
+/// Bytes per degree of freedom in a structure's sparse matrices, their factor and its states.
 const BYTES_PER_UNKNOWN: f64 = 400.0;
 
-/// Error for so many degrees of freedom, rows of a matrix or whatever `quantity` says, that a structure with
-/// them would not fit into memory.
+/// Error if a structure of this `order` would not fit into memory; `quantity` names what the order counts.
 pub(crate) fn check_order(
     quantity: &'static str,
     order: usize,
@@ -36,7 +35,7 @@ pub(crate) struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// The matrix that `fill` writes, which must be of this order.
+    /// Square sparse matrix of this order, with the entries that `fill` writes.
     pub(crate) fn assembled(
         name: &'static str,
         order: usize,
@@ -48,7 +47,7 @@ impl SparseMatrix {
         Self::new(name, &triplets)
     }
 
-    /// Sums the entries of `triplets` by place.
+    /// Matrix from `triplets`; entries at the same place are summed.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let order = triplets.order();
         check_order("rows of a matrix", order)?;
@@ -85,8 +84,9 @@ impl SparseMatrix {
         Ok(matrix)
     }
 
-    /// Puts the sums of `triplets` in the place of the values, without allocating. False, with
-    /// undefined values, if an entry has no place here or is not finite.
+    /// Replaces the values by the sums of `triplets`, without allocating.
+    ///
+    /// Returns false, with undefined values, if an entry has no place in the pattern or is not finite.
     pub(crate) fn refill(&mut self, triplets: &Triplets) -> bool {
         self.value.fill(0.0);
         triplets.entries().iter().all(|&(row, column, value)| {
@@ -112,7 +112,7 @@ impl SparseMatrix {
         }
     }
 
-    /// Σ factor · A of matrices of this order, or without any.
+    /// Σ factor · A of matrices of this order; an empty sum is zero.
     pub(crate) fn weighted_sum(order: usize, terms: &[(f64, &Self)]) -> Triplets {
         let mut sum = Triplets::new(order);
         for (factor, matrix) in terms {
@@ -185,7 +185,7 @@ impl SparseMatrix {
     }
 }
 
-/// A dense square matrix, row-major, with its entries alone where most are zero.
+/// A dense square matrix, row-major; if most entries are zero, only the others are stored as sparse.
 #[derive(Debug, Clone)]
 pub(crate) struct Thinned {
     values: Vec<f64>,
@@ -195,7 +195,7 @@ pub(crate) struct Thinned {
 impl Thinned {
     pub(crate) fn new(values: Vec<f64>, order: usize) -> Self {
         let filled = values.iter().filter(|value| **value != 0.0).count();
-        // An entry by its place costs about as much as four in a row.
+        // A product with a sparse entry costs about as much as with four dense ones.
         let entries = (filled <= values.len() / 8)
             .then(|| {
                 let mut entries = Triplets::new(order);
@@ -208,7 +208,7 @@ impl Thinned {
         Self { values, entries }
     }
 
-    /// Numbers that a product reads.
+    /// Number of values that a product reads.
     pub(crate) fn stored(&self) -> usize {
         self.entries.as_ref().map_or(self.values.len(), SparseMatrix::stored)
     }

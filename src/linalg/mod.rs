@@ -1,6 +1,6 @@
 //! Linear algebra: the only module that names faer.
 //!
-//! Everything runs sequentially, and solves use workspace made when the factor was made.
+//! Everything runs sequentially. A factor allocates the workspace of its solves when it is made.
 
 mod complex;
 mod condition;

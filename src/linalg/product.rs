@@ -7,7 +7,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 pub(crate) use pulp::{Simd, WithSimd};
 
-/// Rows that are read together.
+/// Number of rows read together.
 pub(super) const ROWS: usize = 4;
 
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
@@ -85,7 +85,7 @@ impl WithSimd for TransposedMultiplyAdd<'_> {
 /// Σ aᵢ xᵢ for four rows of the length of x.
 #[inline(always)]
 fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
-    // A sum waits for the one before it, so each row has two.
+    // An addition waits for the previous one to the same sum, so each row has two sums.
     let mut sums = [simd.splat_f64s(0.0); 2 * ROWS];
     let (x, x_tail) = S::as_simd_f64s(x);
     let ((a, a_tail), (b, b_tail)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
@@ -209,7 +209,7 @@ pub(crate) fn weighted_dot(weights: &[f64], x: &[f64], y: &[f64]) -> f64 {
     vectorized(Dot { weights: Some(weights), x, y })
 }
 
-/// Σ xᵢ yᵢ, or with weights Σ wᵢ xᵢ yᵢ, as far as the shortest goes.
+/// Σ xᵢ yᵢ, or Σ wᵢ xᵢ yᵢ with weights, up to the length of the shortest slice.
 pub(crate) struct Dot<'a> {
     pub(crate) weights: Option<&'a [f64]>,
     pub(crate) x: &'a [f64],
@@ -224,7 +224,7 @@ impl WithSimd for Dot<'_> {
         let length = self.x.len().min(self.y.len());
         let (x, x_tail) = S::as_simd_f64s(&self.x[..length]);
         let (y, y_tail) = S::as_simd_f64s(&self.y[..length]);
-        // A sum waits for the one before it, so there are four.
+        // An addition waits for the previous one to the same sum, so there are four sums.
         let mut sums = [simd.splat_f64s(0.0); 4];
         let (x, y) = (x.chunks_exact(4), y.chunks_exact(4));
         let rest = x.remainder().iter().zip(y.remainder());
@@ -261,8 +261,10 @@ fn total<S: Simd>(simd: S, [a, b, c, d]: [S::f64s; 4]) -> f64 {
     simd.reduce_sum_f64s(simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d)))
 }
 
-/// Runs `loops`, compiled once for each set of instructions, with the best that there is. Its
-/// `with_simd` and all that this calls must be `#[inline(always)]`.
+/// Runs `loops` with the best instruction set of this processor.
+///
+/// The loops are compiled once for each instruction set. Their `with_simd` and all functions that it calls
+/// must be `#[inline(always)]`.
 #[inline]
 pub(crate) fn vectorized<L: WithSimd>(loops: L) -> L::Output {
     pulp::Arch::new().dispatch(loops)

@@ -28,7 +28,7 @@ enum Kind {
 }
 
 impl SparseFactor {
-    /// Cholesky where the matrix is symmetric positive definite, else LU with partial pivoting.
+    /// Factors by Cholesky if the matrix is symmetric positive definite, else by LU with partial pivoting.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let matrix = SparseMatrix::new(name, triplets)?;
         let singular = || Error::Singular { matrix: name, order: matrix.order() };
@@ -38,8 +38,7 @@ impl SparseFactor {
         factor.or_else(|| Self::lu(&columns)).and_then(Self::probed).ok_or_else(singular)
     }
 
-    /// Cholesky factors of the lower triangle; an error unless it is that of a positive definite
-    /// matrix.
+    /// Cholesky factors of the lower triangle; an error unless the matrix is positive definite.
     pub(crate) fn positive_definite(name: &'static str, matrix: &SparseMatrix) -> Result<Self> {
         by_columns(matrix)
             .and_then(|columns| Self::cholesky(&columns).ok())
@@ -52,15 +51,17 @@ impl SparseFactor {
         matches!(self.kind, Kind::Cholesky { .. })
     }
 
-    /// A singular matrix may pass LU with a pivot of rounding size: it shows in a solve.
+    /// Returns `None` if a solve is not finite: LU may accept a singular matrix with a pivot of rounding
+    /// size.
     fn probed(mut self) -> Option<Self> {
         let mut probe = vec![1.0; self.order];
         self.solve(&mut probe);
         probe.iter().all(|x| x.is_finite()).then_some(self)
     }
 
-    /// Factors the matrix by Cholesky's method, or returns the row at which the matrix is found not to be positive
-    /// definite.
+    /// Factors the matrix by Cholesky's method.
+    ///
+    /// Returns the row at which the matrix fails to be positive definite as the error.
     fn cholesky(matrix: &SparseColMat<usize, f64>) -> std::result::Result<Self, usize> {
         let symbolic = factorize_symbolic_cholesky(
             matrix.symbolic(),
@@ -110,7 +111,7 @@ impl SparseFactor {
         Some(Self { order: matrix.nrows(), kind: Kind::Lu { symbolic, numeric }, buffer })
     }
 
-    /// Numbers that a solve reads, about.
+    /// Approximate number of values that a solve reads.
     pub(crate) fn stored(&self) -> usize {
         match &self.kind {
             Kind::Cholesky { values, .. } => values.len(),
@@ -128,7 +129,7 @@ impl SparseFactor {
         Self::solve_with(&self.kind, self.order, 1, true, rhs, &mut self.buffer);
     }
 
-    /// Overwrites many right-hand sides, one after the other in `rhs`; allocates its workspace.
+    /// Overwrites many right-hand sides, one after the other in `rhs`, with A⁻¹ rhs; allocates its workspace.
     pub(crate) fn solve_many(&self, rhs: &mut [f64]) {
         let columns = rhs.len() / self.order.max(1);
         let scratch = match &self.kind {
@@ -172,12 +173,12 @@ impl SparseFactor {
     }
 }
 
-/// Row of a symmetric matrix at which it is found not to be positive semi-definite, if it is not.
+/// Row at which a symmetric matrix fails to be positive semi-definite; `None` if it is.
 ///
-/// Entries on the diagonal smaller than `floor` are rounding, and count as `floor`, negative ones up
-/// to it too; eigenvalues count from −`tolerance` in the matrix scaled to a diagonal of one. So what
-/// passes is semi-definite but for 2 `floor` on the diagonal and `tolerance` relative to it. Costs a
-/// sparse Cholesky factor, or next to nothing if the matrix is diagonal.
+/// Diagonal entries below `floor` count as `floor`, if they are above −`floor`: they are rounding.
+/// Eigenvalues of the matrix scaled to a unit diagonal may be as low as −`tolerance`. A matrix that passes is
+/// therefore semi-definite except for 2 `floor` on the diagonal and `tolerance` relative to the diagonal. The
+/// check costs a sparse Cholesky factorisation, or almost nothing if the matrix is diagonal.
 pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64, floor: f64) -> Option<usize> {
     let given = matrix.diagonal();
     let negative = (0..given.len()).min_by(|i, j| given[*i].total_cmp(&given[*j]));
@@ -205,7 +206,7 @@ pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64, floor: f64) 
     SparseFactor::cholesky(&by_columns(&scaled)?).err()
 }
 
-/// This matrix, compressed by columns.
+/// The matrix, compressed by columns.
 fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
     let order = matrix.order();
     let entries: Vec<_> =
@@ -217,12 +218,12 @@ fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
 pub(crate) struct Partition(Vec<usize>);
 
 impl Partition {
-    /// Sets of which each holds one number.
+    /// Sets of one number each.
     pub(crate) fn new(order: usize) -> Self {
         Self((0..order).collect())
     }
 
-    /// The least number of the set that `index` is in.
+    /// The smallest number in the set of `index`.
     pub(crate) fn root(&mut self, mut index: usize) -> usize {
         while self.0[index] != index {
             self.0[index] = self.0[self.0[index]];
@@ -231,13 +232,13 @@ impl Partition {
         index
     }
 
-    /// Makes one set of two.
+    /// Merges the sets of two numbers.
     pub(crate) fn join(&mut self, first: usize, second: usize) {
         let (a, b) = (self.root(first), self.root(second));
         self.0[a.max(b)] = a.min(b);
     }
 
-    /// Joins what an entry of `matrix` other than zero couples.
+    /// Merges the sets of all pairs that a nonzero entry of `matrix` couples.
     pub(crate) fn couple(&mut self, matrix: &SparseMatrix) {
         for (row, column, value) in matrix.entries() {
             if value != 0.0 {
@@ -246,7 +247,7 @@ impl Partition {
         }
     }
 
-    /// The sets, by their least numbers, each ascending.
+    /// The sets, ordered by their smallest numbers, each ascending.
     pub(crate) fn sets(&mut self) -> Vec<Vec<usize>> {
         let mut sets = vec![Vec::new(); self.0.len()];
         for index in 0..self.0.len() {
@@ -291,7 +292,7 @@ mod tests {
         }
     }
 
-    /// Chains with one spring of the other sign: indefinite, whatever the diagonal says.
+    /// Chains with one spring of the opposite sign: indefinite, although every diagonal entry is positive.
     #[test]
     fn indefinite_matrices_are_told_by_a_row() {
         for (negative, tolerance) in [(None, 1e-12), (Some(17), 1e-12), (Some(17), 1e-6)] {
@@ -314,16 +315,17 @@ mod tests {
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
         assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(2));
         assert_eq!(rows(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]), Some(0));
-        // The most negative entry says most.
+        // The row of the most negative entry is returned.
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
-        // Below the floor it is rounding, just above it is not.
+        // An entry below the floor counts as rounding; just above the floor it does not.
         for (value, found) in [(0.99e-12, None), (1.01e-12, Some(1))] {
             assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -value)]), found);
         }
         for (value, found) in [(0.99e-6, None), (1.01e-6, Some(1))] {
             assert_eq!(rows(&[(0, 0, 1.0), (0, 1, value), (1, 0, value)]), found);
         }
-        // Singular ones are none: a row of zeros, a mass on a weighted sum of degrees of freedom.
+        // Singular matrices are semi-definite: a row of zeros, a mass on a weighted sum of degrees of
+        // freedom.
         assert_eq!(rows(&[(0, 0, 1.0)]), None);
         assert_eq!(rows(&[(0, 0, 4.0), (0, 1, 6.0), (1, 0, 6.0), (1, 1, 9.0)]), None);
     }

@@ -1,8 +1,8 @@
-//! The sink into which structures and elements write their matrices.
+//! The container into which structures and elements write their matrices.
 
 use crate::error::{Result, in_bounds, same_length};
 
-/// Square sparse matrix under construction: entries at the same place add up.
+/// Square sparse matrix under construction: entries at the same place are summed.
 ///
 /// Indices out of range and values that are not finite are recorded and reported as a typed
 /// error when the matrix is used, so that filling it never fails.
@@ -55,9 +55,10 @@ impl Triplets {
         Ok(Self::from_entries(order, places))
     }
 
-    /// Matrix of `order` rows and columns in compressed sparse rows, as SciPy's `csr_matrix` has them:
-    /// entries `pointers[i]..pointers[i + 1]` of `columns` and `values` are those of row i, in any
-    /// order; entries at the same place add up.
+    /// Matrix of `order` rows and columns in compressed sparse rows, as SciPy's `csr_matrix` has them.
+    ///
+    /// Row i has the entries `pointers[i]..pointers[i + 1]` of `columns` and `values`, in any order. Entries
+    /// at the same place are summed.
     ///
     /// ```
     /// use basemat::structure::Triplets;
@@ -103,14 +104,14 @@ impl Triplets {
         let place = |index: usize| match self.shift {
             None => index,
             Some(shift) if index < self.order => index + shift,
-            // An index beyond the block must not be within the whole.
+            // An index beyond the block must not become a valid index of the whole matrix.
             Some(_) => usize::MAX,
         };
         self.entries.push((place(row), place(column), value));
     }
 
     /// Adds a dense block (row-major, `indices.len()` squared) at rows and columns `indices`.
-    /// A block that is too short leaves its missing entries out.
+    /// Entries missing from a block that is too short are left out.
     pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
         for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
             for (column, &value) in indices.iter().zip(values) {
@@ -127,8 +128,10 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`, where the row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list
-    /// of (degree of freedom, weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
+    /// Adds `factor · l lᵀ`: the matrix of a spring or dashpot with the deformation l·u.
+    ///
+    /// The row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list of (degree of
+    /// freedom, weight) terms.
     pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {
         let terms = row.as_ref();
         for &(i, a) in terms {
@@ -138,7 +141,7 @@ impl Triplets {
         }
     }
 
-    /// The entries so far, in the order they came: (row, column, value).
+    /// The entries so far, in the order in which they were added: (row, column, value).
     pub fn entries(&self) -> &[(usize, usize, f64)] {
         &self.entries
     }
@@ -157,14 +160,14 @@ impl Triplets {
         written
     }
 
-    /// Forgets all entries, keeping the memory.
+    /// Removes all entries, and keeps the memory allocated.
     pub(crate) fn clear(&mut self) {
         self.entries.clear();
     }
 }
 
-/// Triplets of the order that the largest index needs: rows without entries at the end are not known. With
-/// [`Triplets::from_entries`] they are.
+/// Triplets whose order follows from the largest index. Rows without entries at the end are therefore lost;
+/// [`Triplets::from_entries`] keeps them.
 impl FromIterator<(usize, usize, f64)> for Triplets {
     fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();

@@ -21,7 +21,7 @@ enum DampingForm {
 }
 
 impl DampingForm {
-    /// The form of a law; `None` for a user's own.
+    /// The form of a law; `None` for a law of the user's own.
     fn of(law: &dyn Relaxation) -> Option<Self> {
         let law: &dyn Any = law;
         let elastic = law.downcast_ref().map(|Elastic| Self::Elastic);

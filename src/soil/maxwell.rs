@@ -6,11 +6,13 @@ use crate::error::{
 };
 use crate::linalg::Complex;
 
-/// A spring beside springs in series with dashpots (generalised Maxwell body):
-/// μ(s)/μ₀ = m (1 + Σ yᵢ s/(s + ωᵢ)), passive for yᵢ ≥ 0 (Emmerich & Korn 1987).
+/// Nearly constant damping over a band: a generalised Maxwell body.
 ///
-/// The usual choice for soil in time. The long-term modulus m is below 1: statics are softer
-/// than waves at the reference frequency.
+/// A spring in parallel with springs in series with dashpots: μ(s)/μ₀ = m (1 + Σ yᵢ s/(s + ωᵢ)), passive for
+/// yᵢ ≥ 0 (Emmerich & Korn 1987).
+///
+/// It is the usual choice for soil in the time domain. The long-term modulus m is below 1: static response is
+/// softer than waves at the reference frequency.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "GeneralizedMaxwellForm"))]
@@ -18,7 +20,7 @@ pub struct GeneralizedMaxwell {
     long_term: f64,
     ratios: Vec<f64>,
     rates: Vec<f64>,
-    /// Damping ratio and band (Hz), if it was fitted.
+    /// Damping ratio and band (Hz), if the body was fitted to them.
     fitted: Option<[f64; 3]>,
 }
 
@@ -33,17 +35,17 @@ validated! {
     => GeneralizedMaxwell::new(long_term, ratios, rates).map(|body| Self { fitted: fitted.filter(is_band), ..body })
 }
 
-/// Whether these are a damping ratio and a band.
+/// Whether the three numbers are a damping ratio and a band.
 #[cfg(feature = "serde")]
 fn is_band([ratio, low, high]: &[f64; 3]) -> bool {
     *ratio >= 0.0 && *low > 0.0 && low < high && (ratio + high).is_finite()
 }
 
-/// Frequencies of the fit.
+/// Number of frequencies of the fit.
 const SAMPLES: usize = 120;
-/// Mechanisms per factor of ten.
+/// Number of mechanisms per factor of ten.
 const PER_DECADE: f64 = 2.0;
-/// Relaxation rates reach beyond the band by this factor at both ends.
+/// Factor by which the relaxation rates extend beyond the band at both ends.
 const MARGIN: f64 = 1.8;
 /// Largest deviation from the damping ratio in the band, relative.
 const WORST: f64 = 0.15;
@@ -64,9 +66,10 @@ impl GeneralizedMaxwell {
         Ok(Self { long_term, ratios, rates, fitted: None })
     }
 
-    /// Body with the damping `ratio` ξ over `band` (lowest and highest frequency, Hz) and
-    /// Re μ = μ₀ at the frequency `reference` (Hz): Im μ = 2ξ Re μ by nonnegative least squares,
-    /// two mechanisms per factor of ten and two more, within a few per cent of ξ.
+    /// Body with the damping `ratio` ξ over `band` (lowest and highest frequency, Hz).
+    ///
+    /// Re μ = μ₀ at the frequency `reference` (Hz). Im μ = 2ξ Re μ is fitted by nonnegative least squares,
+    /// with two mechanisms per factor of ten and two more. The damping ratio is within a few per cent of ξ.
     ///
     /// ```
     /// use basemat::soil::GeneralizedMaxwell;
@@ -78,9 +81,9 @@ impl GeneralizedMaxwell {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1, frequencies that are not positive or
-    /// a band that does not increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body
-    /// has.
+    /// [`Error::Input`](crate::Error::Input) for a ratio below 0 or not below 1, for frequencies that are not
+    /// positive, and for a band that does not increase or spans more than a factor of 1e6.
+    /// [`LayeredError::Fit`] for a ratio that no body reaches.
     pub fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> Result<Self> {
         damping_ratio("damping ratio of a layer", ratio)?;
         positive("lowest frequency of the damping band", band[0])?;
@@ -152,15 +155,16 @@ impl Relaxation for GeneralizedMaxwell {
     }
 }
 
-/// x ≥ 0 that minimises |A x − b| (Lawson & Hanson 1974, ch. 23), A row-major with `columns`
-/// columns; meant for a dozen columns.
+/// x ≥ 0 that minimises |A x − b| (Lawson & Hanson 1974, ch. 23).
+///
+/// A is row-major with `columns` columns; the method is meant for a dozen columns.
 pub(super) fn least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Vec<f64> {
     let rows = right.len();
     let mut x = vec![0.0; columns];
     let mut free = vec![false; columns];
     let column = |j: usize| (0..rows).map(move |i| matrix[i * columns + j]);
     let dot = |j: usize, v: &[f64]| column(j).zip(v).map(|(a, b)| a * b).sum::<f64>();
-    // Each pass frees one degree of freedom; a few may go back and forth.
+    // Each pass frees one degree of freedom; some may be freed and fixed again.
     for _ in 0..10 * columns {
         let residual: Vec<f64> = (0..rows)
             .map(|i| right[i] - (0..columns).map(|j| matrix[i * columns + j] * x[j]).sum::<f64>())

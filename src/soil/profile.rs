@@ -13,7 +13,7 @@ use crate::linalg::Complex;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SoilLayer {
-    /// Elastic constants; moduli are those at which the damping law is 1.
+    /// Elastic constants. Its moduli apply at the frequency where the damping law is 1.
     pub soil: Soil,
     /// Thickness, m.
     pub thickness: f64,
@@ -27,22 +27,22 @@ pub struct SoilLayer {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Base {
-    /// A half-plane that waves leave through.
+    /// A half-plane, into which waves radiate.
     HalfPlane {
-        /// Elastic constants of the layer.
+        /// Elastic constants of the half-plane.
         soil: Soil,
-        /// Damping law of the layer.
+        /// Damping law of the half-plane.
         #[cfg_attr(feature = "serde", serde(with = "super::damping_form"))]
         damping: Arc<dyn Relaxation>,
     },
-    /// A base that does not move and reflects everything.
+    /// A base that does not move and reflects all waves.
     Rigid,
 }
 
 /// Horizontal layers, from the surface down, on a half-plane or a rigid base.
 ///
-/// With the feature `serde` profiles with the crate's damping laws are written and read; writing a law of your own
-/// returns an error.
+/// With the feature `serde`, profiles with the crate's damping laws can be written and read. Writing a
+/// damping law of your own returns an error.
 ///
 /// ```
 /// use basemat::Soil;
@@ -70,9 +70,9 @@ validated! {
     => SoilProfile::new(layers, base)
 }
 
-/// Re(μ/s)/|μ/s| that counts as zero.
+/// |Re(μ/s)|/|μ/s| below which the real part counts as zero.
 const ROUNDING: f64 = 1e-12;
-/// Most layers of a profile.
+/// Largest number of layers of a profile.
 const MOST_LAYERS: usize = 1000;
 
 impl SoilProfile {
@@ -81,7 +81,7 @@ impl SoilProfile {
         Self { layers: vec![], base: Base::HalfPlane { soil, damping: Arc::new(Elastic) } }
     }
 
-    /// A rigid base, without layers so far: at least one has to be put on it.
+    /// A rigid base without layers so far; add at least one.
     pub fn on_rigid_base() -> Self {
         Self { layers: vec![], base: Base::Rigid }
     }
@@ -98,7 +98,8 @@ impl SoilProfile {
         Ok(profile)
     }
 
-    /// Adds a layer below all others; elastic until [`with_damping`](SoilProfile::with_damping) is called.
+    /// Adds a layer below all others. It is elastic until [`with_damping`](SoilProfile::with_damping) is
+    /// called.
     ///
     /// # Errors
     /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
@@ -109,7 +110,7 @@ impl SoilProfile {
         Ok(self)
     }
 
-    /// Sets the damping of the layer added last; of the base if there is none.
+    /// Sets the damping of the layer added last, or of the base if there are no layers.
     #[must_use]
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
@@ -119,7 +120,7 @@ impl SoilProfile {
         self
     }
 
-    /// Sets the damping of the half-plane below; a rigid base has none.
+    /// Sets the damping of the half-plane below; has no effect on a rigid base.
     #[must_use]
     pub fn with_base_damping(mut self, law: impl Relaxation + 'static) -> Self {
         if let Base::HalfPlane { damping, .. } = &mut self.base {
@@ -143,18 +144,19 @@ impl SoilProfile {
         self.layers.iter().map(|layer| layer.thickness).sum()
     }
 
-    /// The soil at the surface; `None` for a bare rigid base.
+    /// The soil at the surface; `None` for a rigid base without layers.
     pub(crate) fn surface(&self) -> Option<Soil> {
         self.soils().next().map(|(soil, _)| soil)
     }
 
-    /// First natural frequency of the layers in shear if the base were rigid, Hz, by travel time:
-    /// 1/(4 Σ h/`c_S`); `None` without layers.
+    /// First natural frequency of the layers in shear on a rigid base, Hz.
+    ///
+    /// Estimated from the travel time: 1/(4 Σ h/`c_S`). `None` without layers.
     pub fn first_frequency(&self) -> Option<f64> {
         (!self.layers.is_empty()).then(|| 0.25 / self.travel_time())
     }
 
-    /// Time that shear waves take through all layers, s; damping left out.
+    /// Time that shear waves take through all layers, s; damping is neglected.
     pub fn travel_time(&self) -> f64 {
         self.layers.iter().map(|layer| layer.thickness / layer.soil.shear_wave_speed()).sum()
     }
@@ -166,7 +168,7 @@ impl SoilProfile {
             && matches!(&self.base, Base::HalfPlane { damping, .. } if elastic(damping))
     }
 
-    /// Numbers that are equal only for equal profiles; `None` if a damping law has none.
+    /// Numbers that are equal only for equal profiles; `None` if a damping law has no identity.
     pub(crate) fn identity(&self) -> Option<Vec<f64>> {
         let mut numbers = vec![self.layers.len() as f64];
         for layer in &self.layers {
@@ -181,7 +183,7 @@ impl SoilProfile {
         Some(numbers)
     }
 
-    /// Soils and damping laws from the surface down, the half-plane last.
+    /// Soils and damping laws from the surface down; the half-plane comes last.
     pub(crate) fn soils(&self) -> impl Iterator<Item = (Soil, &dyn Relaxation)> {
         let base = match &self.base {
             Base::HalfPlane { soil, damping } => Some((*soil, &**damping)),
@@ -208,7 +210,7 @@ impl SoilProfile {
         Ok(())
     }
 
-    /// Error for a law that cannot march in time.
+    /// Error if a damping law is not causal, and so cannot be used in the time domain.
     pub(crate) fn check_causal(&self) -> Result<()> {
         for (index, (_, damping)) in self.soils().enumerate() {
             if !damping.is_causal() {
@@ -233,7 +235,8 @@ impl SoilProfile {
             }
             let ratio = modulus / s;
             let value = ratio.re / ratio.abs();
-            // On the imaginary axis an elastic law is zero to rounding: its modulus must be positive.
+            // On the imaginary axis Re(μ/s) of an elastic law is zero up to rounding. Its modulus must then
+            // be positive.
             let passive = value >= ROUNDING || (value >= -ROUNDING && modulus.re > 0.0);
             if !(at_rest || passive) {
                 let (re, im) = (s.re, s.im);

@@ -8,15 +8,15 @@ use crate::linalg::Complex;
 
 /// Shear modulus of a soil as a function of frequency, or of the Laplace variable s.
 ///
-/// `modulus` is μ(s)/μ₀ with μ₀ the modulus of the [`Soil`](crate::Soil); Poisson's ratio is real
-/// and constant, so that λ and K go with μ. The law is passive, and with it the ground for every
-/// time step, if it is analytic where Re s > 0, real for real s, and
+/// `modulus` is μ(s)/μ₀, where μ₀ is the modulus of the [`Soil`](crate::Soil). Poisson's ratio is real and
+/// constant, so λ and K are proportional to μ. The law is passive, and with it the ground at every time step,
+/// if it is analytic where Re s > 0, real for real s, and
 ///
 /// Re(μ(s)/s) ≥ 0 where Re s > 0,
 ///
-/// which says that the relaxation function is of positive type (Christensen 1982, § 3.3). Grounds check it
-/// at every s that they use. Causality makes damped waves disperse: with a damping ratio ξ over a
-/// band, c(f)/c(`f_ref`) = 1 + (2ξ/π) ln(f/`f_ref`) there (Aki & Richards 2002, eq. 5.81 for Q = 1/2ξ).
+/// which means that the relaxation function is of positive type (Christensen 1982, § 3.3). Grounds check this
+/// at every s that they use. Causality makes damped waves disperse: with a damping ratio ξ over a band,
+/// c(f)/c(`f_ref`) = 1 + (2ξ/π) ln(f/`f_ref`) there (Aki & Richards 2002, eq. 5.81 for Q = 1/2ξ).
 ///
 /// ```
 /// use basemat::Complex;
@@ -39,7 +39,7 @@ use crate::linalg::Complex;
 /// assert_eq!(law.modulus(Complex::real(6.0)), Complex::real(1.1));
 /// ```
 pub trait Relaxation: Any + Debug + Send + Sync {
-    /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; s = 0 asks for the long-term modulus.
+    /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; at s = 0, the long-term modulus ratio.
     fn modulus(&self, s: Complex) -> Complex;
 
     /// Description of the law in a few words, for tables.
@@ -47,19 +47,20 @@ pub trait Relaxation: Any + Debug + Send + Sync {
         "own law".into()
     }
 
-    /// Whether the law may march in time; frequency-domain results need no causality.
+    /// Whether the law can be used in the time domain; frequency-domain results need no causality.
     fn is_causal(&self) -> bool {
         true
     }
 
-    /// Numbers that say which law of its kind it is, so that grounds with equal ones can share kernels;
-    /// the first must distinguish kinds. `None` (the default) if they cannot.
+    /// Numbers that identify the law, so that grounds with equal laws can share kernels.
+    ///
+    /// The first number must distinguish kinds of laws. `None` (the default) if the law cannot be identified.
     fn identity(&self) -> Option<Vec<f64>> {
         None
     }
 }
 
-/// The crate's laws: the first number of their [`Relaxation::identity`], as kernel files have it.
+/// The crate's laws; their numbers come first in [`Relaxation::identity`] and in kernel files.
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
     Elastic,
@@ -70,7 +71,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Identity of a law with these numbers.
+    /// Identity of a law of this kind with these parameters.
     pub(super) fn with<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
         std::iter::once(f64::from(self as u8)).chain(numbers.into_iter().copied()).collect()
     }
@@ -95,8 +96,9 @@ impl Relaxation for Elastic {
     }
 }
 
-/// A spring beside a dashpot: μ(s)/μ₀ = 1 + η s. Damping ratio η ω/2, growing with frequency;
-/// fronts have no finite speed.
+/// A spring in parallel with a dashpot: μ(s)/μ₀ = 1 + η s.
+///
+/// The damping ratio η ω/2 grows with frequency. Wave fronts have no finite speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "KelvinVoigtForm"))]
@@ -113,7 +115,7 @@ impl KelvinVoigt {
     /// Law with the relaxation time η (s).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless it is finite and not below zero.
+    /// [`Error::Input`](crate::Error::Input) unless η is finite and not below zero.
     pub fn new(time: f64) -> Result<Self> {
         Ok(Self { time: not_negative("relaxation time of Kelvin–Voigt damping", time)? })
     }
@@ -130,7 +132,8 @@ impl KelvinVoigt {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1 or a frequency that is not positive.
+    /// [`Error::Input`](crate::Error::Input) for a ratio below 0 or not below 1, or a frequency that is not
+    /// positive.
     pub fn with_ratio(ratio: f64, frequency: f64) -> Result<Self> {
         damping_ratio("damping ratio of a layer", ratio)?;
         positive("frequency of the damping ratio", frequency)?;
@@ -152,9 +155,10 @@ impl Relaxation for KelvinVoigt {
     }
 }
 
-/// Exactly constant damping at all frequencies (Kjartansson 1979): μ(s)/μ₀ = (s/ω₀)^(2γ),
-/// γ = atan(2ξ)/π, |μ| = μ₀ at ω₀. The long-term modulus is zero, so it carries no static load: for
-/// comparisons.
+/// Exactly constant damping at all frequencies, for comparisons (Kjartansson 1979).
+///
+/// μ(s)/μ₀ = (s/ω₀)^(2γ) with γ = atan(2ξ)/π, and |μ| = μ₀ at ω₀. The long-term modulus is zero, so the soil
+/// carries no static load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "KjartanssonForm"))]
@@ -172,7 +176,8 @@ impl Kjartansson {
     /// Law with the damping `ratio` ξ and |μ| = μ₀ at the frequency `reference` (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1 or a frequency that is not positive.
+    /// [`Error::Input`](crate::Error::Input) for a ratio below 0 or not below 1, or a frequency that is not
+    /// positive.
     pub fn new(ratio: f64, reference: f64) -> Result<Self> {
         damping_ratio("damping ratio of a layer", ratio)?;
         positive("reference frequency of a damping law", reference)?;
@@ -180,7 +185,7 @@ impl Kjartansson {
         Ok(Self { exponent, reference: std::f64::consts::TAU * reference })
     }
 
-    /// Law with the exponent 2γ and the circular frequency ω₀ (rad/s), as it is written.
+    /// Law from the exponent 2γ and the circular frequency ω₀ (rad/s), as serde stores it.
     #[cfg(feature = "serde")]
     fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
         positive("reference frequency of a damping law", reference)?;
@@ -204,9 +209,11 @@ impl Relaxation for Kjartansson {
     }
 }
 
-/// μ₀(1 + 2iξ sgn ω): the frequency domain's usual damping. Not analytic in s, so not causal:
-/// grounds that march in time return an error ([`GeneralizedMaxwell`](super::GeneralizedMaxwell) is
-/// close to it and causal); [impedances](crate::bem::ElasticGround::impedances) take it.
+/// Hysteretic damping μ₀(1 + 2iξ sgn ω), the usual damping of the frequency domain.
+///
+/// The law is not analytic in s, so it is not causal. Grounds in the time domain return an error for it;
+/// [`GeneralizedMaxwell`](super::GeneralizedMaxwell) is close to it and causal.
+/// [Impedances](crate::bem::ElasticGround::impedances) accept it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "HystereticForm"))]
@@ -248,7 +255,7 @@ impl Relaxation for Hysteretic {
     }
 }
 
-/// Four digits of a number, for people.
+/// Rounds a number to four digits, for descriptions.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -4,9 +4,9 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive,
 
 /// Secant shear modulus and damping ratio of a soil over the amplitude of its shear strain.
 ///
-/// Published curves are drawn: their numbers are the digitized ones of pystrata 0.5.4, and those of Darendeli his
-/// equations. Between points both quantities are linear in the logarithm of strain; outside they stay what they are at
-/// the end. Strains are plain numbers: 0.01 is 1 %.
+/// Published curves exist as drawings: their numbers are the digitized values of pystrata 0.5.4. Darendeli's
+/// curves are computed from his equations. Between points both quantities are linear in the logarithm of
+/// strain. Outside the points they keep the value at the end. Strains are plain numbers: 0.01 is 1 %.
 ///
 /// ```
 /// use basemat::soil::StrainCurves;
@@ -31,15 +31,18 @@ pub enum StrainCurves {
     SeedIdrissMean,
     /// Sand, upper modulus with lower damping of the same data: the usual pair for dense sand.
     SeedIdrissUpper,
-    /// Soil by its plasticity (Vucetic & Dobry 1991, J. Geotech. Eng. 117, 89–107), linear between the drawn indices
-    /// 0, 15, 30, 50, 100 and 200.
+    /// Soil by its plasticity (Vucetic & Dobry 1991, J. Geotech. Eng. 117, 89–107).
+    ///
+    /// Linear between the curves drawn for the indices 0, 15, 30, 50, 100 and 200.
     VuceticDobry {
         /// Plasticity index, per cent, from 0 to 200.
         plasticity_index: f64,
     },
-    /// Sand by its depth (EPRI 1993, TR-102293, appendix 7.A), in the report's ranges: 20, 50, 120, 250, 500, 1000 ft.
+    /// Sand by its depth (EPRI 1993, TR-102293, appendix 7.A).
+    ///
+    /// The curves hold for the report's ranges down to 20, 50, 120, 250, 500 and 1000 ft.
     Epri {
-        /// Depth below the surface of the layer's middle, m, from 0 to 304.8.
+        /// Depth of the layer's middle below the surface, m, from 0 to 304.8.
         depth: f64,
     },
     /// Soil by its state (Darendeli 2001, dissertation, University of Texas at Austin, ch. 9), up to a strain of 1 %.
@@ -59,7 +62,7 @@ pub enum StrainCurves {
     Table(Vec<[f64; 3]>),
 }
 
-/// Curves with their parameters put in.
+/// Curves with their parameters applied.
 #[derive(Debug)]
 pub(crate) enum Resolved {
     Rows(Vec<[f64; 3]>),
@@ -69,7 +72,7 @@ pub(crate) enum Resolved {
 
 /// Curvature a of Darendeli's hyperbola, φ₅.
 const CURVATURE: f64 = 0.919;
-/// Strain over the reference strain from which his damping would decrease: it stays.
+/// Strain over the reference strain above which Darendeli's damping is kept constant: it would decrease.
 const MOST_DAMPED: f64 = 55.45;
 /// Largest strain of Darendeli's curves.
 const LARGEST: f64 = 0.01;
@@ -85,7 +88,7 @@ impl StrainCurves {
         Ok(self.resolved()?.at(strain))
     }
 
-    /// These curves with their parameters checked and put in.
+    /// Checks the parameters of these curves and applies them.
     pub(crate) fn resolved(&self) -> Result<Resolved> {
         let rows = match self {
             Self::Linear { damping } => {
@@ -150,7 +153,8 @@ impl Resolved {
             Self::Darendeli([reference, least, factor]) => {
                 let reduction = |x: f64| 1.0 / (1.0 + x.powf(CURVATURE));
                 let x = (strain / reference).min(MOST_DAMPED);
-                // Masing damping for a = 1, per cent; its limit 2x/3 where the difference is lost.
+                // Masing damping for a = 1, per cent. For small x the limit 2x/3 is used, because the
+                // difference cancels.
                 let loop_area = if x < 1e-5 {
                     x / 1.5
                 } else {
@@ -212,7 +216,7 @@ fn rows<const N: usize>(
     (0..N).map(|i| [strains[i], reduction[i], damping[i]]).collect()
 }
 
-/// The two drawn curves beside an index, weighted.
+/// Interpolates between the two drawn curves next to a plasticity index.
 fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
     let last = VUCETIC_DOBRY.len() - 1;
     let fits = (0.0..=VUCETIC_DOBRY[last].0).contains(&index);
@@ -227,7 +231,7 @@ fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
         .collect())
 }
 
-/// The rows of a table, if they are a curve.
+/// Checks that the rows of a table form a curve, and returns them.
 fn checked(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
     let quantity = "number of rows of a table of strain curves";
     require(quantity, rows.len() as f64, !rows.is_empty(), "at least 1")?;
@@ -251,7 +255,7 @@ const SEVENTEEN: [f64; 17] = [
     3.162e-4, 5.623e-4, 1e-3, 1.778e-3, 3.162e-3, 5.623e-3, 1e-2,
 ];
 
-/// Modulus and damping of the mean, modulus of the upper bound, damping of the lower.
+/// Modulus and damping of the mean, modulus of the upper bound, damping of the lower bound.
 const SEED_IDRISS: [[f64; 9]; 4] = [
     [1.0, 0.99, 0.96, 0.88, 0.74, 0.52, 0.29, 0.15, 0.06],
     [0.0057, 0.0086, 0.017, 0.031, 0.055, 0.095, 0.155, 0.211, 0.246],
@@ -293,7 +297,7 @@ const VUCETIC_DOBRY: [(f64, [f64; 9], [f64; 9]); 6] = [
     ),
 ];
 
-/// Depth (m) down to which they hold, G/G_max, damping ratio.
+/// Depth (m) down to which a curve holds, G/G_max, damping ratio.
 const EPRI: [(f64, [f64; 17], [f64; 17]); 6] = [
     (
         6.096,
