@@ -50,6 +50,16 @@ pub enum RecordError {
         /// The time with equal steps, s.
         expected: f64,
     },
+    /// The times are equally spaced, but rounded too coarsely to tell the time step.
+    #[error(
+        "times rounded to {resolution} s do not tell a time step near {step} s: give it (`time_step`)"
+    )]
+    RoundedTimes {
+        /// Unit of the last digit of the times, s.
+        resolution: f64,
+        /// Mean of the steps, s.
+        step: f64,
+    },
     /// The time column does not increase.
     #[error("time advances by {found} s, but must advance")]
     TimeNotIncreasing {
@@ -132,7 +142,7 @@ pub enum RecordError {
         /// The title, cut to 40 characters.
         text: String,
         /// The unit of the column.
-        unit: &'static str,
+        unit: String,
     },
     /// No channel of this number.
     #[error("{found} channels, but channel {needed} was asked for (they count from 1)")]

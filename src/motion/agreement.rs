@@ -7,6 +7,8 @@ const DURATION: f64 = 0.03;
 /// Factor between a stated peak and the samples' that a change of the baseline may make. The nearest unit is 2.54
 /// times another one.
 const PEAK: f64 = 2.0;
+/// Departure of the stated extreme from a sample that is rounding, relative to the extreme.
+const NEAR: f64 = 1e-3;
 
 /// Error unless `points` samples every `step` (s) last as long as the file states (s), which is
 /// rounded to `rounding` (s).
@@ -44,6 +46,25 @@ pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), RecordError> {
         return Ok(());
     }
     Err(contradiction("peak acceleration (m/s²)", found, stated))
+}
+
+/// Error unless an extreme that a file states (m/s², at a time in s) is that of the samples, by its time as well as
+/// by its size.
+pub(super) fn extreme(
+    samples: &[f64],
+    step: f64,
+    time: f64,
+    stated: f64,
+) -> Result<(), RecordError> {
+    peak(samples, stated)?;
+    let close = |a: f64| (a - stated).abs() <= NEAR * stated.abs();
+    let mut times = (0..samples.len()).filter(|&k| close(samples[k])).map(|k| k as f64 * step);
+    let Some(first) = times.next() else { return Ok(()) };
+    let agrees = |found: f64| (found - time).abs() <= DURATION * time.abs() + 2.0 * step;
+    if agrees(first) || times.any(agrees) {
+        return Ok(());
+    }
+    Err(contradiction("time of the peak acceleration (s)", first, time))
 }
 
 fn contradiction(quantity: &'static str, found: f64, stated: f64) -> RecordError {

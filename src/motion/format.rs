@@ -10,8 +10,10 @@ use crate::error::{Error, RecordError, Result};
 /// A file format that holds a record; implement it for one of your own.
 ///
 /// The crate's formats are [`ColumnFormat`](super::ColumnFormat), [`PeerFormat`](super::PeerFormat)
-/// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`, COSMOS and CSMIP) and
-/// [`KNetFormat`](super::KNetFormat).
+/// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`, COSMOS and CSMIP),
+/// [`KNetFormat`](super::KNetFormat), [`KNetCsvFormat`](super::KNetCsvFormat),
+/// [`EsmFormat`](super::EsmFormat), [`AfadFormat`](super::AfadFormat),
+/// [`SmcFormat`](super::SmcFormat) and [`GeoNetFormat`](super::GeoNetFormat).
 #[auto_impl::auto_impl(Box)]
 pub trait RecordFormat {
     /// Reads the record; `name` is what errors call the file.
@@ -43,6 +45,17 @@ impl Record {
 
     /// Reads all components of a file with their names, such as `N-S`, `E-W` and `U-D`, for the formats that hold
     /// several.
+    ///
+    /// ```
+    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
+    /// # let path = std::env::temp_dir().join("basemat_read_all.txt");
+    /// # std::fs::write(&path, "t NS EW UD\n0.00 1 2 3\n0.01 4 5 6\n").unwrap();
+    /// let format = ColumnFormat::new(AccelerationUnit::Gal);
+    /// let station = Record::read_all(&path, &format)?;
+    /// assert_eq!(station[1].0, "EW");
+    /// assert_eq!(station[1].1.accelerations(), [0.02, 0.05]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::Record`] with the line and the reason.

@@ -17,7 +17,7 @@ use crate::text::column::finite;
 /// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder; the
 /// acceleration is the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of
 /// samples must be `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak `Max. Acc. (gal)`, but
-/// for the baseline. Counts have an offset: follow with
+/// for the baseline. [`KNetCsvFormat`](super::KNetCsvFormat) reads the files with commas. Counts have an offset: follow with
 /// [`Record::with_baseline`], at least
 /// [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
 ///

@@ -2,6 +2,7 @@
 
 use std::io::Read;
 
+use super::clock::Clock;
 use super::fixed_columns::FixedColumns;
 use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
@@ -230,6 +231,23 @@ impl<'a> Fields<'a> {
         Self { line, separator, texts }
     }
 
+    /// Time (s) in a column, counted from 1: seconds or a time of day.
+    pub(super) fn time(
+        &self,
+        column: usize,
+        clock: &mut Clock,
+    ) -> std::result::Result<f64, RecordError> {
+        let field = column.checked_sub(1).and_then(|index| self.texts.get(index));
+        match field.filter(|field| field.contains(':')).and_then(|field| clock.read(field)) {
+            Some(time) => Ok(time),
+            None => {
+                let time = self.number(column)?;
+                clock.read(field.unwrap_or(&""));
+                Ok(time)
+            }
+        }
+    }
+
     /// Finite number in a column, counted from 1.
     pub(super) fn number(&self, column: usize) -> std::result::Result<f64, RecordError> {
         let missing = RecordError::Column { found: self.texts.len(), needed: column };
@@ -266,7 +284,9 @@ fn has_gap_between_numbers(line: &str) -> bool {
     let Some(mut before) = words.next() else { return false };
     words.any(|word| {
         let ends = before.ends_with(|sign: char| sign.is_ascii_digit() || sign == '.');
-        let begins = word.starts_with(|sign: char| sign.is_ascii_digit() || "+-.".contains(sign));
+        // A time of day stands behind its date.
+        let begins = word.starts_with(|sign: char| sign.is_ascii_digit() || "+-.".contains(sign))
+            && !word.contains(':');
         before = word;
         ends && begins
     })
@@ -282,7 +302,7 @@ pub(super) fn is_header(fields: &Fields) -> bool {
 const MISSING: [&str; 8] = ["nan", "inf", "infinity", "na", "n/a", "null", "none", "missing"];
 
 /// Whether a field is a number, or was meant as one.
-fn is_like_number(field: &str) -> bool {
+pub(super) fn is_like_number(field: &str) -> bool {
     let field = field.rsplit('=').next().unwrap_or(field);
     let bare =
         field.trim_start_matches(['"', '\'', '(', '[', '$', '~', '<', '>', '=', '+', '-', '.']);

@@ -1,4 +1,8 @@
 //! Records of the PEER databases.
+//!
+//! Layout: Pacific Earthquake Engineering Research Center, *PEER Strong Motion Database* and *NGA-West2* (peer.berkeley.edu,
+//! `.AT2`): four lines of header, of which the third names the unit and the fourth number of points and time step, then
+//! five numbers a line as `5E15.7`; the headers of older files vary. Nothing is stated twice but the number of samples.
 
 use std::io::Read;
 
@@ -20,7 +24,7 @@ const HEADER_LINES: usize = 12;
 /// The time step is in seconds unless `MSEC` follows, and may be a fraction (`1/100 SEC`).
 /// A line of the header must say that the unit is g: `ACCELERATION TIME SERIES IN UNITS OF G`, with
 /// or without text behind it (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or
-/// `ACCELERATION TIME HISTORY (G)`. Files that do not, files of velocity or displacement, other
+/// `ACCELERATION TIME HISTORY (G)`, `The units are (g)`. Files that do not, files of velocity or displacement, other
 /// units, and fewer or more numbers than a file says are errors.
 ///
 /// ```
@@ -81,11 +85,13 @@ fn acceleration_in_g(line: &str) -> Option<bool> {
     // The text before `key`, the word after it, and what follows that.
     let word = |key| {
         let (before, after) = line.split_once(key)?;
-        let after = after.trim_start();
+        // `UNITS ARE (G)`.
+        let after = after.trim_start().trim_start_matches('(').trim_start();
         let end = after.find([' ', '\t', '.', ',', ';', '(', ')']).unwrap_or(after.len());
         Some((before, &after[..end], &after[end..]))
     };
-    let stated = ["UNITS OF", "UNITS=", "UNITS =", "UNITS:"].into_iter().find_map(word);
+    let stated =
+        ["UNITS OF", "UNITS ARE", "UNITS=", "UNITS =", "UNITS:"].into_iter().find_map(word);
     let unit = match stated {
         None if kind[0] => word(" IN ").or_else(|| word("(")).filter(|(_, unit, _)| is_unit(unit)),
         stated => stated,
@@ -226,6 +232,10 @@ mod tests {
             ("ACCELERATION TIME SERIES (G)", Some(true)),
             ("ACCELERATION TIME SERIES IN G", Some(true)),
             ("ACCELERATION IN UNITS OF G'S", Some(true)),
+            ("THE UNITS ARE (G)", Some(true)),
+            ("THE UNITS ARE G.", Some(true)),
+            ("THE UNITS ARE (CM/S/S)", Some(false)),
+            ("THE UNITS ARE (G X 1000)", Some(false)),
             ("UNITS OF G", Some(true)),
             ("UNITS OF G X 1000", Some(false)),
             ("UNITS OF G (1000)", Some(false)),

@@ -1,15 +1,25 @@
-//! Reader of text files with a column of acceleration, and mostly one of time.
+//! Reader of text files with columns of acceleration, and mostly one of time.
+//!
+//! Layout: none of an agency; comma-separated values after RFC 4180, and what spreadsheets and scripts print.
 
 use std::io::Read;
 
-use super::lines::{Fields, Lines, Reason, Series, is_failure, is_header, record};
+use super::clock::Clock;
+use super::column_title::{check_acceleration, check_time, titles};
+use super::lines::{
+    Fields, Lines, Reason, Series, component, is_failure, is_header, is_like_number, record,
+    records,
+};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
+use crate::text::column::excerpt;
 
 /// Largest departure of a sample from equal steps, relative to the step.
 ///
 /// Wide enough for times printed with two digits of the step.
 const STEP_TOLERANCE: f64 = 0.01;
+/// Least step, in units of the last digit of the times, whose departures rounding explains.
+const COARSE: f64 = 3.0;
 
 /// Layout of a record in a text file: its columns and its unit.
 ///
@@ -20,12 +30,16 @@ const STEP_TOLERANCE: f64 = 0.01;
 ///   that separate, or before a zero, as in `0,05`;
 /// * empty lines and comment lines that start with `#`, anywhere (`#N/A` and the like, which
 ///   spreadsheets write for a value, are errors);
-/// * one header line, before all numbers, made of words: no field is a number, or begins like one;
+/// * one header line, before all numbers, made of words: no field is a number, or begins like one; any lines
+///   before it are passed over if their number is given as `header_lines`;
+/// * times in seconds, or times of day, `12:00:15.01`;
 /// * line ends `\n` or `\r\n`, and a byte-order mark.
 ///
 /// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time step is their mean,
 /// rounded to twelve digits, or the second time where all are exact multiples of it, as [`Record::csv`] writes them.
-/// The first time may be any: the record counts from there. Files without a time column are read by
+/// The first time may be any: the record counts from there. Where times are rounded too coarsely, as those of 128
+/// samples a second to 1 ms, `time_step` reads the file. A title that names another unit, such as `time (ms)` or
+/// `a (cm/s2)` in a file that is read in g, is an error. Files without a time column are read by
 /// [`equally_spaced`](Self::equally_spaced). A file cut within its last number cannot be distinguished from a whole
 /// one: give `samples` where their number is known.
 ///
@@ -54,12 +68,31 @@ pub struct ColumnFormat {
     pub acceleration_column: Option<usize>,
     /// Number of samples that a file must have, if that is known.
     pub samples: Option<usize>,
+    /// Lines at the beginning that are passed over, whatever they hold; the last one may have titles.
+    ///
+    /// ```
+    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
+    /// let text = "Station 1\nPGA 2.0\nt a\n0.00 1\n0.01 2\n";
+    /// let format = ColumnFormat::new(AccelerationUnit::Gal);
+    /// assert!(Record::from_reader("a.txt", text.as_bytes(), &format).is_err());
+    /// let format = ColumnFormat { header_lines: 3, ..format };
+    /// assert_eq!(Record::from_reader("a.txt", text.as_bytes(), &format)?.len(), 2);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub header_lines: usize,
 }
 
 impl ColumnFormat {
     /// Time (s) in the first column, acceleration in `unit` in the second.
     pub fn new(unit: AccelerationUnit) -> Self {
-        Self { unit, time_column: 1, time_step: None, acceleration_column: Some(2), samples: None }
+        Self {
+            unit,
+            time_column: 1,
+            time_step: None,
+            acceleration_column: Some(2),
+            samples: None,
+            header_lines: 0,
+        }
     }
 
     /// A single column of acceleration in `unit` every `time_step` (s): a line with more than one
@@ -80,24 +113,23 @@ impl ColumnFormat {
     }
 }
 
-/// Line of numbers.
-struct Sample {
-    line: usize,
-    time: f64,
-    acceleration: f64,
-}
-
 impl RecordFormat for ColumnFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read(&mut Lines::new(source), self))
+        let columns = read(&mut Lines::new(source), self, false);
+        record(name, component(1, columns))
+    }
+
+    /// All columns but the one of times, whatever `acceleration_column` is.
+    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
+        records(name, read(&mut Lines::new(source), self, true))
     }
 }
 
-/// Time step (s) and samples (m/s²).
-fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<Series> {
-    let samples = read_samples(lines, format)?;
-    let last_line = samples.last().map_or(0, |sample| sample.line);
-    let found = samples.len();
+/// The columns of accelerations: all, or the one that the format names.
+fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Series>> {
+    let table = Table::read(lines, format, all)?;
+    let last_line = table.lines.last().copied().unwrap_or(0);
+    let found = table.lines.len();
     if found < 2 {
         return Err((last_line, RecordError::TooShort { found, needed: 2 }));
     }
@@ -106,74 +138,180 @@ fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<Series> {
     }
     let step = match format.time_step {
         Some(step) => step,
-        None => equal_step(&samples)?,
+        None => table.equal_step()?,
     };
-    let factor = format.unit.in_metres_per_second_squared();
-    let samples = samples.iter().map(|sample| sample.acceleration * factor).collect();
-    Ok(Series { name: String::new(), step, samples })
+    let columns = table.names.into_iter().zip(table.columns);
+    Ok(columns.map(|(name, samples)| Series { name, step, samples }).collect())
 }
 
-/// All lines of numbers.
-fn read_samples(lines: &mut Lines, format: &ColumnFormat) -> Reason<Vec<Sample>> {
-    let mut samples = Vec::new();
-    let mut header_may_come = true;
-    let mut columns = None;
-    while let Some(text) = lines.next()? {
-        if text.is_empty() || text.starts_with('#') && !is_failure(&text) {
-            continue;
-        }
-        let fields = Fields::of(&text);
-        let is_header = header_may_come && is_header(&fields);
-        header_may_come = false;
-        if is_header {
-            continue;
-        }
-        let value = |column| fields.number(column).map_err(|why| lines.refuse(why));
-        let time = if format.time_step.is_some() { 0.0 } else { value(format.time_column)? };
-        let found = fields.texts.len();
-        if format.acceleration_column.is_none() && found > 1 {
-            return Err(lines.refuse(RecordError::SeveralColumns { found }));
-        }
-        let acceleration = value(format.acceleration_column.unwrap_or(1))?;
-        let expected = *columns.get_or_insert(found);
-        // A comma of thousands, or an empty field between tabs, has moved the columns behind it.
-        if found != expected && (fields.separator == Some(',') || text.contains("\t\t")) {
-            return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
-        }
-        samples.push(Sample { line: lines.number, time, acceleration });
-    }
-    Ok(samples)
+/// Lines of numbers, column by column.
+#[derive(Default)]
+struct Table {
+    /// Numbers of the lines.
+    lines: Vec<usize>,
+    /// s.
+    times: Vec<f64>,
+    clock: Clock,
+    names: Vec<String>,
+    /// m/s².
+    columns: Vec<Vec<f64>>,
 }
 
-/// The common time step.
-fn equal_step(samples: &[Sample]) -> Reason<f64> {
-    let first = samples[1].time - samples[0].time;
-    for pair in samples.windows(2) {
-        let found = pair[1].time - pair[0].time;
-        // the difference of huge times may be infinite
-        if !(found > 0.0 && found < f64::INFINITY) {
-            return Err((pair[1].line, RecordError::TimeNotIncreasing { found: decimal(found) }));
+impl Table {
+    /// All lines of numbers.
+    fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Self> {
+        let mut table = Self::default();
+        let factor = format.unit.in_metres_per_second_squared();
+        let mut header_may_come = true;
+        // Titles of the columns, from the last line before the numbers.
+        let mut title = Vec::new();
+        let mut chosen = Vec::new();
+        let mut columns = None;
+        while let Some(text) = lines.next()? {
+            let passed = lines.number <= format.header_lines;
+            if text.is_empty() || passed || text.starts_with('#') && !is_failure(&text) {
+                if columns.is_none() && !text.is_empty() {
+                    title = titles(&Fields::of(&text).texts);
+                }
+                continue;
+            }
+            let fields = Fields::of(&text);
+            let is_header = header_may_come && is_header(&fields);
+            header_may_come = false;
+            if is_header {
+                title = titles(&fields.texts);
+                continue;
+            }
+            let found = fields.texts.len();
+            let refuse = |why| lines.refuse(in_header(why, &fields, columns.is_none()));
+            if columns.is_none() {
+                chosen = chosen_columns(format, all, found);
+            }
+            if format.time_step.is_none() {
+                table
+                    .times
+                    .push(fields.time(format.time_column, &mut table.clock).map_err(refuse)?);
+            }
+            if !all && format.acceleration_column.is_none() && found > 1 {
+                return Err(refuse(RecordError::SeveralColumns { found }));
+            }
+            for (k, &column) in chosen.iter().enumerate() {
+                let value = fields.number(column).map_err(refuse)?;
+                if k == table.columns.len() {
+                    table.columns.push(Vec::new());
+                }
+                table.columns[k].push(value * factor);
+            }
+            if columns.is_none() {
+                table.names =
+                    names(format, &title, &chosen, found).map_err(|why| lines.refuse(why))?;
+            }
+            let expected = *columns.get_or_insert(found);
+            // A comma of thousands, or an empty field between tabs, has moved the columns behind it.
+            let moved = fields.separator == Some(',') || text.contains("\t\t") || all;
+            if found != expected && moved {
+                return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
+            }
+            table.lines.push(lines.number);
         }
-        if (found - first).abs() > STEP_TOLERANCE * first {
-            let (found, expected) = (decimal(found), decimal(first));
-            return Err((pair[1].line, RecordError::UnequalStep { found, expected }));
+        Ok(table)
+    }
+
+    /// The common time step.
+    fn equal_step(&self) -> Reason<f64> {
+        let times = &self.times;
+        let first = times[1] - times[0];
+        let last = times.len() - 1;
+        let mean = (times[last] - times[0]) / last as f64;
+        let unequal =
+            |k: usize, why: RecordError| (self.lines[k], self.rounded(mean).unwrap_or(why));
+        for k in 1..=last {
+            let found = times[k] - times[k - 1];
+            // the difference of huge times may be infinite
+            if !(found > 0.0 && found < f64::INFINITY) {
+                let found = decimal(found);
+                return Err((self.lines[k], RecordError::TimeNotIncreasing { found }));
+            }
+            if (found - first).abs() > STEP_TOLERANCE * first {
+                let (found, expected) = (decimal(found), decimal(first));
+                return Err(unequal(k, RecordError::UnequalStep { found, expected }));
+            }
         }
-    }
-    let exact = |(k, sample): (usize, &Sample)| sample.time == k as f64 * first;
-    if samples.iter().enumerate().all(exact) {
-        return Ok(first);
-    }
-    let last = samples.len() - 1;
-    let mean = (samples[last].time - samples[0].time) / last as f64;
-    // steps that drift slowly pass the test above
-    for (index, sample) in samples.iter().enumerate() {
-        let expected = samples[0].time + index as f64 * mean;
-        if (sample.time - expected).abs() > STEP_TOLERANCE * mean {
-            let (found, expected) = (decimal(sample.time), decimal(expected));
-            return Err((sample.line, RecordError::DriftingStep { found, expected }));
+        let exact = |(k, &time): (usize, &f64)| time == k as f64 * first;
+        if times.iter().enumerate().all(exact) {
+            return Ok(first);
         }
+        // steps that drift slowly pass the test above
+        for (k, &time) in times.iter().enumerate() {
+            let expected = times[0] + k as f64 * mean;
+            if (time - expected).abs() > STEP_TOLERANCE * mean {
+                let (found, expected) = (decimal(time), decimal(expected));
+                return Err(unequal(k, RecordError::DriftingStep { found, expected }));
+            }
+        }
+        Ok(decimal(mean))
     }
-    Ok(decimal(mean))
+
+    /// The error for times that are equally spaced but for their rounding, if these are.
+    fn rounded(&self, mean: f64) -> Option<RecordError> {
+        let resolution = self.clock.resolution()?;
+        let begin = self.times[0];
+        let near = |(k, time): (usize, &f64)| {
+            (time - begin - k as f64 * mean).abs() <= (1.0 + 1e-6) * resolution
+        };
+        let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let (least, most) = steps
+            .fold((f64::MAX, 0.0_f64), |(least, most), step| (least.min(step), most.max(step)));
+        let equal = mean > COARSE * resolution
+            && most - least <= (1.0 + 1e-6) * resolution
+            && self.times.iter().enumerate().all(near);
+        equal.then(|| RecordError::RoundedTimes { resolution, step: decimal(mean) })
+    }
+}
+
+/// Columns of accelerations among the `found` ones of the first line.
+fn chosen_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<usize> {
+    if !all {
+        return vec![format.acceleration_column.unwrap_or(1)];
+    }
+    let is_time = |column| format.time_step.is_none() && column == format.time_column;
+    (1..=found).filter(|&column| !is_time(column)).collect()
+}
+
+/// Names of the chosen columns, whose titles must not name other units.
+fn names(
+    format: &ColumnFormat,
+    titles: &[String],
+    chosen: &[usize],
+    found: usize,
+) -> std::result::Result<Vec<String>, RecordError> {
+    // Words of another number are no titles.
+    let title = |column: usize| titles.get(column - 1).filter(|_| titles.len() == found);
+    if format.time_step.is_none()
+        && let Some(title) = title(format.time_column)
+    {
+        check_time(title)?;
+    }
+    let name = |&column: &usize| {
+        let Some(title) = title(column) else { return Ok(format!("column {column}")) };
+        check_acceleration(title, format.unit)?;
+        Ok(title.clone())
+    };
+    chosen.iter().map(name).collect()
+}
+
+/// The fault of a line before all numbers, whose first field is no number: a line of a header.
+fn in_header(why: RecordError, fields: &Fields, no_number_yet: bool) -> RecordError {
+    let words = |field: &&str| field.contains(char::is_alphabetic) && !is_like_number(field);
+    match (why, fields.texts.first().filter(|field| no_number_yet && words(field))) {
+        (RecordError::NotANumber { .. } | RecordError::Column { .. }, Some(field)) => {
+            RecordError::HeaderLine { text: excerpt(field) }
+        }
+        (RecordError::SeveralColumns { .. }, Some(field)) => {
+            RecordError::HeaderLine { text: excerpt(field) }
+        }
+        (why, _) => why,
+    }
 }
 
 /// `value` rounded to twelve digits: differences of printed decimals are decimals.

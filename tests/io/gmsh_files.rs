@@ -1,7 +1,8 @@
 //! GOAL: files that Gmsh 4.15 wrote make the models they describe.
 //! SCENE: a block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and
 //! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
-//! REFERENCE: areas, uniform strain, and the statics of the layered block.
+//! REFERENCE: areas, uniform strain, and the statics of the layered block; of a wall on a base of which one half has a
+//! name of its own, the coordinates.
 
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::GmshMesh;
@@ -145,4 +146,37 @@ fn a_static_solution_is_that_of_the_layered_block() {
         println!("{name}: {found:.6e}, fine block {fine:.6e}, apart by {:.1e}", found / fine - 1.0);
         assert!((found / fine - 1.0).abs() < tolerance, "{name}: {found} {fine}");
     }
+}
+
+/// The left third of the base is in a group of its own, too, which Gmsh writes before that of the base.
+#[test]
+fn a_curve_belongs_to_all_of_its_groups() {
+    let path = basemat_problems::data_path("gmsh/base_line_in_two_groups.msh");
+    let gmsh = GmshMesh::read(&path).unwrap();
+    let places = |name: &str| -> Vec<f64> {
+        gmsh.line(name).unwrap().into_iter().map(|node| gmsh.nodes()[node][0]).collect()
+    };
+    assert_eq!(gmsh.lines(), ["", "base", "left half"]);
+    for (name, count) in [("base", 7), ("left half", 3)] {
+        let found = places(name);
+        assert_eq!(found.len(), count, "{name}");
+        for (k, x) in found.into_iter().enumerate() {
+            assert!((x - k as f64).abs() < 1e-9, "{name}: {x}");
+        }
+    }
+    let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
+    assert!(gmsh.mesh(&[("wall", concrete)]).is_ok());
+
+    // The second surface in a group of its own as well: one of its groups has the material, not both.
+    let text = std::fs::read_to_string(&path).unwrap();
+    let text =
+        text.replacen("2 2 0 0 6 3 0 1 12 4 2 3 4 -7", "2 2 0 0 6 3 0 2 12 13 4 2 3 4 -7", 1);
+    let gmsh = GmshMesh::from_reader("two", text.as_bytes()).unwrap();
+    assert_eq!(gmsh.surfaces(), ["13", "wall"]);
+    assert!(gmsh.mesh(&[("wall", concrete)]).is_ok());
+    let error = gmsh.mesh(&[("wall", concrete), ("13", concrete)]).unwrap_err().to_string();
+    let (line, rest) = error.split_once(": ").unwrap();
+    assert!(line.starts_with("two, line ") && rest.contains("surfaces 'wall' and '13'"), "{error}");
+    let error = gmsh.mesh(&[("13", concrete)]).unwrap_err().to_string();
+    assert!(error.contains("material for its surface 'wall'"), "{error}");
 }

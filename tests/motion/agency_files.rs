@@ -3,16 +3,19 @@
 //! REFERENCE: the samples and the interval that the file was made with, which its header states in several places.
 
 use basemat::RecordError;
-use basemat::motion::{CosmosFormat, Record, RecordFormat};
+use basemat::motion::{
+    AccelerationUnit, AfadFormat, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
+    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
+};
 
 use super::refusal;
 
 const GRAVITY: f64 = 9.80665;
-/// Samples of the files of CESMD, repeated.
+/// Samples of the short files of CESMD, repeated.
 const SAMPLES: [f64; 8] = [0.0, 12.5, -30.25, 44.0, -8.75, 3.0, 1.5, 0.0];
 
 fn bytes(name: &str) -> Vec<u8> {
-    std::fs::read(basemat_problems::data_path(&format!("records/{name}"))).unwrap()
+    std::fs::read(path(name)).unwrap()
 }
 
 #[track_caller]
@@ -24,6 +27,186 @@ fn is_read(name: &str, format: &dyn RecordFormat, step: f64, wanted: impl Iterat
     assert_eq!(record.len(), wanted.len(), "{name}");
     for (found, wanted) in record.accelerations().iter().zip(wanted) {
         assert!((found - wanted).abs() <= 1e-12 * wanted.abs(), "{name}: {found} {wanted}");
+    }
+}
+
+/// Components of the longer files (gal) at a time (s): decaying sines.
+fn signal(component: usize, time: f64) -> f64 {
+    let (amplitude, frequency) = [(120.0, 2.5), (90.0, 3.5), (60.0, 5.0)][component];
+    amplitude * (std::f64::consts::TAU * frequency * time).sin() * (-time).exp()
+}
+
+/// Whether a record is a component of the longer files, to half of its last digit (gal) and a baseline.
+#[track_caller]
+fn is_signal(record: &Record, component: usize, times: f64, step: f64, digit: f64) {
+    assert!((record.time_step() / step - 1.0).abs() < 1e-12, "{} s", record.time_step());
+    let count = if step < 0.01 { 200 } else { 100 };
+    assert_eq!(record.len(), count);
+    let offset = record.accelerations()[0];
+    for (k, found) in record.accelerations().iter().enumerate() {
+        let wanted = 0.01 * times * signal(component, k as f64 * step);
+        let apart = (found - offset - wanted).abs();
+        assert!(apart <= 0.01 * digit, "sample {k}: {found} {wanted}");
+    }
+}
+
+fn path(name: &str) -> std::path::PathBuf {
+    basemat_problems::data_path(&format!("records/{name}"))
+}
+
+#[test]
+fn every_agency_is_read() {
+    let one = |name, format: &dyn RecordFormat| Record::read(path(name), format).unwrap();
+    is_signal(&one("peer.at2", &PeerFormat), 0, 1.0, 0.01, 1e-4);
+    is_signal(&one("cosmos.v2c", &CosmosFormat::default()), 0, 1.0, 0.01, 5.1e-6);
+    is_signal(&one("csmip.v2", &CosmosFormat::default()), 0, 1.0, 0.01, 5.1e-6);
+    is_signal(&one("k_net.ns", &KNetFormat), 0, 1.0, 0.01, 7e-4);
+    is_signal(&one("kik_net.ew2", &KNetFormat), 1, 1.0, 0.005, 3e-4);
+    is_signal(&one("k_net.csv", &KNetCsvFormat::default()), 0, 1.0, 0.01, 5.1e-4);
+    is_signal(&one("esm_hne.asc", &EsmFormat), 0, 1.0, 0.01, 5.1e-7);
+    is_signal(&one("afad_three.txt", &AfadFormat::default()), 0, 1.0, 0.01, 5.1e-7);
+    is_signal(&one("smc.smc", &SmcFormat), 0, 1.0, 0.01, 5.1e-3);
+    is_signal(&one("geonet.v2a", &GeoNetFormat::default()), 0, 20.0, 0.01, 5.1e-3);
+}
+
+#[test]
+fn components_of_a_station_are_read_at_once() {
+    let all = |name, format: &dyn RecordFormat| Record::read_all(path(name), format).unwrap();
+    type Case = (&'static str, Box<dyn RecordFormat>, &'static [&'static str], f64, f64);
+    let cases: [Case; 5] = [
+        (
+            "cosmos.v2c",
+            Box::new(CosmosFormat::default()),
+            &["Chan 1: 0 Deg", "Chan 2: 90 Deg"],
+            1.0,
+            5.1e-6,
+        ),
+        (
+            "csmip.v2",
+            Box::new(CosmosFormat::default()),
+            &["Chan 1: 90 Deg", "Chan 2: 180 Deg", "Chan 3: Up"],
+            1.0,
+            5.1e-6,
+        ),
+        ("k_net.csv", Box::new(KNetCsvFormat::default()), &["NS", "EW", "UD"], 1.0, 5.1e-4),
+        ("afad_three.txt", Box::new(AfadFormat::default()), &["N-S", "E-W", "U-D"], 1.0, 5.1e-7),
+        ("geonet.v2a", Box::new(GeoNetFormat::default()), &["N10E", "N80W", "Up"], 20.0, 5.1e-3),
+    ];
+    for (name, format, names, times, digit) in cases {
+        let station = all(name, format.as_ref());
+        let found: Vec<&str> = station.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(found, names, "{name}");
+        for (k, (_, record)) in station.iter().enumerate() {
+            // The file of GeoNet has a first component large enough for its numbers to touch.
+            is_signal(record, k, if k == 0 { times } else { 1.0 }, 0.01, digit);
+        }
+    }
+    let second = Record::read(path("geonet.v2a"), &GeoNetFormat { component: 2 }).unwrap();
+    assert_eq!(second, all("geonet.v2a", &GeoNetFormat::default())[1].1);
+    let single = all("esm_hne.asc", &EsmFormat);
+    assert_eq!((single.len(), single[0].0.as_str()), (1, "HNE"));
+    for component in [0, 4] {
+        let (_, reason) = refusal(&bytes("afad_three.txt"), &AfadFormat { component });
+        assert_eq!(reason, RecordError::Channel { found: 3, needed: component });
+    }
+    let format = ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.01);
+    let columns = all("three_components.txt", &format);
+    assert_eq!(columns[1].0, "column 2");
+    assert_eq!(columns[1].1.accelerations(), [0.2, 0.21, 0.22].map(|a| a * GRAVITY));
+}
+
+/// The interval, the number of samples or the unit changed in one place: the other one speaks against it.
+#[test]
+fn places_that_disagree_are_refused() {
+    let cases: [(&str, Box<dyn RecordFormat>, &[(&str, &str)]); 8] = [
+        (
+            "csmip.v2",
+            Box::new(CosmosFormat::default()),
+            &[
+                ("equally spaced at  .010", "equally spaced at  .005"),
+                ("100 points of accel", " 99 points of accel"),
+                ("in cm/sec2", "in g     "),
+                ("intervals of    .010", "intervals of    .020"),
+            ],
+        ),
+        (
+            "cosmos.v2c",
+            Box::new(CosmosFormat::default()),
+            &[
+                ("10.000000       1.000000", "20.000000       1.000000"),
+                ("       1       4     120", "       1       2     120"),
+                ("cm/sec2(04)", "g      (02)"),
+                ("100 acceleration", " 98 acceleration"),
+            ],
+        ),
+        (
+            "k_net.ns",
+            Box::new(KNetFormat),
+            &[
+                ("100Hz", "200Hz"),
+                ("Duration Time(s)  1", "Duration Time(s)  2"),
+                ("3920(gal)", "39.2(gal)"),
+            ],
+        ),
+        (
+            "k_net.csv",
+            Box::new(KNetCsvFormat::default()),
+            &[
+                ("Freq(Hz),100", "Freq(Hz),200"),
+                ("Duration Time(s),1", "Duration Time(s),2"),
+                ("Time,NS", "Time,NS(g)"),
+                ("(gal),108.580", "(gal),1.086"),
+                ("00:00:00.10,", "00:00:00.20,"),
+            ],
+        ),
+        (
+            "esm_hne.asc",
+            Box::new(EsmFormat),
+            &[
+                ("SAMPLING_INTERVAL_S: 0.010", "SAMPLING_INTERVAL_S: 0.005"),
+                ("NDATA: 100", "NDATA: 99"),
+                ("UNITS: cm/s^2", "UNITS: m/s^2"),
+                ("DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY"),
+            ],
+        ),
+        (
+            "afad_three.txt",
+            Box::new(AfadFormat::default()),
+            &[
+                ("NUMBER OF DATA          : 100", "NUMBER OF DATA          : 99"),
+                ("(E-W) 83.", "(E-W) 8.3"),
+                ("E-W          U-D\r\n ", "E-W\r\n "),
+            ],
+        ),
+        (
+            "smc.smc",
+            Box::new(SmcFormat),
+            &[
+                ("0.1000000E+03", "0.5000000E+02"),
+                ("2 CORRECTED ACCELEROGRAM", "3 VELOCITY              "),
+                ("       100    -32768", "        99    -32768"),
+                ("0.1000000E+03", "0.1700000E+39"),
+            ],
+        ),
+        (
+            "geonet.v2a",
+            Box::new(GeoNetFormat::default()),
+            &[
+                ("data at 0.010 sec", "data at 0.020 sec"),
+                ("points    100", "points     99"),
+                ("Duration   0.99", "Duration   1.99"),
+                ("peak  21716.0", "peak   2171.6"),
+            ],
+        ),
+    ];
+    for (name, format, changes) in cases {
+        let text = String::from_utf8(bytes(name)).unwrap();
+        assert!(Record::from_reader(name, text.as_bytes(), format.as_ref()).is_ok());
+        for (from, to) in changes {
+            assert!(text.contains(from), "{name}: {from}");
+            let (line, reason) = refusal(&text.replacen(from, to, 1), format.as_ref());
+            println!("{name}, line {line}: {reason}");
+        }
     }
 }
 
@@ -61,4 +244,43 @@ fn csmip_files_of_all_years_are_read() {
     let format = CosmosFormat::default();
     is_read("csmip_1984.v2", &format, 0.02, repeated(2, 0.01));
     is_read("csmip_v1.v1", &format, 0.005, repeated(2, GRAVITY * 1e-3));
+}
+
+#[test]
+fn short_files_of_other_agencies_are_read() {
+    is_read(
+        "at2_unitsare.at2",
+        &PeerFormat,
+        0.02,
+        [0.1, -0.2, 0.3, 0.4].into_iter().map(|a| a * GRAVITY),
+    );
+    is_read("esm.asc", &EsmFormat, 0.005, [0.0, 0.01, -0.02, 0.005].into_iter());
+    let (first, second) = ([0.001, 0.0011, 0.0012], [0.002, 0.0021, 0.0022]);
+    is_read("afad.txt", &AfadFormat::default(), 0.01, first.into_iter());
+    is_read("knet.csv", &KNetCsvFormat { component: 2 }, 0.01, second.into_iter());
+    // By columns: times of day, and lines that are passed over.
+    let columns = ColumnFormat::new(AccelerationUnit::Gal);
+    is_read("knet.csv", &columns, 0.01, first.into_iter());
+    let single = ColumnFormat::equally_spaced(AccelerationUnit::Gal, 0.005);
+    let esm = ColumnFormat { header_lines: 7, ..single };
+    is_read("esm.asc", &esm, 0.005, [0.0, 0.01, -0.02, 0.005].into_iter());
+    let afad = ColumnFormat { header_lines: 6, acceleration_column: Some(2), ..single };
+    is_read("afad.txt", &afad, 0.005, second.into_iter());
+    for name in ["esm.asc", "afad.txt"] {
+        for format in [columns, single] {
+            let (line, reason) = refusal(&bytes(name), &format);
+            assert!(line == 2 && reason.to_string().contains("more than one line of header"));
+            assert!(reason.to_string().contains("header_lines"), "{reason}");
+        }
+    }
+}
+
+#[test]
+fn times_that_are_rounded_too_coarsely_ask_for_the_step() {
+    let columns = ColumnFormat::new(AccelerationUnit::MetrePerSecondSquared);
+    let (line, reason) = refusal(&bytes("rounded128.csv"), &columns);
+    assert!(line == 5 && reason.to_string().contains("`time_step`"), "{line}: {reason}");
+    let given = ColumnFormat { time_step: Some(1.0 / 128.0), ..columns };
+    let wanted = (0..200).map(|k| f64::from(k % 5));
+    is_read("rounded128.csv", &given, 1.0 / 128.0, wanted);
 }

@@ -9,7 +9,8 @@
 use std::io::Read;
 
 use basemat::motion::{
-    AccelerationUnit, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat,
+    AccelerationUnit, AfadFormat, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
+    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
 };
 use basemat::{Error, Result};
 use proptest::prelude::*;
@@ -19,6 +20,12 @@ use proptest::sample::Index;
 fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
     let columns = ColumnFormat::new(AccelerationUnit::Gal);
     vec![
+        (include_str!("../data/records/esm.asc"), Box::new(EsmFormat)),
+        (include_str!("../data/records/afad.txt"), Box::new(AfadFormat::default())),
+        (include_str!("../data/records/knet.csv"), Box::new(KNetCsvFormat::default())),
+        (include_str!("../data/records/csmip_v1.v1"), Box::new(CosmosFormat::default())),
+        (include_str!("../data/records/smc.smc"), Box::new(SmcFormat)),
+        (include_str!("../data/records/geonet.v2a"), Box::new(GeoNetFormat::default())),
         (
             "PEER NGA STRONG MOTION DATABASE RECORD\nEl Centro, 180\n\
              ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=     6, DT=   .0100 SEC,\n \

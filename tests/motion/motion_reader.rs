@@ -99,7 +99,7 @@ fn reader_refuses_with_line_and_reason() {
         // Decimal commas.
         (b"0;1\n0,02;1\n", 2, not_a_number("0,02")),
         (b"0;1\n1;1,5\n", 2, not_a_number("1,5")),
-        (b"t a\nt a\n0 0\n1 1\n", 2, not_a_number("t")),
+        (b"t a\nt a\n0 0\n1 1\n", 2, RecordError::HeaderLine { text: "t".into() }),
         (b"0 0\nt a\n1 1\n", 2, not_a_number("t")),
         (b"0 x\n1 1\n", 1, not_a_number("x")),
         (b"0 1\n\xff\xfe 1\n", 2, not_a_number("\u{fffd}\u{fffd}")),

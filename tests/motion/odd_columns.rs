@@ -130,7 +130,7 @@ fn a_bad_first_sample_is_no_header() {
         "acceleration",
         "a",
         "Acc. (m/s^2)",
-        "acc[g]",
+        "acc[m/s2]",
         "\"acceleration\"",
         "E-W",
         "D1",
@@ -168,4 +168,64 @@ fn an_empty_field_between_tabs_is_not_passed_over() {
     assert_eq!(refusal(text, &pairs()), (2, unequal));
     // Tabs that align.
     is_read("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
+}
+
+/// A title that names another unit than the file is read in.
+#[test]
+fn titles_are_held_against_the_format() {
+    for text in [
+        "time(ms),a\n0,1\n0.02,2\n",
+        "# time (ms), a (m/s2)\n0,1\n0.02,2\n",
+        "time (ms) a\n0 1\n0.02 2\n",
+        "t,a (cm/s2)\n0,1\n0.02,2\n",
+        "t a [g]\n0 1\n0.02 2\n",
+        "time_s,velocity (cm/s)\n0,1\n0.02,2\n",
+        "time_s,acceleration_g\n0,1\n0.02,2\n",
+        "a (m/s2),t (s)\n0,1\n0.02,2\n",
+    ] {
+        let (line, reason) = refusal(text, &pairs());
+        assert!(line == 2 && matches!(reason, RecordError::TitleUnit { .. }), "{text:?}: {reason}");
+    }
+    for text in [
+        "time (s),a (m/s2)\n0,1\n0.02,2\n",
+        "time_s,acceleration_m_per_s2\n0,1\n0.02,2\n",
+        "t (sec) a (m/sec/sec)\n0 1\n0.02 2\n",
+        "t,a (filtered)\n0,1\n0.02,2\n",
+        // Of other columns, and of other lines.
+        "t,a,v (cm/s)\n0,1,5\n0.02,2,5\n",
+        "# time (ms), a\nt,a\n0,1\n0.02,2\n",
+        "# (ms)\n0,1\n0.02,2\n",
+    ] {
+        is_read(text, &pairs(), &[1.0, 2.0]);
+    }
+    let (_, reason) = refusal("acc (cm/s2)\n1\n2\n", &alone());
+    assert!(matches!(reason, RecordError::TitleUnit { .. }), "{reason}");
+}
+
+#[test]
+fn lines_of_header_are_passed_over() {
+    let after = |header_lines| ColumnFormat { header_lines, ..pairs() };
+    let text = "Station 7\n1 2 3\n\nt a\n0 1\n0.02 2\n";
+    for lines in [2, 3, 4] {
+        is_read(text, &after(lines), &[1.0, 2.0]);
+    }
+    for lines in [0, 1] {
+        assert!(Record::from_reader("text", text.as_bytes(), &after(lines)).is_err(), "{lines}");
+    }
+    let (_, reason) = refusal(text, &after(9));
+    assert_eq!(reason, RecordError::TooShort { found: 0, needed: 2 });
+    let (_, reason) = refusal("one\nt (ms),a\n0,1\n0.02,2\n", &after(2));
+    assert!(matches!(reason, RecordError::TitleUnit { .. }), "{reason}");
+}
+
+#[test]
+fn times_of_day_are_read() {
+    is_read("12:00:15.00,1\n12:00:15.02,2\n12:00:15.04,3\n", &pairs(), &[1.0, 2.0, 3.0]);
+    is_read("23:59:59.98 1\n00:00:00.00 2\n00:00:00.02 3\n", &pairs(), &[1.0, 2.0, 3.0]);
+    is_read("2000-01-01T12:00:15.00,1\n2000-01-01T12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
+    is_read("2000/01/01 12:00:15.00,1\n2000/01/01 12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
+    for bad in ["12:00:15.00,1\n12:0x:15.02,2\n", "12:00:15.00,1\n12:00,2\n"] {
+        let (line, reason) = refusal(bad, &pairs());
+        assert!(line == 2 && matches!(reason, RecordError::NotANumber { .. }), "{reason}");
+    }
 }

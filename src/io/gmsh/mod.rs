@@ -12,8 +12,8 @@ use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 /// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
 ///
 /// Quadrilaterals get their material, and lines their meaning, from the names of physical groups.
-/// An element that belongs to several groups counts with the first of them; one in none has the
-/// name "". Points and lines that are not asked for are passed over; triangles and nodes outside the
+/// An element belongs to all of its groups; one in none has the name "". A quadrilateral must have one
+/// group with a material. Points and lines that are not asked for are passed over; triangles and nodes outside the
 /// plane z = 0 are an error. Clockwise quadrilaterals are turned round. Elements of the second order
 /// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
 ///
@@ -46,10 +46,10 @@ pub struct GmshMesh {
     lines: Vec<Cell>,
 }
 
-/// An element: the name of its group, its nodes as indices, its tag and where it stands in the file.
+/// An element: the names of its groups, its nodes as indices, its tag and where it stands in the file.
 #[derive(Debug, Clone, PartialEq)]
 struct Cell {
-    group: String,
+    groups: Vec<String>,
     nodes: Vec<usize>,
     tag: u64,
     line: usize,
@@ -112,7 +112,7 @@ impl GmshMesh {
             let places: Option<Vec<usize>> =
                 cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
             let Some(mut nodes) = places else { continue };
-            let (group, tag, line) = (raw.group(cell), cell.tag, cell.line);
+            let (groups, tag, line) = (raw.groups(cell), cell.tag, cell.line);
             if cell.is_quadrilateral() {
                 let mut own = nodes[..4].to_vec();
                 own.sort_unstable();
@@ -122,9 +122,9 @@ impl GmshMesh {
                     return Err(refuse((cell.line, MeshFileError::Twice { what })));
                 }
                 mesh.turn_counter_clockwise(&mut nodes);
-                mesh.quads.push(Cell { group, nodes, tag, line });
+                mesh.quads.push(Cell { groups, nodes, tag, line });
             } else {
-                mesh.lines.push(Cell { group, nodes, tag, line });
+                mesh.lines.push(Cell { groups, nodes, tag, line });
             }
         }
         Ok(mesh)
@@ -149,7 +149,7 @@ impl GmshMesh {
     /// keep their indices.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] for a group without a material here or with two of them, a material
+    /// [`Error::MeshFile`] for a quadrilateral without a material here or with two of them, a material
     /// without a group, and quadrilaterals without area or with a reflex corner, with their line.
     pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
         self.mesh_of(materials, QuadFormulation::default())
@@ -179,13 +179,11 @@ impl GmshMesh {
             mesh.add_node(x, y)?;
         }
         for quad in &self.quads {
-            let Some((_, material)) = materials.iter().find(|(name, _)| *name == quad.group) else {
-                return Err(self.missing(format!("material for its surface '{}'", quad.group)));
-            };
+            let material = self.material(quad, materials)?;
             let added = match *quad.nodes {
-                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], *material, formulation)),
+                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], material, formulation)),
                 [a, b, c, d, ab, bc, cd, da] => {
-                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], *material))
+                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], material))
                 }
                 _ => continue,
             };
@@ -196,6 +194,27 @@ impl GmshMesh {
             })?;
         }
         Ok(mesh)
+    }
+
+    /// The one material of a quadrilateral.
+    fn material(&self, quad: &Cell, materials: &[(&str, Material)]) -> Result<Material> {
+        let own = |(name, _): &&(&str, Material)| quad.groups.iter().any(|group| group == name);
+        let mut found = materials.iter().filter(own);
+        match (found.next(), found.next()) {
+            (Some((_, material)), None) => Ok(*material),
+            (Some((one, _)), Some((other, _))) => {
+                let what = format!(
+                    "the material of element {}, which is in the surfaces '{one}' and '{other}',",
+                    quad.tag
+                );
+                let reason = MeshFileError::Twice { what };
+                Err(Error::MeshFile { file: self.file.clone(), line: quad.line, reason })
+            }
+            (None, _) => {
+                let surfaces = quad.groups.join("' or '");
+                Err(self.missing(format!("material for its surface '{surfaces}'")))
+            }
+        }
     }
 
     /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
@@ -227,7 +246,7 @@ impl GmshMesh {
     /// [`Error::MeshFile`] if there is no such group.
     pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
         let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
-        for line in self.lines.iter().filter(|line| line.group == name) {
+        for line in self.lines.iter().filter(|line| line.groups.iter().any(|group| group == name)) {
             let mut joined: BTreeSet<usize> = line.nodes.iter().copied().collect();
             pieces.retain_mut(|piece| {
                 let apart = line.nodes.iter().all(|node| !piece.contains(node));
@@ -277,6 +296,7 @@ fn no_node(tag: u64) -> MeshFileError {
 }
 
 fn names(cells: &[Cell]) -> Vec<&str> {
-    let all: BTreeSet<&str> = cells.iter().map(|cell| cell.group.as_str()).collect();
+    let all: BTreeSet<&str> =
+        cells.iter().flat_map(|cell| cell.groups.iter().map(String::as_str)).collect();
     all.into_iter().collect()
 }

@@ -36,8 +36,8 @@ pub(super) struct Raw {
     /// Place of each node tag in `coordinates`.
     pub(super) places: BTreeMap<u64, usize>,
     pub(super) cells: Vec<RawCell>,
-    /// First physical group of each entity, and the groups' names.
-    groups: BTreeMap<(u8, i64), i64>,
+    /// Physical groups of each entity, and the groups' names.
+    groups: BTreeMap<(u8, i64), Vec<i64>>,
     names: BTreeMap<(u8, i64), String>,
 }
 
@@ -48,12 +48,22 @@ impl RawCell {
 }
 
 impl Raw {
-    /// Name of the physical group of `cell`; a group without a name is called by its number.
-    pub(super) fn group(&self, cell: &RawCell) -> String {
-        let Some(&tag) = self.groups.get(&cell.entity) else { return String::new() };
-        // A minus sign says that the entity's direction is reversed in its group.
-        let key = (cell.entity.0, tag.saturating_abs());
-        self.names.get(&key).cloned().unwrap_or_else(|| key.1.to_string())
+    /// Names of the physical groups of `cell`, sorted; a group without a name is called by its number, and the name
+    /// of a cell without a group is empty.
+    pub(super) fn groups(&self, cell: &RawCell) -> Vec<String> {
+        let tags = self.groups.get(&cell.entity).map_or(&[][..], Vec::as_slice);
+        let name = |tag: &i64| {
+            // A minus sign says that the entity's direction is reversed in its group.
+            let key = (cell.entity.0, tag.saturating_abs());
+            self.names.get(&key).cloned().unwrap_or_else(|| key.1.to_string())
+        };
+        let mut names: Vec<String> = tags.iter().map(name).collect();
+        names.sort_unstable();
+        names.dedup();
+        if names.is_empty() {
+            names.push(String::new());
+        }
+        names
     }
 }
 
@@ -145,17 +155,19 @@ fn entities(fields: &mut Words<impl Read>, raw: &mut Raw, partitioned: bool) -> 
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 let _: f64 = fields.next("coordinate of an entity")?;
             }
-            let groups: usize = fields.next("number of groups")?;
-            for k in 0..groups {
-                let group = fields.next("tag of a group")?;
-                if k > 0 {
-                    continue;
-                }
-                let before = raw.groups.insert((dimension, tag), group);
-                if before.is_some_and(|before| before != group && !partitioned) {
-                    let what = format!("the group of entity {tag} of dimension {dimension}");
-                    return Err(fields.refuse(MeshFileError::Twice { what }));
-                }
+            let number: usize = fields.next("number of groups")?;
+            let mut groups: Vec<i64> = Vec::new();
+            for _ in 0..number {
+                groups.push(fields.next("tag of a group")?);
+            }
+            let before = raw.groups.get(&(dimension, tag));
+            let other = before.is_some_and(|before| *before != groups && !groups.is_empty());
+            if other && !partitioned {
+                let what = format!("the group of entity {tag} of dimension {dimension}");
+                return Err(fields.refuse(MeshFileError::Twice { what }));
+            }
+            if !groups.is_empty() {
+                raw.groups.insert((dimension, tag), groups);
             }
             if dimension > 0 {
                 let bounds: usize = fields.next("number of bounding entities")?;

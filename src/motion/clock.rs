@@ -1,0 +1,77 @@
+//! Times of day in a column of times.
+
+use crate::text::column::finite;
+
+/// Minutes in a day.
+const DAY: i64 = 1440;
+
+/// Seconds since the first time of a column, whose times are numbers of seconds or times of day.
+#[derive(Default)]
+pub(super) struct Clock {
+    /// Minute of the day of the first time, and of the one before.
+    first: Option<i64>,
+    before: i64,
+    /// Minutes of the days that ended since the first.
+    days: i64,
+    /// Most decimals of a second so far; none if a time has an exponent.
+    decimals: usize,
+    exponent: bool,
+}
+
+impl Clock {
+    /// The time (s) in a field: `12.5`, `12:00:15.01`, or the latter behind a date.
+    pub(super) fn read(&mut self, field: &str) -> Option<f64> {
+        let time = finite(field).or_else(|| self.time_of_day(field))?;
+        self.exponent |= field.contains(['e', 'E', 'd', 'D']);
+        let decimals = field.rsplit_once('.').map_or(0, |(_, decimals)| decimals.len());
+        self.decimals = self.decimals.max(decimals);
+        Some(time)
+    }
+
+    fn time_of_day(&mut self, field: &str) -> Option<f64> {
+        // The minutes are whole numbers, so that the seconds keep their digits.
+        let time = field.rsplit([' ', 'T']).next()?;
+        let (minute, second) = time.rsplit_once(':')?;
+        let (hour, minute) = minute.split_once(':')?;
+        let whole = |text: &str| {
+            let digits =
+                !text.is_empty() && text.len() <= 2 && text.bytes().all(|b| b.is_ascii_digit());
+            if digits { text.parse::<i64>().ok() } else { None }
+        };
+        let second = finite(second).filter(|second| (0.0..61.0).contains(second))?;
+        let minute = 60 * whole(hour)? + whole(minute)?;
+        let first = *self.first.get_or_insert(minute);
+        // Midnight.
+        if minute + DAY / 2 < self.before {
+            self.days += DAY;
+        }
+        self.before = minute;
+        Some((minute + self.days - first) as f64 * 60.0 + second)
+    }
+
+    /// Unit of the last digit of the times, s.
+    pub(super) fn resolution(&self) -> Option<f64> {
+        let decimals = i32::try_from(self.decimals).ok().filter(|&decimals| decimals < 12)?;
+        (!self.exponent).then(|| 10.0_f64.powi(-decimals))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_of_day_become_seconds() {
+        let mut clock = Clock::default();
+        let times = ["23:59:59.99", "00:00:00.00", "0:00:00.01", "2024/01/01 00:00:00.02"];
+        let read: Vec<f64> = times.iter().map(|time| clock.read(time).unwrap()).collect();
+        for (found, wanted) in read.iter().zip([59.99, 60.0, 60.01, 60.02]) {
+            assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+        }
+        assert_eq!(clock.resolution(), Some(0.01));
+        for bad in ["12:00", "1:2:3:4", "12:00:x", "12:00:-1", "12:+1:10", "12:00:99", ":", "a:b:c"]
+        {
+            assert_eq!(Clock::default().read(bad), None, "{bad}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Records of the European (ESM) and the Italian (ITACA) strong-motion databases.
+//!
+//! Layout: header format DYNA 1.2 of the Engineering Strong-Motion Database (esm-db.eu; L. Luzi et al., *The
+//! Engineering Strong-Motion Database*, Seismological Research Letters 87, 2016) and of ITACA (itaca.mi.ingv.it):
+//! lines `KEY: value`, then one sample a line. Turkey's archive (AFAD) gives files in this layout, too.
+
+use std::io::Read;
+
+use super::agreement;
+use super::lines::{Lines, Reason, Series, count, push_numbers, record, records, scaled};
+use super::unit::HeaderNumber;
+use super::{AccelerationUnit, Record, RecordFormat};
+use crate::error::{RecordError, Result};
+use crate::text::column::finite;
+
+/// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
+///
+/// A header of lines `KEY: value`, among them `SAMPLING_INTERVAL_S`, `NDATA` and `UNITS`, then the
+/// samples. A file whose samples, duration (`DURATION_S`) or peak (`PGA_CM/S^2`) are others than its
+/// header states is an error, and so is one of velocity or displacement (`DATA_TYPE`).
+///
+/// ```
+/// use basemat::motion::{EsmFormat, Record};
+/// let text = "EVENT_NAME: TEST\nSAMPLING_INTERVAL_S: 0.005000\nNDATA: 4\nDURATION_S: 0.020\n\
+///     STREAM: HNE\nUNITS: cm/s^2\nPGA_CM/S^2: 2.0\nDATA_TYPE: ACCELERATION\nUSER5:\n\
+///     0.0\n1.0\n-2.0\n0.5\n";
+/// let record = Record::from_reader("HNE.ASC", text.as_bytes(), &EsmFormat)?;
+/// assert_eq!((record.time_step(), record.accelerations()[2]), (0.005, -0.02));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct EsmFormat;
+
+impl RecordFormat for EsmFormat {
+    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
+        record(name, read(&mut Lines::new(source)))
+    }
+
+    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
+        records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
+    }
+}
+
+/// Entries of the header that matter.
+#[derive(Default)]
+struct Header {
+    interval: Option<f64>,
+    points: Option<usize>,
+    duration: Option<f64>,
+    unit: Option<AccelerationUnit>,
+    /// m/s².
+    peak: f64,
+    stream: String,
+}
+
+impl Header {
+    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), RecordError> {
+        let not_acceleration = || RecordError::NotAcceleration {
+            text: format!("{key}: {value}").chars().take(60).collect(),
+        };
+        match key {
+            "SAMPLING_INTERVAL_S" => self.interval = HeaderNumber::TimeStep.read(value)?,
+            "NDATA" => self.points = HeaderNumber::Points.read(value)?.and_then(count),
+            "DURATION_S" => self.duration = HeaderNumber::Duration.read(value)?,
+            "UNITS" => {
+                let unit = AccelerationUnit::named(value).ok_or_else(not_acceleration)?;
+                self.unit = Some(unit);
+            }
+            "DATA_TYPE" if !value.to_ascii_uppercase().contains("ACC") && !value.is_empty() => {
+                return Err(not_acceleration());
+            }
+            "STREAM" => value.clone_into(&mut self.stream),
+            _ => {
+                let unit = key.strip_prefix("PGA_").and_then(AccelerationUnit::named);
+                if let Some((unit, value)) = unit.zip(finite(value)) {
+                    self.peak = value * unit.in_metres_per_second_squared();
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn read(lines: &mut Lines) -> Reason<Series> {
+    let mut header = Header::default();
+    let mut values = Vec::new();
+    while let Some(line) = lines.next()? {
+        let understood = match line.split_once(':') {
+            Some((key, value)) if values.is_empty() => header.read(key.trim(), value.trim()),
+            _ => push_numbers(&line, &mut values),
+        };
+        understood.map_err(|reason| lines.refuse(reason))?;
+    }
+    let missing = |quantity| lines.refuse(RecordError::Missing { quantity });
+    let step = header.interval.filter(|&step| step > 0.0);
+    let step = step.ok_or_else(|| missing("sampling interval (SAMPLING_INTERVAL_S)"))?;
+    let needed = header.points.ok_or_else(|| missing("number of samples (NDATA)"))?;
+    let unit = header.unit.ok_or_else(|| missing("unit (UNITS)"))?;
+    let found = values.len();
+    if found != needed {
+        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+    }
+    let samples = scaled(values, unit.in_metres_per_second_squared());
+    let agrees = || {
+        if let Some(stated) = header.duration {
+            agreement::duration(found, step, stated, 0.0)?;
+        }
+        agreement::peak(&samples, header.peak)
+    };
+    agrees().map_err(|reason| lines.refuse(reason))?;
+    Ok(Series { name: header.stream, step, samples })
+}
