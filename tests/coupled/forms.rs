@@ -21,8 +21,8 @@ use basemat::interface::{
     Yielding,
 };
 use basemat::motion::{
-    AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record,
-    el_centro_1940,
+    AccelerationUnit, AfadFormat, Baseline, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
+    KNetCsvFormat, KNetFormat, PeerFormat, Record, SmcFormat, el_centro_1940,
 };
 use basemat::results::{Criterion, Peak, Quantity, Recorder, Run, Serviceability, TimeSeries};
 use basemat::site::{ControlPoint, VerticalWave};
@@ -318,11 +318,13 @@ fn probes_storeys_layers_and_formats_of_files() {
         time_column: 2,
         acceleration_column: Some(3),
         samples: Some(7),
+        header_lines: 5,
         ..ColumnFormat::new(AccelerationUnit::Gal)
     });
     kept(&ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.02));
     kept(&CosmosFormat { channel: 2, unit: Some(AccelerationUnit::Gal) });
-    kept(&(PeerFormat, KNetFormat));
+    kept(&(PeerFormat, KNetFormat, EsmFormat, SmcFormat));
+    kept(&(AfadFormat { component: 2 }, KNetCsvFormat { component: 3 }, GeoNetFormat::default()));
 }
 
 #[test]
