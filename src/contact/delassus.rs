@@ -1,4 +1,4 @@
-//! The Delassus operator, with the quickest way to its product.
+//! The Delassus operator, with its product computed in the quickest way.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -6,21 +6,21 @@ use std::sync::Arc;
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{dense_multiply_add, transposed_multiply_add};
 
-/// Largest rank of the structure's part that is multiplied apart from the soil's.
+/// Largest rank of the structure's part for which it is multiplied separately from the soil's part.
 const RANK: usize = 64;
 
-/// W, row-major: that of the soil, G¹, and the compliance of the structure's base.
+/// W, row-major: the sum of the soil's step compliance G¹ and the compliance of the structure's base.
 #[derive(Debug, Clone)]
 pub(crate) struct Delassus {
     values: Vec<f64>,
     split: Option<Split>,
 }
 
-/// G¹, mostly zeros, and a structure with few degrees of freedom: W = G¹ + B C.
+/// W = G¹ + B C for a mostly zero G¹ and a structure with few degrees of freedom.
 #[derive(Debug, Clone)]
 struct Split {
     soil: Arc<Thinned>,
-    /// B, row-major with a row per contact component, and C, with a column after the other.
+    /// B, row-major with one row per contact component; C, column by column.
     means: Vec<f64>,
     columns: Vec<f64>,
 }
@@ -40,8 +40,9 @@ impl Deref for Delassus {
 }
 
 impl Delassus {
-    /// Delassus operator of `values`, which are `soil` + B C with C given by its `columns`; `means` is B times a
-    /// vector.
+    /// Delassus operator `values` = `soil` + B C.
+    ///
+    /// `columns` holds C column by column; `means` multiplies a vector by B.
     pub(crate) fn new(
         values: Vec<f64>,
         soil: &Arc<Thinned>,
@@ -50,7 +51,8 @@ impl Delassus {
     ) -> Self {
         let size = values.len().isqrt();
         let rank = columns.len() / size.max(1);
-        // Two thin products and the soil's against one: worth it only if far less is read.
+        // The split needs two thin products and the soil's; it is used only if it reads far fewer values than
+        // W has.
         if rank > RANK || soil.stored() + 2 * columns.len() > values.len() / 4 {
             return values.into();
         }
@@ -66,7 +68,7 @@ impl Delassus {
         Self { values, split: Some(split) }
     }
 
-    /// Takes other values, as many, without allocating.
+    /// Replaces the values by as many others, without allocating.
     pub(crate) fn set(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);
         self.split = None;

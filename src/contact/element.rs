@@ -1,10 +1,10 @@
-//! The contact problem of one element, the tractions of the others held.
+//! The contact problem of one element, with the tractions of the others fixed.
 
 use super::problem::{ContactInput, ContactSolver};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
-/// Solves element `e` alone, the tractions of the others held, and returns its mode.
+/// Solves element `e` with the tractions of the others fixed, and returns its mode.
 pub(super) fn local_mode(
     solver: &mut ContactSolver,
     input: &ContactInput<'_>,

@@ -1,7 +1,7 @@
 //! The contact problem of a step: tractions, openings and modes of all elements.
 //!
-//! A [`Simulation`](crate::Simulation) solves it in every step. Codes with an integrator of their own
-//! take a [`Ground`](crate::bem::Ground) and a [`ContactProblem`].
+//! A [`Simulation`](crate::Simulation) solves this problem in every step. Codes with their own integrator use
+//! a [`Ground`](crate::bem::Ground) and a [`ContactProblem`].
 
 mod cone;
 mod delassus;
@@ -28,16 +28,17 @@ use crate::linalg::largest;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum ContactSearch {
-    /// Active set, then Gauss–Seidel, then path following, then, if there are no more than 65 536 sets
-    /// of modes, all of them: finds what there is to find.
+    /// Active set, then Gauss–Seidel, then path following; if there are at most 65 536 sets of modes, then
+    /// all sets. The default.
     #[default]
     Robust,
-    /// The flow chart in the Appendix of Patel & Spyrakos alone: assume the modes of the step
-    /// before, solve, ask every element, change modes, repeat until nothing changes. Where it
-    /// comes back to modes it has tried, or needs more than `iterations` of them, the step is an
-    /// error.
+    /// Only the flow chart in the Appendix of Patel & Spyrakos.
+    ///
+    /// Assume the modes of the previous step, solve, determine the next mode of every element, and repeat
+    /// until no mode changes. The step returns an error if modes occur a second time, or if more than
+    /// `iterations` solves are needed.
     FlowChart {
-        /// Solves per step, at most; one or more.
+        /// Largest number of solves per step; one or more.
         iterations: usize,
     },
 }
@@ -52,7 +53,7 @@ pub enum SearchMethod {
     ActiveSet,
     /// Gauss–Seidel with local enumeration was needed.
     GaussSeidel,
-    /// The solution was followed from a known one, or found among all sets of modes.
+    /// The solution was followed from a known solution, or found among all sets of modes.
     Path,
     /// Newton's method, in plan.
     Newton,
@@ -81,21 +82,22 @@ words_with_numbers! {
 
 // The contact problem for codes with a time integrator of their own.
 
-/// The contact problem of one step after another, condensed to the tractions of Q elements.
+/// The contact problem of successive steps, condensed to the tractions of Q elements.
 ///
-/// Jumps (soil minus structure, 2Q numbers as in [`crate::bem`]: Q normal components down, then Q
-/// tangential ones) at the end of a step respond to changes of traction τ against the static state by
+/// The jump is soil minus structure at the end of a step: 2Q numbers as in [`crate::bem`], Q normal
+/// components (down), then Q tangential components. Its response to changes of traction τ from the static
+/// state is
 ///
 /// ```text
 /// jump = j_free + W τ,        W = G¹ + B K_eff⁻¹ Bᵀ A
 /// ```
 ///
-/// with W the Delassus operator: the ground's step compliance
-/// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and what unit tractions on the
-/// structure move its base by, within the step of the host's scheme. `j_free` is the free field, plus
-/// the convolution history of the ground, less the base displacement without changes of traction.
+/// with W the Delassus operator. W is the sum of the ground's step compliance
+/// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and the displacement of the structure's
+/// base due to unit tractions, within a step of the host's scheme. `j_free` is the free field, plus the
+/// convolution history of the ground, minus the base displacement without changes of traction.
 ///
-/// The example `host_integrator` marches a structure by central differences with it.
+/// The example `host_integrator` uses it with a structure integrated by central differences.
 ///
 /// ```
 /// use basemat::contact::ContactProblem;
@@ -123,9 +125,9 @@ pub struct ContactProblem {
     solver: ContactSolver,
     search: ModeSearch,
     modes: Vec<Mode>,
-    /// Ends of the state variables of each element's law; empty if no law has any.
+    /// For each element, the end of its law's state variables in the list; empty if no law has any.
     state_variable_ends: Vec<usize>,
-    /// State variables at the end of a step, until they are committed.
+    /// State variables at the end of a step, stored until they are committed.
     state_variables: Vec<f64>,
     steps: usize,
 }
@@ -137,7 +139,7 @@ short_debug! {
 /// Solution of the contact problem of a step.
 #[non_exhaustive]
 pub struct ContactSolution<'a> {
-    /// Change of traction against the static state, 2Q, Pa: what the ground is to be given.
+    /// Change of traction from the static state, 2Q, Pa: the input of the ground.
     pub traction: &'a [f64],
     /// Opening and total traction of each element.
     pub states: &'a [ContactState],
@@ -165,12 +167,13 @@ short_debug! {
 }
 
 impl ContactSolution<'_> {
-    /// Accepts the step: moves `start`, from which it was solved, to the start of the next one, and
-    /// has the laws commit it to their state variables. A step that is to be solved anew is not committed.
+    /// Accepts the step: `start`, from which it was solved, becomes the start of the next step.
+    ///
+    /// The laws update their state variables. Do not commit a step that is to be solved again.
     ///
     /// # Errors
-    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a state variable of a
-    /// law is not finite; `start` is then as it was.
+    /// [`Error::Size`] or [`Error::Scene`] if `start` belongs to another problem, [`Error::Step`] if a state
+    /// variable of a law is not finite. `start` is then unchanged.
     pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
         check_start(start, self.states.len(), self.state_variable_ends)?;
         let Self { laws, states, modes, state_variables, step, time, .. } = self;
@@ -182,14 +185,14 @@ impl ContactSolution<'_> {
 }
 
 impl ContactProblem {
-    /// The problem with this Delassus operator (2Q × 2Q, row-major, m/Pa), and one law for all
-    /// elements or one each; unpressed at first. The laws' own
-    /// [`check`](InterfaceLaw::check) is not called.
+    /// The problem with this Delassus operator (2Q × 2Q, row-major, m/Pa), and one law for all elements or
+    /// one each. The static tractions are zero at first. The method [`check`](InterfaceLaw::check) of the
+    /// laws is not called.
     ///
     /// # Errors
-    /// [`Error::Size`] unless the operator is that of one element or more and the laws fit,
-    /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
-    /// laws that keep more than ten million state variables.
+    /// [`Error::Size`] unless the operator belongs to at least one element and the number of laws fits,
+    /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or laws
+    /// with more than ten million state variables.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
         let count = delassus.len().isqrt() / PLANE;
         let layout = ContactLayout::new(PLANE, count);
@@ -214,10 +217,10 @@ impl ContactProblem {
         })
     }
 
-    /// Sets the tractions (2Q, Pa) of the static state, against which changes count.
+    /// Sets the tractions of the static state (2Q, Pa), from which changes of traction are measured.
     ///
     /// # Errors
-    /// [`Error::Size`] for a list of another length, [`Error::Input`] for values not finite.
+    /// [`Error::Size`] for a list of another length, [`Error::Input`] for values that are not finite.
     pub fn with_static_tractions(mut self, traction: Vec<f64>) -> Result<Self> {
         same_length("static tractions", traction.len(), self.static_traction.len())?;
         check_finite("static traction", &traction)?;
@@ -225,10 +228,10 @@ impl ContactProblem {
         Ok(self)
     }
 
-    /// Another Delassus operator from now on, for a structure whose tangent has changed.
+    /// Replaces the Delassus operator, for a structure whose tangent has changed.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`]; the operator is then the one before.
+    /// As [`ContactProblem::new`]; the previous operator is then kept.
     pub fn set_delassus(&mut self, delassus: &[f64]) -> Result<()> {
         same_length("Delassus operator", delassus.len(), self.delassus.len())?;
         check_finite("Delassus operator", delassus)?;
@@ -237,13 +240,14 @@ impl ContactProblem {
         Ok(())
     }
 
-    /// The start of the first step, from that of each element ([`PreviousContact::new`]). An element whose
-    /// `state_variables` are empty gets what its law begins with.
+    /// The start of the first step, from the start of each element ([`PreviousContact::new`]).
+    ///
+    /// If the `state_variables` of an element are empty, its law sets their initial values.
     ///
     /// # Errors
     /// [`Error::Size`] for a list or state variables of another length, [`Error::Input`] for time steps that
-    /// are not above zero or not all the same, and for numbers that are not finite;
-    /// [`Error::Law`] if these are a law's.
+    /// are not above zero or not all the same, and for numbers that are not finite; [`Error::Law`] if a law
+    /// returned these numbers.
     pub fn start(&self, elements: &[PreviousContact<'_>]) -> Result<PreviousContacts> {
         same_length("starts of the step", elements.len(), self.modes.len())?;
         for start in elements {
@@ -258,15 +262,16 @@ impl ContactProblem {
         PreviousContacts::new(&self.laws, elements)
     }
 
-    /// Solves the step whose jump without changes of traction is `free_jump` (2Q, m), for laws that
-    /// see `start`. Allocates nothing. The start moves on with [`ContactSolution::commit`]; until
-    /// then the same step can be solved again.
+    /// Solves the step with the jump `free_jump` without changes of traction (2Q, m).
+    ///
+    /// The laws use `start`. Nothing is allocated. [`ContactSolution::commit`] advances the start; until then
+    /// the same step can be solved again.
     ///
     /// # Errors
-    /// [`Error::Size`], [`Error::Scene`] and [`Error::Input`] for a jump or a start that does not fit
-    /// or is not finite;
-    /// [`Error::Step`] if no modes satisfy the laws or a law returns a number that is not finite,
-    /// numbered by the problems solved so far and with the time of as many steps.
+    /// [`Error::Size`], [`Error::Scene`] and [`Error::Input`] for a jump or a start that does not fit or is
+    /// not finite; [`Error::Step`] if no modes satisfy the laws, or if a law returns a number that is not
+    /// finite. Its step number is the number of problems solved so far, and its time is the time of as many
+    /// steps.
     pub fn solve(
         &mut self,
         free_jump: &[f64],
@@ -309,7 +314,7 @@ impl ContactProblem {
     }
 }
 
-/// Whether a start is that of `count` elements whose state variables end where those of the laws do.
+/// Error unless the start belongs to `count` elements with these state variables.
 fn check_start(
     start: &PreviousContacts,
     count: usize,

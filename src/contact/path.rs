@@ -1,45 +1,44 @@
 //! Parametric pivoting, the last resort of the mode search.
 //!
-//! The contact problem is embedded in a family j(λ) = j₀ + (1−λ) d. At λ = 0 the solution is
-//! known; at λ = 1 it is the problem to solve. For fixed modes the solution is linear in λ, so it is
-//! followed to the first λ at which a law objects, that element's mode is changed to the one that
-//! continues the solution there, and so on. λ may turn back in between. For the complementarity
-//! problem of Coulomb friction this is Lemke's method (Lemke 1965) with d its covering vector; here
-//! it needs of a law no more than its conditions and its next mode.
+//! The contact problem is embedded in a family j(λ) = j₀ + (1−λ) d. At λ = 0 the solution is known; λ = 1 is
+//! the problem to solve. For fixed modes the solution is linear in λ. It is followed to the first λ at which
+//! a law rejects an element's mode; this mode is changed to the mode that continues the solution, and so on.
+//! λ may decrease in between. For the complementarity problem of Coulomb friction this is Lemke's method
+//! (Lemke 1965) with d its covering vector. The method here uses only the conditions and the next mode of a
+//! law.
 //!
-//! Begun with all elements open and a d that widens gaps only, the path cannot run off to λ = −∞:
-//! there j = d + W r with p·g = 0 and τ·Δjₜ ≤ 0 would give r·A W r + p·A dₙ ≤ 0, hence r = 0, which
-//! is the beginning. This holds for any friction coefficient if r·A W r > 0 for r ≠ 0; A W need
-//! not be symmetric.
-//! With tensile strength the law is not monotone and the path may break. So it may where the modes at
-//! a change are nearly singular, at infinite friction in long steps (c₁Δt/l > 13): λ then does not
-//! distinguish the points of the path. A lost path is begun elsewhere, also with all elements
-//! pressed shut.
+//! If the path begins with all elements open and d only widens gaps, it cannot run to λ = −∞: there j = d + W
+//! r with p·g = 0 and τ·Δjₜ ≤ 0 would give r·A W r + p·A dₙ ≤ 0, hence r = 0, which is the beginning. This
+//! holds for any friction coefficient if r·A W r > 0 for r ≠ 0; A W need not be symmetric. With tensile
+//! strength the law is not monotone and the path may break. It may also break where the modes at a change are
+//! nearly singular, at infinite friction in long steps (c₁Δt/l > 13): λ then does not distinguish the points
+//! of the path. After a break, the next attempt begins elsewhere, also with all elements pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 
-/// Changes of mode per element, at most.
+/// Largest number of mode changes per element.
 const CHANGES: usize = 60;
-/// λ below which the path counts as lost.
+/// λ below which the path counts as broken.
 const LOST: f64 = -1e4;
-/// Attempts that begin with elements about equally far open, or equally pressed. They change in
-/// about the same order; those after them differ by up to the factor `WIDEST`.
+/// Number of attempts that begin with elements about equally far open, or about equally pressed. Their
+/// elements change mode in about the same order. In later attempts the elements differ by up to the factor
+/// `WIDEST`.
 const EVEN: usize = 8;
 const WIDEST: f64 = 1e3;
-/// The golden ratio less one.
+/// The golden ratio minus one.
 const GOLDEN: f64 = 0.618_033_988_749_895;
-/// Shortest advances of λ that count: a change of mode is found within the laws' tolerances only,
-/// so that the next mode may become admissible a little later.
+/// Smallest advances of λ that count. A change of mode is located only within the laws' tolerances, so the
+/// next mode may become admissible a little later.
 const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
 
-/// Scratch of the path.
+/// Workspace for following a path.
 pub(crate) struct Path {
     offset: Vec<f64>,
     jump: Vec<f64>,
-    /// States at the point reached, and their rates of change with λ.
+    /// States at the current point, and their rates of change with λ.
     states: Vec<ContactState>,
     rates: Vec<ContactState>,
 }
@@ -55,8 +54,9 @@ impl Path {
         }
     }
 
-    /// Follows the path and leaves in `modes` those at its end, which the caller must check; returns
-    /// the number of trials. Each `attempt` begins elsewhere, since a path may be lost.
+    /// Follows the path and stores the modes at its end in `modes`; the caller must check them.
+    ///
+    /// Returns the number of trials. Each `attempt` begins elsewhere, since a path may break.
     pub(crate) fn follow(
         &mut self,
         solver: &mut ContactSolver,
@@ -80,7 +80,8 @@ impl Path {
             lambda += direction * reach;
             let leaving = modes[first];
             let here = self.states[first].along(&self.rates[first], direction * reach);
-            // Several modes may be admissible here: the path goes on in the one that continues it.
+            // Several modes may be admissible here: the path continues in the mode that continues the
+            // solution.
             let compliance = input.delassus[first * (self.jump.len() + 1)];
             let mut best = (f64::INFINITY, leaving, direction);
             for &mode in input.modes(first) {
@@ -90,7 +91,8 @@ impl Path {
                 }
                 trials += 2;
                 let break_off = here.distance(&self.states[first], compliance);
-                // Only one sense of λ is admissible; rounding leaves the other one next to nothing.
+                // Only one direction of λ is admissible; in the other direction rounding allows only a tiny
+                // step.
                 let [ahead, back] = [direction, -direction]
                     .map(|sense| (self.reach(input, modes, sense, tolerance).0, sense));
                 let (reach, sense) = if ahead.0 >= back.0 { ahead } else { back };
@@ -106,12 +108,14 @@ impl Path {
         trials
     }
 
-    /// Sets the modes and d of the beginning, different for each attempt: all elements far open, or
-    /// pressed shut, by unequal amounts so that no two change at once.
+    /// Sets the modes and d at the beginning, differently for each attempt.
+    ///
+    /// All elements are far open, or pressed shut, by unequal amounts, so that no two change at the same
+    /// time.
     fn begin(&mut self, input: &ContactInput<'_>, attempt: usize, modes: &mut [Mode]) {
         let count = modes.len();
-        // Multiples of the golden ratio, modulo one, never meet; multiples by squares
-        // are spread without order.
+        // Multiples of the golden ratio, modulo one, never coincide; multiples by squares are spread without
+        // order.
         let number = |e: usize| (attempt * count + e + 1) as f64;
         let even = |e: usize| (GOLDEN * number(e)).fract();
         let uneven = |e: usize| WIDEST.powf((GOLDEN * number(e) * number(e)).fract());
@@ -145,7 +149,7 @@ impl Path {
         }
     }
 
-    /// All elements in the mode of rest, with pressures well above all those of the step.
+    /// All elements in the mode of rest, with pressures well above all pressures of the step.
     fn begin_shut(
         &mut self,
         input: &ContactInput<'_>,
@@ -183,7 +187,7 @@ impl Path {
                     wanted.shear = (condition.value - known) / condition.shear;
                 }
             }
-            // A law may not let an element close in this step, however hard it is pressed.
+            // A law may prevent an element from closing in this step, at any pressure.
             let exact = Tolerance { length: 0.0, traction: 0.0 };
             let next = input.next_mode(e, *mode, &wanted, exact).unwrap_or(*mode);
             if next != *mode {
@@ -233,10 +237,10 @@ impl Path {
         true
     }
 
-    /// Largest step of λ in `direction` until a law objects, and whose.
+    /// Largest step of λ in `direction` until a law rejects a mode, and the element of that law.
     ///
-    /// The set that a law admits in one mode is convex (an intersection of half-spaces), so that bisection
-    /// finds the end.
+    /// The set of states that a law admits in one mode is convex (an intersection of half-spaces), so
+    /// bisection finds its boundary.
     fn reach(
         &self,
         input: &ContactInput<'_>,
@@ -284,7 +288,7 @@ impl ContactState {
         }
     }
 
-    /// Distance of two states, as a traction.
+    /// Distance between two states, expressed as a traction.
     fn distance(&self, other: &Self, compliance: f64) -> f64 {
         (self.pressure - other.pressure).abs()
             + (self.shear - other.shear).abs()

@@ -3,11 +3,11 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | W | Delassus operator: jump (soil − structure, normal components down) per unit traction |
-//! | j₀ | jump that the step would end with if tractions stayed at their static values |
-//! | τ | change of traction against the static state |
+//! | j₀ | jump at the end of the step if tractions stayed at their static values |
+//! | τ | change of traction from the static state |
 //!
-//! jump = j₀ + W τ. Its normal components are gaps; slip of the structure is minus the tangential
-//! ones.
+//! jump = j₀ + W τ. Its normal components are gaps. The slip of the structure is minus its tangential
+//! components.
 
 use super::delassus::Delassus;
 use crate::error::LawError;
@@ -21,9 +21,9 @@ use crate::linalg::{DenseFactor, dense_condition, largest};
 /// State of an element's bond in the search for the modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
-    /// The law decides: there is no bond, or the search does not distinguish.
+    /// No bond, or the search does not distinguish bonds: the law decides.
     Free,
-    /// The bond holds the element in its mode of rest, whatever the tractions.
+    /// The bond holds the element in its mode of rest at any traction.
     Held,
     /// The bond has broken in this step.
     Broken,
@@ -38,11 +38,11 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) free_jump: &'a [f64],
     /// Static tractions, 2Q.
     pub(crate) static_traction: &'a [f64],
-    /// Per element, the end of the step before.
+    /// For each element, the end of the previous step.
     pub(crate) start: &'a PreviousContacts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
-    /// Largest displacement that went into j₀: its rounding is the finest gap that can be distinguished.
+    /// Largest displacement in j₀; its rounding limits the gaps that can be distinguished.
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
@@ -59,7 +59,7 @@ impl ContactInput<'_> {
         self.bonds.get(element).copied().unwrap_or(Bond::Free)
     }
 
-    /// Start of the step as an element's law is to see it: a bond that breaks in the step is gone.
+    /// Start of the step as an element's law receives it: without a bond that breaks in the step.
     #[inline]
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.of(element);
@@ -67,13 +67,13 @@ impl ContactInput<'_> {
         start
     }
 
-    /// Modes that an element may be in.
+    /// Modes allowed for an element.
     pub(super) fn modes(&self, element: usize) -> &[Mode] {
         let modes = self.law(element).modes();
         if self.bond(element) == Bond::Held { &modes[..1] } else { modes }
     }
 
-    /// Conditions of its law in `mode`, all finite.
+    /// Conditions of the element's law in `mode`, all finite.
     #[inline]
     pub(super) fn conditions(
         &self,
@@ -82,7 +82,7 @@ impl ContactInput<'_> {
     ) -> Result<[Condition; 2], LawError> {
         let (law, start) = (self.law(element), self.start_of(element));
         let pair = law.conditions(mode, &start);
-        // Not finite, or a sum that overflows.
+        // A value is not finite, or the sum overflows.
         if !(pair[0].sum() + pair[1].sum()).is_finite()
             && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
         {
@@ -96,7 +96,7 @@ impl ContactInput<'_> {
         Ok(pair)
     }
 
-    /// Mode that the element's law gives next, which must be one of its own.
+    /// Next mode from the element's law, which must be a mode of this law.
     pub(super) fn next_mode(
         &self,
         element: usize,
@@ -131,12 +131,12 @@ impl ContactInput<'_> {
     }
 }
 
-/// Solves for given modes, and keeps the factors while modes stay.
+/// Solves for given modes, and keeps the factors while the modes stay the same.
 pub(crate) struct ContactSolver {
     layout: ContactLayout,
     /// Conditions of the last trial, two per element.
     conditions: Vec<[Condition; 2]>,
-    /// The conditions whose factors are held; their values do not matter.
+    /// The conditions whose factors are stored; the values of these conditions do not matter.
     factored: Vec<[Condition; 2]>,
     factor: DenseFactor,
     valid: bool,
@@ -144,16 +144,16 @@ pub(crate) struct ContactSolver {
     rhs: Vec<f64>,
     /// Per row of the reduced system: element, which condition, and the row's scale.
     rows: Vec<(usize, usize, f64)>,
-    /// Contact components that are unknown; the others follow from one condition alone.
+    /// Contact components to solve for; one condition alone fixes each of the others.
     dofs: Vec<usize>,
     /// Change of traction of the last trial, 2Q.
     pub(crate) traction: Vec<f64>,
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
     jump: Vec<f64>,
-    /// Friction that was taken in place of a greater one where something slides, if any was.
+    /// Smallest friction that replaced a larger one of a sliding element; `None` if none was replaced.
     pub(crate) stand_in: Option<f64>,
-    /// A law that returned a number that is not finite since this was taken last.
+    /// Error of a law that returned a number that is not finite, since the last `take`.
     pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
     pub(crate) factorings: usize,
@@ -164,7 +164,7 @@ pub(crate) struct ContactSolver {
 impl ContactSolver {
     pub(crate) fn new(layout: ContactLayout) -> Self {
         let (size, count) = (layout.len(), layout.elements());
-        // In plan the search has a system of its own.
+        // In plan the search has its own system.
         let system = if layout.components() == PLANE { size } else { 0 };
         Self {
             layout,
@@ -186,18 +186,18 @@ impl ContactSolver {
         }
     }
 
-    /// Whether the problem is that of a ground in plan.
+    /// Whether the problem has a ground in plan.
     pub(super) fn is_plan(&self) -> bool {
         self.layout.components() != PLANE
     }
 
-    /// Forgets the factors: to be called when W has changed.
+    /// Discards the factors; call this when W has changed.
     pub(crate) fn invalidate(&mut self) {
         self.valid = false;
         self.generation += 1;
     }
 
-    /// Condition of the system with every element in its law's mode of rest; infinite if singular.
+    /// Condition number of the system with every element in its law's mode of rest; infinite if singular.
     pub(crate) fn condition_at_rest(
         &mut self,
         delassus: &Delassus,
@@ -221,7 +221,8 @@ impl ContactSolver {
         if !regular {
             return Ok(f64::INFINITY);
         }
-        // The diagonal is to scale it, not the rows' largest entries.
+        // The condition number scales by the diagonal. The scaling of rows by their largest entries is
+        // therefore undone.
         let order = self.dofs.len();
         for (row, &(_, _, scale)) in self.matrix.chunks_exact_mut(order.max(1)).zip(&self.rows) {
             for value in row {
@@ -231,8 +232,7 @@ impl ContactSolver {
         Ok(dense_condition(&self.matrix, order))
     }
 
-    /// Solves the linear system that `modes` define; false if it is singular, or if a law is at
-    /// fault.
+    /// Solves the linear system that `modes` define; false if it is singular, or if a law returned an error.
     pub(crate) fn trial(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> bool {
         for (e, &mode) in modes.iter().enumerate() {
             match input.conditions(e, mode) {
@@ -261,8 +261,7 @@ impl ContactSolver {
         self.traction.iter().all(|t| t.is_finite())
     }
 
-    /// Sorts conditions into those that fix a component alone and those that need the system, and
-    /// factors the latter.
+    /// Separates conditions that fix one component from the others, and factors the system of the others.
     fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
         let (layout, size) = (self.layout, self.layout.len());
         self.rows.clear();
@@ -315,7 +314,7 @@ impl ContactSolver {
         self.valid
     }
 
-    /// Tractions from the factors held.
+    /// Computes tractions with the stored factors.
     fn solve(&mut self, input: &ContactInput<'_>) {
         let layout = self.layout;
         self.traction.fill(0.0);
@@ -328,7 +327,7 @@ impl ContactSolver {
                 }
             }
         }
-        // What the fixed tractions do to the gaps and slips of the others.
+        // Gaps and slips of the other components due to the fixed tractions.
         self.jump.copy_from_slice(input.free_jump);
         if self.dofs.len() < layout.len() {
             input.delassus.multiply_add(&self.traction, &mut self.jump);
@@ -348,7 +347,7 @@ impl ContactSolver {
         }
     }
 
-    /// Jumps and states that go with the tractions.
+    /// Jumps and states of the present tractions.
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
         self.jump.copy_from_slice(input.free_jump);
         input.delassus.multiply_add(&self.traction, &mut self.jump);

@@ -1,19 +1,19 @@
 //! Search for the contact modes of a step.
 //!
-//! 1. Active set: solve for the modes, let every law say its next mode, repeat (the flow chart of
-//!    Patel & Spyrakos' Appendix; a primal–dual active set method, Hüeber, Stadler & Wohlmuth 2008).
-//! 2. If a mode vector comes back: Gauss–Seidel over the elements, each solved exactly by trying
-//!    its modes with the other tractions held, then the modes so found solved together.
-//! 3. If that does not settle: follow the solution from a load under which every element is open,
+//! 1. Active set: solve for the modes, take the next mode of every law, repeat (the flow chart of Patel &
+//!    Spyrakos' Appendix; a primal–dual active set method, Hüeber, Stadler & Wohlmuth 2008).
+//! 2. If a set of modes occurs again: Gauss–Seidel over the elements. Each element is solved exactly by
+//!    trying its modes with the other tractions fixed; then the modes found are solved together.
+//! 3. If Gauss–Seidel does not converge: follow the solution from a load under which every element is open,
 //!    one change of mode at a time (see [`super::path`]).
-//! 4. If that does not end, and there are few elements: try all sets of modes.
+//! 4. If the path does not reach the solution, and there are few elements: try all sets of modes.
 //!
-//! Laws with bonds that break are not monotone, and these methods may come back to bonds that they
-//! have broken. So bonds are held in all of them, and break in between: each time those whose overload
-//! is at least half of the largest, until none is overloaded. Each time the problem is one of Coulomb
-//! friction beside elements that stick, and at most as many times as there are bonds. If one of these
-//! problems is not solved, all bonds break: what bonds carry where friction alone sticks is within its
-//! strength, so that the solution without bonds satisfies the law, too.
+//! Laws with bonds that break are not monotone, and these methods may return to bonds that they have broken.
+//! All methods therefore hold bonds fixed, and bonds break between their solutions. Each time, those bonds
+//! break whose overload is at least half of the largest, until no bond is overloaded. Each problem is then
+//! one of Coulomb friction with some elements that stick, and there are at most as many problems as bonds. If
+//! one of these problems is not solved, all bonds break. Where friction alone lets an element stick, its bond
+//! carries less than its strength, so the solution without bonds satisfies the law, too.
 
 use super::cone::Cone;
 use super::element::local_mode;
@@ -24,20 +24,20 @@ use crate::error::StepError;
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::Mode;
 
-/// Trials of the active set before it counts as cycling.
+/// Number of trials after which the active set counts as cycling.
 const ACTIVE_SET_TRIALS: usize = 60;
-/// Sweeps of Gauss–Seidel.
+/// Largest number of Gauss–Seidel sweeps.
 const SWEEPS: usize = 400;
-/// Paths followed. At infinite friction and c₁Δt/l from 13 to 60 one run in 5000 has a step that
-/// needs more than eight, one in 100 000 one that needs more than sixty.
+/// Largest number of paths. At infinite friction and c₁Δt/l from 13 to 60, one run in 5000 has a step that
+/// needs more than eight paths, and one in 100 000 a step that needs more than sixty.
 const PATHS: usize = 128;
-/// Sets of modes that are all tried, at most.
+/// Largest number of sets of modes for which all are tried.
 const MOST_SETS: usize = 1 << 16;
-/// Bonds break together whose overload is at least this fraction of the largest: mirror images do so in
-/// spite of rounding.
+/// Bonds break together if their overload is at least this fraction of the largest. Mirror images then break
+/// together in spite of rounding.
 const SHARE: f64 = 0.5;
 
-/// Scratch of the mode search.
+/// Workspace of the mode search.
 pub(crate) struct ModeSearch {
     visited: Vec<Mode>,
     next: Vec<Mode>,
@@ -45,9 +45,9 @@ pub(crate) struct ModeSearch {
     path: Path,
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
-    /// Trials of this search so far.
+    /// Number of trials of this search so far.
     trials: usize,
-    /// Number of all sets of modes, if the last search has tried them without success.
+    /// Number of all sets of modes, if the last search tried all of them without success.
     sets: Option<usize>,
     search: ContactSearch,
     /// Search for forces, in plan.
@@ -55,7 +55,7 @@ pub(crate) struct ModeSearch {
 }
 
 impl ModeSearch {
-    /// Search for elements of these areas (m²), which a ground in the plane does not need.
+    /// Search for elements with these areas (m²); a ground in the plane does not need the areas.
     pub(crate) fn new(layout: ContactLayout, areas: &[f64], search: ContactSearch) -> Self {
         let is_plan = layout.components() != PLANE;
         let count = if is_plan { 0 } else { layout.elements() };
@@ -73,7 +73,8 @@ impl ModeSearch {
         }
     }
 
-    /// Finds admissible `modes`, starting from those given; the solver then holds the solution.
+    /// Finds admissible `modes`, starting from the given modes; the solver then holds the solution.
+    ///
     /// Returns the number of trials and the method.
     pub(crate) fn solve(
         &mut self,
@@ -89,7 +90,7 @@ impl ModeSearch {
         }
     }
 
-    /// Searches the modes for [`ModeSearch::solve`]; the solver knows whether a law was at fault.
+    /// Searches the modes for [`ModeSearch::solve`]; the solver stores the error of a law.
     fn find(
         &mut self,
         solver: &mut ContactSolver,
@@ -100,7 +101,7 @@ impl ModeSearch {
             return cone.solve(solver, input, modes);
         }
         self.trials = 0;
-        // Laws with a single mode skip the search: one solve, with factors made once.
+        // Laws with a single mode need no search: one solve, with the factors of the first step.
         let bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
@@ -111,8 +112,9 @@ impl ModeSearch {
         found.map(|m| (self.trials, m)).ok_or_else(|| self.failure(solver, input, modes))
     }
 
-    /// Finds modes with all bonds held, breaks those that are overloaded most, and so on; `None` if the
-    /// modes are not found without bonds either.
+    /// Finds modes with all bonds held, breaks the most overloaded bonds, and repeats.
+    ///
+    /// `None` if no modes are found without bonds either.
     fn break_bonds(
         &mut self,
         solver: &mut ContactSolver,
@@ -169,7 +171,7 @@ impl ModeSearch {
         }
     }
 
-    /// Finds modes, as far as bonds leave a choice, by one method after the other.
+    /// Finds modes with the present bonds, by one method after the other.
     fn settle(
         &mut self,
         solver: &mut ContactSolver,
@@ -190,7 +192,7 @@ impl ModeSearch {
         found.then_some(SearchMethod::Path)
     }
 
-    /// Tries all sets of modes, if there are few enough.
+    /// Tries all sets of modes, if there are at most [`MOST_SETS`].
     fn enumerate(
         &mut self,
         solver: &mut ContactSolver,
@@ -214,7 +216,7 @@ impl ModeSearch {
                 return false;
             }
         }
-        // With bonds that were broken the laws allow more.
+        // With bonds that were broken, the laws allow more sets of modes.
         self.sets = input.bonds.iter().all(|bond| *bond == Bond::Free).then_some(sets);
         false
     }
@@ -230,8 +232,9 @@ impl ModeSearch {
         StepError::Contact { iterations: self.trials, residual, modes, sets: self.sets }
     }
 
-    /// Distance of the tractions of `modes` from those of the modes that the laws ask for instead,
-    /// relative to the largest; 1 if either set of modes is singular.
+    /// Difference between the tractions of `modes` and of the laws' next modes, relative to the largest.
+    ///
+    /// Returns 1 if either set of modes is singular.
     fn disagreement(
         &mut self,
         solver: &mut ContactSolver,
@@ -256,7 +259,7 @@ impl ModeSearch {
         apart / largest
     }
 
-    /// Next modes of all elements; whether all agree with `modes`.
+    /// Stores the next modes of all elements; returns whether all equal `modes`.
     fn ask_laws(
         &mut self,
         solver: &mut ContactSolver,
@@ -317,7 +320,7 @@ impl ModeSearch {
     ) -> bool {
         for attempt in 0..PATHS {
             self.trials += self.path.follow(solver, input, attempt, modes);
-            // Where a path was lost, the solution is often near.
+            // Near the point where a path broke, the solution is often found by the active set.
             if self.active_set(solver, input, modes) {
                 return true;
             }
@@ -346,7 +349,8 @@ impl ModeSearch {
             if solver.fault.is_some() {
                 return false;
             }
-            // Modes that survive a sweep are worth an exact solve; wait longer after each failure.
+            // Modes that stay the same for a sweep are tested by an exact solve; the wait grows after each
+            // failure.
             if modes == self.before.as_slice() && sweep >= wait {
                 if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
                     return true;

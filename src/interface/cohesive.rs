@@ -5,14 +5,14 @@ use super::{
 };
 use crate::error::{Result, not_negative};
 
-/// Cohesive contact, a bond that breaks for good: an element sticks up to a tensile strength and a cohesion, and is one
-/// of Coulomb's law from the step on in which either is exceeded.
+/// Cohesive contact: a bond with strengths that breaks for good, then Coulomb friction.
 ///
-/// While bonded, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Its state variable says whether an element is
-/// bonded (1) or broken (0); an element that is open at first is broken. What broken elements carried passes
-/// to their neighbours at once, so that a base may unzip in a step, and the elastic energy that
-/// is set free is radiated. Within a step bonds only break: first those that are loaded most beyond
-/// their strength while the others hold, then, with what these carried handed over, the next.
+/// An element sticks until its tensile strength or its cohesion is exceeded. From that step on, it obeys
+/// Coulomb's law. While bonded, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Its state variable is
+/// 1 while it is bonded and 0 after it has broken; an element that is open at first is broken. The traction
+/// of a broken element passes to its neighbours at once. A base may therefore unzip in a step, and the
+/// elastic energy that is released is radiated. Within a step bonds only break. First, the bonds with the
+/// largest overload break while the others hold; then, with the tractions redistributed, the next ones.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -57,12 +57,13 @@ validated! {
 }
 
 impl Cohesive {
-    /// Law with a tensile strength and a cohesion (Pa), and the friction coefficient of zero or more
-    /// that stays; infinity means that nothing ever slides.
+    /// Law with a tensile strength and a cohesion (Pa), and the friction coefficient of broken elements.
+    ///
+    /// The coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for strengths that are not finite or below zero, for NaN
-    /// or a negative coefficient.
+    /// [`Error::Input`](crate::Error::Input) for a strength that is not finite or below zero, and for a
+    /// coefficient that is NaN or negative.
     pub fn new(tension: f64, cohesion: f64, friction: f64) -> Result<Self> {
         Ok(Self {
             tension: not_negative("tensile strength of the interface", tension)?,
@@ -76,7 +77,7 @@ impl Cohesive {
         self.broken.friction()
     }
 
-    /// Traction by which a bonded element exceeds its strength, below zero while it holds.
+    /// Traction by which a bonded element exceeds its strength, Pa; below zero while the bond holds.
     fn overload(&self, trial: &ContactState) -> f64 {
         let friction = match self.friction() * trial.pressure.max(0.0) {
             limit if limit.is_nan() => 0.0,
@@ -86,7 +87,7 @@ impl Cohesive {
     }
 }
 
-/// Whether the element was bonded at the start of the step, and is so far in it.
+/// Whether the element was bonded at the start of the step, and is still bonded.
 fn is_glued(start: &PreviousContact) -> bool {
     !start.has_opened && start.state_variables.first().is_some_and(|glued| *glued > 0.0)
 }
@@ -138,7 +139,8 @@ impl InterfaceLaw for Cohesive {
         }
     }
 
-    /// Limits in plan: an element whose strength is exceeded carries it to the end of the step, unless it opens.
+    /// Limits in plan. An element whose strength is exceeded keeps it to the end of the step, unless it
+    /// opens.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let broken = self.broken.limits(start)?;
         if is_glued(start) {

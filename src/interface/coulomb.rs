@@ -3,7 +3,7 @@
 use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 use crate::error::{Result, not_negative, require};
 
-/// Quantity on which the contact conditions of a closed element act.
+/// Quantity to which the contact conditions of a closed element apply.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -12,20 +12,21 @@ pub enum UnilateralCondition {
     /// Gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
     #[default]
     Position,
-    /// Change of the gap: an element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg =
-    /// 0, any other one is free (Moreau 1988; Jean 1999). The base may penetrate by what it moves within the step of
-    /// its landing.
+    /// Change of the gap (Moreau 1988; Jean 1999).
+    ///
+    /// An element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg = 0; any
+    /// other element is free. The base may penetrate the soil by its motion within the step of its landing.
     Velocity {
-        /// Gap up to which an element counts as closed, m.
+        /// Largest gap at which an element counts as closed, m.
         closed_below: f64,
     },
 }
 
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
-/// Signorini's conditions normal to the base, |τ| ≤ friction · p along it, slip in the direction
-/// of the shear traction. Infinite friction is "uplift only", zero friction a frictionless base. For a
-/// coefficient that changes there is [`VariableFriction`](super::VariableFriction).
+/// Signorini's conditions hold normal to the base. Along it |τ| ≤ friction · p, and slip has the direction of
+/// the shear traction. Infinite friction is "uplift only", zero friction a frictionless base. For a
+/// coefficient that changes, use [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
 /// use basemat::interface::Coulomb;
@@ -56,14 +57,14 @@ validated! {
     => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_unilateral_condition(condition)
 }
 
-/// Error unless `friction` is a coefficient.
+/// Error unless `friction` is a valid coefficient.
 pub(super) fn check_friction(friction: f64) -> Result<()> {
     let needed = "zero or more (infinite: no sliding)";
     require("friction coefficient", friction, friction >= 0.0, needed).map(drop)
 }
 
 impl Coulomb {
-    /// Law with a friction coefficient of zero or more; infinity means that nothing ever slides.
+    /// Law with a friction coefficient of zero or more; if it is infinite, nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.
@@ -82,11 +83,12 @@ impl Coulomb {
         Self { friction: 0.0, tensile_strength: 0.0, condition: UnilateralCondition::Position }
     }
 
-    /// Adds a tensile strength (Pa), which holds an element until it first opens; friction is then limited by friction
-    /// · (p + strength).
+    /// Adds a tensile strength (Pa) until an element first opens.
+    ///
+    /// Friction is then limited by friction · (p + strength).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless finite and not below zero.
+    /// [`Error::Input`](crate::Error::Input) unless the strength is finite and not below zero.
     pub fn with_tensile_strength(mut self, strength: f64) -> Result<Self> {
         self.tensile_strength = not_negative("tensile strength of the interface", strength)?;
         Ok(self)
@@ -109,7 +111,7 @@ impl Coulomb {
         self.friction
     }
 
-    /// Writes the coefficient alone.
+    /// Serializes the coefficient alone.
     #[cfg(feature = "serde")]
     pub(super) fn write_friction<S: serde::Serializer>(
         &self,
@@ -122,9 +124,10 @@ impl Coulomb {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
-    /// τ = ±friction (p + strength), written so that infinite friction has its limit: p + strength
-    /// = 0 with the shear traction free. Without it the incremental problem need not have a
-    /// solution: an element about to open under shear could neither stick nor let go.
+    /// τ = ±friction (p + strength), in a form that has a limit for infinite friction.
+    ///
+    /// The limit is p + strength = 0 with the shear traction free. Without it the incremental problem need
+    /// not have a solution: an element about to open under shear could neither stick nor open.
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let (friction, strength) = (self.friction, self.strength(start));
         let [shear, pressure] =
@@ -132,7 +135,7 @@ impl Coulomb {
         Condition { shear, pressure, value: -pressure * strength, ..Condition::default() }
     }
 
-    /// Gap that a closed element must have at the end of the step; `None` if it cannot close.
+    /// Gap of a closed element at the end of the step; `None` if the element cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.condition {
             UnilateralCondition::Position => Some(0.0),
@@ -188,7 +191,7 @@ impl InterfaceLaw for Coulomb {
             Mode::SlipRight => slides(1.0),
             Mode::SlipLeft => slides(-1.0),
             _ if normal < -slack => Mode::Open,
-            // Infinite friction times no pressure is no limit.
+            // Infinite friction times zero pressure is not a limit.
             _ if self.friction == f64::INFINITY => Mode::Stick,
             _ if trial.shear > self.friction * normal.max(0.0) + slack => Mode::SlipRight,
             _ if trial.shear < -self.friction * normal.max(0.0) - slack => Mode::SlipLeft,
@@ -207,7 +210,7 @@ impl InterfaceLaw for Coulomb {
         })
     }
 
-    /// Friction coefficient of the law, without the part of a tensile strength.
+    /// Friction coefficient of the law, without the effect of a tensile strength.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }
@@ -217,11 +220,11 @@ impl InterfaceLaw for Coulomb {
 
 type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
-/// [`Coulomb`]'s law with a friction coefficient for each step: of the speed of sliding, of the
-/// way slid, of the pressure, whatever [`PreviousContact`] holds.
+/// [`Coulomb`]'s law with a friction coefficient that may change at each step.
 ///
-/// The coefficient is that of the start of the step, so that it cannot change while the modes of
-/// the step are searched for, and what it depends on lags by a step.
+/// The coefficient may depend on the speed of sliding, the sliding distance, the pressure, and all else in
+/// [`PreviousContact`]. It is evaluated at the start of the step, so that it is constant while the modes of
+/// the step are searched for. It therefore lags by one step.
 ///
 /// Friction that falls from 0.3 to 0.2 as sliding gets faster:
 /// ```
@@ -248,16 +251,16 @@ type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 /// ```
 pub struct VariableFriction {
     coefficient: Coefficient,
-    /// All but the coefficient.
+    /// Contact law without the coefficient.
     contact: Coulomb,
 }
 
 short_debug! { VariableFriction; self; contact: self.contact }
 
 impl VariableFriction {
-    /// Law with the friction coefficient `coefficient(start)`: zero or more, infinite where nothing
-    /// slides. Where it is negative or NaN, the step returns a [`LawError`](crate::LawError)
-    /// that names it.
+    /// Law with the friction coefficient `coefficient(start)`: zero or more; if infinite, nothing slides.
+    ///
+    /// If the coefficient is negative or NaN, the step returns a [`LawError`](crate::LawError) that names it.
     pub fn new(coefficient: impl Fn(&PreviousContact) -> f64 + Send + 'static) -> Self {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::frictionless() }
     }
@@ -265,7 +268,7 @@ impl VariableFriction {
     /// Sets the tensile strength, as [`Coulomb::with_tensile_strength`] does.
     ///
     /// # Errors
-    /// Those of [`Coulomb::with_tensile_strength`].
+    /// The errors of [`Coulomb::with_tensile_strength`].
     pub fn with_tensile_strength(mut self, strength: f64) -> Result<Self> {
         self.contact = self.contact.with_tensile_strength(strength)?;
         Ok(self)
@@ -274,13 +277,13 @@ impl VariableFriction {
     /// Sets the unilateral condition, as [`Coulomb::with_unilateral_condition`] does.
     ///
     /// # Errors
-    /// Those of [`Coulomb::with_unilateral_condition`].
+    /// The errors of [`Coulomb::with_unilateral_condition`].
     pub fn with_unilateral_condition(mut self, activation: UnilateralCondition) -> Result<Self> {
         self.contact = self.contact.with_unilateral_condition(activation)?;
         Ok(self)
     }
 
-    /// The law of the step.
+    /// The law with the coefficient of this step.
     fn at(&self, start: &PreviousContact) -> Coulomb {
         Coulomb { friction: (self.coefficient)(start), ..self.contact }
     }
@@ -296,7 +299,7 @@ impl InterfaceLaw for VariableFriction {
         if law.friction() >= 0.0 {
             law.conditions(mode, start)
         } else {
-            // No mode may pass with a coefficient that is none: see `check_start`.
+            // No mode may succeed with an invalid coefficient: see `check_start`.
             [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)]
         }
     }

@@ -2,8 +2,9 @@
 
 use crate::error::{Result, finite, not_negative, require};
 
-/// Bounds of the tractions of an element in plan during a step: see
-/// [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
+/// Bounds of the tractions of an element in plan during a step.
+///
+/// See [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
 ///
 /// | | |
 /// |---|---|
@@ -12,8 +13,9 @@ use crate::error::{Result, finite, not_negative, require};
 /// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
-/// An element that has opened with a tension, an attraction or a shear strength loses them in that step. Layers give
-/// way by [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick beside. The default is
+/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens.
+/// Elastic layers are in addition to these limits: see
+/// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. The default is
 /// frictionless and hard contact.
 ///
 /// ```
@@ -29,17 +31,17 @@ use crate::error::{Result, finite, not_negative, require};
 pub struct Limits {
     /// Friction coefficient; infinite where nothing slides.
     pub friction: f64,
-    /// Pressure that friction acts on beside p, Pa.
+    /// Pressure that is added to p for friction, Pa.
     pub attraction: f64,
-    /// Shear traction that is borne beside friction, Pa.
+    /// Shear strength in addition to friction, Pa.
     pub shear_strength: f64,
     /// Tensile strength, Pa.
     pub tension: f64,
-    /// Greatest pressure, Pa; infinite for none.
+    /// Largest pressure, Pa; infinite if there is no bound.
     pub pressure_cap: f64,
-    /// Gap of a closed element, m; −∞ for one that cannot close in this step.
+    /// Gap of a closed element, m; −∞ if the element cannot close in this step.
     pub gap_offset: f64,
-    /// Whether base and soil neither separate nor slide, whatever the tractions.
+    /// Whether base and soil neither separate nor slide, for any tractions.
     pub bonded: bool,
 }
 
@@ -58,7 +60,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// These limits if all are possible, or an error.
+    /// Returns these limits, or an error if one is not possible.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, value) in
             [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]

@@ -1,8 +1,8 @@
 //! Interface laws between the base and the soil.
 //!
-//! A law describes one contact element at a time. For each [`Mode`] it states two linear
-//! [`Condition`]s between the element's opening and its traction, and after a trial it says which
-//! mode comes next. The mode search of [`crate::coupled`] does the rest and depends on no law.
+//! A law describes one contact element at a time. For each [`Mode`] it returns two linear [`Condition`]s
+//! between the element's opening and its traction; after a trial it returns the next mode. The mode search of
+//! [`crate::coupled`] is the same for all laws.
 
 mod cohesive;
 mod coulomb;
@@ -23,7 +23,7 @@ pub use yielding::Yielding;
 
 use crate::error::{Error, Result, require_part, same_length};
 
-/// Opening and **total** traction (static part included) of one contact element, as means over it.
+/// Opening and **total** traction (static part included) of one contact element, as element means.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -44,7 +44,7 @@ pub struct ContactState {
     pub shear_across: f64,
 }
 
-/// A number of an element: its word, its SI unit, whether it is one of grounds in plan only, and its value.
+/// A number of an element: its word, its SI unit, whether only grounds in plan have it, and its value.
 type Number = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
 
 impl ContactState {
@@ -58,7 +58,7 @@ impl ContactState {
         ("shear_across", "Pa", true, |own| own.shear_across),
     ];
 
-    /// Gap, slip and tractions of an element by their components: down, along x, and in plan along y.
+    /// Gap, slip and tractions of an element from their components: down, along x, and in plan along y.
     #[inline]
     pub(crate) fn from_components(
         jump: impl Fn(usize) -> f64,
@@ -111,7 +111,7 @@ impl Condition {
         Self { gap: 1.0, value, ..Self::default() }
     }
 
-    /// Sum of all its numbers: finite only if they are.
+    /// Sum of all numbers: finite only if all of them are.
     pub(crate) fn sum(&self) -> f64 {
         self.gap + self.slip + self.pressure + self.shear + self.value
     }
@@ -130,19 +130,19 @@ impl Condition {
         .find(|(_, value)| !value.is_finite())
     }
 
-    /// The gap that this condition gives for a pressure, if it relates nothing else.
+    /// The gap that this condition prescribes at a pressure; `None` if other quantities occur in it.
     pub(crate) fn gap_at(&self, pressure: f64) -> Option<f64> {
         (self.gap != 0.0 && self.slip == 0.0 && self.shear == 0.0)
             .then(|| (self.value - self.pressure * pressure) / self.gap)
     }
 
-    /// The pressure that this condition gives, if it relates nothing else.
+    /// The pressure that this condition prescribes; `None` if other quantities occur in it.
     pub(crate) fn pressure_alone(&self) -> Option<f64> {
         let alone = self.gap == 0.0 && self.slip == 0.0 && self.shear == 0.0;
         (alone && self.pressure != 0.0).then(|| self.value / self.pressure)
     }
 
-    /// The component (0 normal, 1 tangential) whose traction it fixes by itself.
+    /// The component (0 normal, 1 tangential) whose traction this condition alone prescribes.
     #[inline]
     pub(crate) fn fixed_component(&self) -> Option<usize> {
         match *self {
@@ -163,13 +163,13 @@ impl Condition {
         Self { pressure: 1.0, value, ..Self::default() }
     }
 
-    /// The shear traction is `value`.
+    /// Condition that the shear traction is `value`.
     pub fn shear_is(value: f64) -> Self {
         Self { shear: 1.0, value, ..Self::default() }
     }
 }
 
-/// Differences below which a law should see equality.
+/// Differences below which a law should treat numbers as equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -188,17 +188,17 @@ impl Tolerance {
     }
 }
 
-/// The scene as a law can check it.
+/// Data of the scene with which a law can check itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ContactScene {
-    /// Gravity, m/s²; zero if the base starts unpressed.
+    /// Gravity, m/s²; zero if the base starts without pressure.
     pub gravity: f64,
     /// Time step, s.
     pub time_step: f64,
 }
 
-/// Refuses laws that are neither one nor one for each of `count` elements, and a law without modes.
+/// Error unless there is one law, or one for each of `count` elements, and all have modes.
 pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<()> {
     if laws.len() != 1 {
         same_length("list of interface laws", laws.len(), count)?;
@@ -207,17 +207,17 @@ pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result
     require_part("interface law", named, "`modes` must name at least one mode")
 }
 
-/// The law of `element` from a list of one law for all, or one each.
+/// The law of `element`, from a list of one law for all elements or one each.
 pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn InterfaceLaw {
     laws[if laws.len() == 1 { 0 } else { element }].as_ref()
 }
 
 /// Contact law between base and soil: implement this for a law of your own.
 ///
-/// A law is a rule and keeps nothing itself. The end of the step before is in [`PreviousContact`]; what
-/// else it needs of the past it declares as a few state variables per element, which the
-/// simulation keeps, shows in [`PreviousContact::state_variables`] and saves in checkpoints. Numbers of a law that
-/// are not finite, and a next mode that is none of its modes, are a [`LawError`](crate::LawError).
+/// A law is a rule and stores nothing itself. [`PreviousContact`] holds the end of the previous step. If a
+/// law needs more of the past, it declares state variables per element. The simulation stores them, passes
+/// them in [`PreviousContact::state_variables`] and saves them in checkpoints. A law that returns a number
+/// that is not finite, or a mode that it does not list, causes a [`LawError`](crate::LawError).
 ///
 /// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
 /// ```
@@ -275,14 +275,15 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// ```
 #[auto_impl::auto_impl(Box)]
 pub trait InterfaceLaw: Send {
-    /// The modes that this law uses; the first is that of an element at rest in contact.
+    /// The modes that this law uses, first the mode of an element at rest in contact.
     fn modes(&self) -> &[Mode];
 
-    /// The two conditions that `mode` imposes on the end of the step.
+    /// The two conditions that `mode` imposes at the end of the step.
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2];
 
-    /// The mode to try next, given the `trial` that the conditions of `mode` led to; `mode` itself
-    /// if the trial is admissible.
+    /// The mode to try next after a `trial` with the conditions of `mode`.
+    ///
+    /// Return `mode` itself if the trial is admissible.
     fn next_mode(
         &self,
         mode: Mode,
@@ -291,31 +292,34 @@ pub trait InterfaceLaw: Send {
         tolerance: Tolerance,
     ) -> Mode;
 
-    /// Elastic opening per traction in `mode`, m/Pa: gap per tension and slip per shear traction.
-    /// Zero (the default) for hard contact. The energy balance counts what so much elasticity
-    /// stores, ½ compliance · traction² at the end of the step; only the rest of gap and slip, and
-    /// what goes with a compliance that changes, can be lost to friction, impact and damage.
+    /// Elastic opening per traction in `mode`, m/Pa: gap per tension, and slip per shear traction.
     ///
-    /// Asked for every mode at the static state, and once per solved step for the mode it ends in. A
-    /// law without state variables that is hard in every mode at the static state counts as hard for the
-    /// whole run.
+    /// Zero (the default) for hard contact. The energy balance includes the energy stored in this compliance,
+    /// ½ compliance · traction² at the end of the step. Friction, impact and damage can dissipate only the
+    /// work of the rest of gap and slip, and of a compliance that changes.
+    ///
+    /// Called for every mode at the static state, and once per solved step for the mode at its end. A law
+    /// without state variables that is hard in every mode at the static state counts as hard for the whole
+    /// run.
     fn compliance(&self, _mode: Mode, _start: &PreviousContact) -> [f64; 2] {
         [0.0; 2]
     }
 
-    /// Count of the state variables that the law keeps per element, always the same; none by default.
+    /// Number of state variables per element, always the same; zero by default.
     fn state_variables(&self) -> usize {
         0
     }
 
-    /// Sets the state variables that an element begins a run with, zeros unless this says otherwise, from
-    /// the `start` of its first step (and, where the law acts while the weight comes on, from one
-    /// without pressure for that). Not called for a law without any.
+    /// Sets the initial state variables of an element; by default they are zero.
+    ///
+    /// `start` is the start of its first step. If the law acts during the gravity stage, the method is also
+    /// called for that, with a start without pressure. Not called for a law without state variables.
     fn initial_state_variables(&self, _start: &PreviousContact, _state_variables: &mut [f64]) {}
 
-    /// Brings the state variables of an element to the `end` of a step in `mode`: they hold what they were at the
-    /// `start` of the step. Called once per accepted step, after its modes are found, and not for a
-    /// law without any.
+    /// Updates the state variables of an element at the `end` of a step in `mode`.
+    ///
+    /// On entry they hold the values at the `start` of the step. Called once per accepted step, after its
+    /// modes are found; not called for a law without state variables.
     fn commit(
         &self,
         _start: &PreviousContact,
@@ -325,57 +329,61 @@ pub trait InterfaceLaw: Send {
     ) {
     }
 
-    /// The friction coefficient, for the factor of safety against sliding
-    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)): the base resists by this times the
-    /// pressure. Infinite for a law that never slides, `None` (the default) for one without such a number.
+    /// The friction coefficient for the factor of safety against sliding.
+    ///
+    /// The resistance of the base is this coefficient times the pressure
+    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). Infinite for a law that never
+    /// slides; `None` (the default) for a law without such a coefficient.
     fn friction_coefficient(&self) -> Option<f64> {
         None
     }
 
-    /// Traction (Pa) by which `trial` exceeds the strength of a bond that breaks for good, below zero
-    /// while it holds; `None` (the default) for an element without a bond, or with a broken one.
+    /// Traction by which `trial` exceeds the strength of a bond that breaks for good, Pa.
     ///
-    /// A step holds elements with a bond in their mode of rest, whatever their tractions, until all
-    /// other modes are found; then bonds break where the overload is largest, the modes are found anew,
-    /// and so on. From there on the law sees a broken bond as `start.has_opened`.
+    /// Below zero while the bond holds; `None` (the default) for an element without a bond, or with a broken
+    /// one.
+    ///
+    /// A step first keeps elements with a bond in their mode of rest, at any traction, until all other modes
+    /// are found. Then the bonds with the largest overload break, the modes are found again, and so on. From
+    /// then on `start.has_opened` is true for a broken bond.
     fn bond_overload(&self, _start: &PreviousContact, _trial: &ContactState) -> Option<f64> {
         None
     }
 
-    /// Asked after a condition that is not finite: the reason, if the law can give it.
+    /// Called after a condition that is not finite; returns the reason if the law can name it.
     ///
     /// # Errors
-    /// With the number behind it, as [`Error::Input`] or
-    /// [`Error::part`](crate::Error::part).
+    /// An error with the cause, as [`Error::Input`] or [`Error::part`](crate::Error::part).
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
-    /// Limits of the tractions of an element on a ground in plan, in the step after `start`: modes and conditions are
-    /// for the plane. The direction of slip is mechanics there, along the shear traction, and the law says how far
-    /// tractions go. Asked once per attempted step.
+    /// Limits of the tractions of an element on a ground in plan, in the step after `start`.
     ///
-    /// The default is an error that names the law: it is one of the plane alone.
+    /// A ground in the plane uses modes and conditions instead. In plan the slip follows the shear traction,
+    /// and the law only bounds the tractions. Called once per attempted step.
+    ///
+    /// The default returns an error that names the law: the law is valid in the plane only.
     ///
     /// # Errors
-    /// If the law has none for this element, as [`Error::Scene`],
-    /// [`Error::Input`] or [`Error::part`].
+    /// If the law has no limits for this element, as [`Error::Scene`], [`Error::Input`] or [`Error::part`].
     fn limits(&self, _start: &PreviousContact) -> Result<Limits> {
         let quantity = std::any::type_name::<Self>();
         let quantity = quantity.rsplit("::").next().unwrap_or(quantity);
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
-    /// Same law without friction and cohesion, for setting the structure down on the ground; hard
-    /// and frictionless contact unless the law says otherwise.
+    /// The same law without friction and cohesion, for the gravity stage.
+    ///
+    /// By default, hard and frictionless contact.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Coulomb::frictionless())
     }
 
-    /// Asked once, when a simulation is put together: whether this law makes sense in it.
+    /// Checks whether this law makes sense in the simulation that is being built; called once.
     ///
     /// # Errors
-    /// With the reason if it does not, as [`Error::part`](crate::Error::part) for example.
+    /// The reason why it does not, for example as [`Error::part`](crate::Error::part).
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
     }

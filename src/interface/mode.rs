@@ -6,7 +6,7 @@
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Mode {
-    /// Closed, no slip (and the only mode of a bonded element).
+    /// Closed, no slip; the only mode of a bonded element.
     Stick,
     /// Closed; the structure slides to the left over the soil.
     SlipLeft,
@@ -20,7 +20,8 @@ pub enum Mode {
     YieldLeft,
     /// Closed; the soil yields under the pressure, and the structure slides to the right.
     YieldRight,
-    /// Slip in plan: closed; the structure slides over the soil in the direction of the shear traction on it.
+    /// Slip in plan: closed; the structure slides over the soil in the direction of the shear traction on the
+    /// soil.
     Slip,
     /// Slip in plan on soil that yields under the pressure.
     YieldSlip,
@@ -54,7 +55,7 @@ impl Mode {
         matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight | Mode::YieldSlip)
     }
 
-    /// This mode on soil that does not yield.
+    /// The corresponding mode on soil that does not yield.
     #[must_use]
     pub(crate) fn elastic(self) -> Self {
         match self {
@@ -66,7 +67,7 @@ impl Mode {
         }
     }
 
-    /// This mode on soil that yields; an open element stays open.
+    /// The corresponding mode on soil that yields; an open element stays open.
     #[must_use]
     pub(crate) fn yielding(self) -> Self {
         match self {
@@ -78,7 +79,7 @@ impl Mode {
         }
     }
 
-    /// This mode on a ground in plan, where slip has any direction.
+    /// The corresponding mode on a ground in plan, where slip has any direction.
     pub(crate) fn in_plan(self) -> Self {
         match self {
             Mode::SlipLeft | Mode::SlipRight => Mode::Slip,
@@ -90,7 +91,7 @@ impl Mode {
     /// The modes of contact with uplift and Coulomb friction.
     pub(super) fn with_friction(friction: f64) -> &'static [Self] {
         if friction == 0.0 {
-            // Either slip mode says the same when there is no friction: one is enough.
+            // Without friction both slip modes are the same, so one is enough.
             &[Self::SlipRight, Self::Open]
         } else {
             &[Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open]

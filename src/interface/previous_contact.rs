@@ -1,22 +1,23 @@
-//! Previous contact: the past of each element at the start of a step, as its law sees it.
+//! Previous contact: the past of each element at the start of a step, for its law.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
 use crate::error::{LawError, Result, finite, memory, same_length};
 
-/// State of an element at the beginning of a step, as its law sees it.
+/// State of an element at the beginning of a step, as passed to its law.
 ///
-/// In the signatures of a law of your own it is `&PreviousContact`; the lifetime is that of `state_variables`.
+/// In the signatures of a law of your own it is `&PreviousContact`; the lifetime belongs to
+/// `state_variables`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PreviousContact<'a> {
-    /// Opening and traction at the end of the step before.
+    /// Opening and traction at the end of the previous step.
     pub state: ContactState,
-    /// Mode of the step before.
+    /// Mode of the previous step.
     pub mode: Mode,
     /// Whether the element has been open at any time since the start of the run, or its bond
     /// ([`InterfaceLaw::bond_overload`]) has broken in this step.
     pub has_opened: bool,
-    /// Slip velocity of the step before, m/s: its change of slip over its length; in plan the magnitude of that.
+    /// Slip velocity of the previous step, m/s: its change of slip over its length; in plan the magnitude.
     pub slip_rate: f64,
     /// Pressure of the static state, Pa.
     pub static_pressure: f64,
@@ -28,9 +29,10 @@ pub struct PreviousContact<'a> {
 }
 
 impl<'a> PreviousContact<'a> {
-    /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
-    /// simulation: it has opened if it is open, its slip rate is zero, its static pressure that
-    /// of `state`, and no state variables. All fields can then be set.
+    /// Start of a step of `time_step` seconds from `state`, to test a law without a simulation.
+    ///
+    /// The element has opened if it is open. Its slip rate is zero, its static pressure is the pressure of
+    /// `state`, and it has no state variables. All fields can then be set.
     ///
     /// ```
     /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
@@ -55,7 +57,7 @@ impl<'a> PreviousContact<'a> {
         }
     }
 
-    /// State variables with which `law` begins after this contact.
+    /// Initial state variables of `law` after this contact.
     pub(crate) fn first_state_variables(&self, law: &dyn InterfaceLaw) -> Vec<f64> {
         let mut state_variables = vec![0.0; law.state_variables()];
         if !state_variables.is_empty() {
@@ -78,7 +80,9 @@ impl<'a> PreviousContact<'a> {
         }
     }
 
-    /// This contact with other state variables: for a law made of others, each of which owns a part of them.
+    /// This contact with other state variables.
+    ///
+    /// For a law that contains several laws, each with its own part of the state variables.
     #[must_use]
     pub(crate) fn with_state_variables<'b>(self, state_variables: &'b [f64]) -> PreviousContact<'b>
     where
@@ -88,13 +92,11 @@ impl<'a> PreviousContact<'a> {
     }
 }
 
-/// The start of a step for all elements, from left to right: the past of a run as the laws see it,
-/// with their state variables.
+/// The start of a step for all elements, from left to right, with state variables.
 ///
-/// A [`Simulation`](crate::Simulation) keeps its own. A code with an integrator of its own gets one
-/// from [`ContactProblem::start`](crate::contact::ContactProblem::start), owns it, and may clone it
-/// to come back to it later; [`ContactSolution::commit`](crate::contact::ContactSolution::commit)
-/// moves it on.
+/// A [`Simulation`](crate::Simulation) has its own. A code with its own integrator obtains one from
+/// [`ContactProblem::start`](crate::contact::ContactProblem::start), owns it, and may clone it to return to
+/// it later. [`ContactSolution::commit`](crate::contact::ContactSolution::commit) advances it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreviousContacts {
     /// Past of each element, without its state variables.
@@ -119,14 +121,15 @@ pub(crate) fn state_variable_ends(
         end = end.saturating_add(law_of(laws, element).state_variables());
         ends.push(end);
     }
-    // In the state, the increment and its copies.
+    // Stored in the state, the increment and their copies.
     memory::check("numbers that the interface laws remember", end as f64, 32.0 * end as f64)?;
     Ok(ends)
 }
 
 impl PreviousContacts {
-    /// Previous contact of all elements from that of each; where it has no state variables, the law says with which the
-    /// element begins.
+    /// Previous contact of all elements from the previous contact of each.
+    ///
+    /// If an element has no state variables, its law sets their initial values.
     pub(crate) fn new(
         laws: &[Box<dyn InterfaceLaw>],
         elements: &[PreviousContact<'_>],
@@ -159,24 +162,25 @@ impl PreviousContacts {
         self.past.len()
     }
 
-    /// The start of each element, as its law sees it. Collected, they are what
-    /// [`ContactProblem::start`](crate::contact::ContactProblem::start) takes.
+    /// The start of each element, as passed to its law.
+    ///
+    /// [`ContactProblem::start`](crate::contact::ContactProblem::start) accepts the collected items.
     pub fn iter(&self) -> impl Iterator<Item = PreviousContact<'_>> {
         (0..self.len()).map(|e| self.of(e))
     }
 
-    /// Length of the step to come, s.
+    /// Length of the coming step, s.
     pub(crate) fn time_step(&self) -> f64 {
         self.past.first().map_or(1.0, |start| start.time_step)
     }
 
-    /// The start of an element that is there.
+    /// The start of an element; the element must exist.
     #[inline]
     pub(crate) fn of(&self, element: usize) -> PreviousContact<'_> {
         self.past[element].with_state_variables(self.state_variables_of(element))
     }
 
-    /// Opening and traction of an element at the end of the step before.
+    /// Opening and traction of an element at the end of the previous step.
     pub(crate) fn state(&self, element: usize) -> &ContactState {
         &self.past[element].state
     }
@@ -209,23 +213,24 @@ impl PreviousContacts {
         &self.state_variables
     }
 
-    /// State variables of all elements, to be set.
+    /// Mutable access to the state variables of all elements.
     pub(crate) fn state_variables_mut(&mut self) -> &mut [f64] {
         &mut self.state_variables
     }
 
-    /// Slip velocities of the step before.
+    /// Mutable access to the slip velocities of the previous step.
     pub(crate) fn slip_rates_mut(&mut self) -> impl Iterator<Item = &mut f64> {
         self.past.iter_mut().map(|past| &mut past.slip_rate)
     }
 
-    /// Sets where an element is, its mode, and whether it has been open.
+    /// Sets an element's opening and traction, its mode, and whether it has been open.
     pub(crate) fn restore(&mut self, e: usize, state: ContactState, mode: Mode, has_opened: bool) {
         self.past[e] = PreviousContact { state, mode, has_opened, ..self.past[e] };
     }
 
-    /// Has the laws commit the step that ends in `states` and `modes` to `state_variables`, which has the
-    /// length of [`PreviousContacts::state_variables`]; nothing here changes.
+    /// Updates `state_variables` by the laws at the end of a step in `states` and `modes`.
+    ///
+    /// `state_variables` has the length of [`PreviousContacts::state_variables`]; `self` does not change.
     pub(crate) fn update_state_variables(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
@@ -247,8 +252,8 @@ impl PreviousContacts {
         Ok(())
     }
 
-    /// Goes on to the start of the next step, after this one has ended in `states` and `modes` and
-    /// left `state_variables`.
+    /// Advances to the start of the next step, after a step that ended in `states`, `modes` and
+    /// `state_variables`.
     pub(crate) fn advance(
         &mut self,
         states: &[ContactState],

@@ -2,14 +2,14 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | t | thickness of the layer: ratio × height of the element beside it |
+//! | t | thickness of the layer: ratio × height of the adjacent element |
 //! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit length; D₂₂ = λ + 2μ, plane strain |
 //! | g, s, p, τ | gap, slip, pressure, shear traction; ₀ at the start of the step |
 //!
-//! A four-node element of length L and thickness t, integrated at its centre, sees the mean
-//! strains ε_yy = g/t and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L
-//! beside them). Its nodal forces are those of tractions D₂₂ g/t and μ s/t on L: a law of one
-//! element's means, with no degrees of freedom of its own.
+//! A four-node element of length L and thickness t, integrated at its centre, has the mean strains ε_yy = g/t
+//! and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L relative to them). Its nodal
+//! forces equal the forces of tractions D₂₂ g/t and μ s/t on L. The layer is therefore a law for one
+//! element's means, without its own degrees of freedom.
 
 use super::coulomb::check_friction;
 use super::{
@@ -27,11 +27,11 @@ pub enum FrictionLimit {
     /// The total pressure of this step.
     #[default]
     Total,
-    /// The total pressure of the step before.
+    /// The total pressure of the previous step.
     Lagged,
-    /// The pressure of the static state, for good.
+    /// The pressure of the static state, throughout the run.
     Static,
-    /// The magnitude of what the shaking added to it, at the end of the step before.
+    /// The magnitude of the pressure change due to the shaking, at the end of the previous step.
     Dynamic,
 }
 
@@ -42,19 +42,19 @@ words! { pub(crate) FrictionLimit, "friction limit", {
     Dynamic = "dynamic",
 } }
 
-/// Quantity that decides the sense of slip, and whether slip goes on.
+/// Quantity that decides the sense of slip, and whether slip continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SlipSense {
-    /// Slip beyond the elastic one, as in plasticity: it starts in the sense of the shear traction
-    /// and goes on while it grows.
+    /// Slip beyond the elastic slip, as in plasticity. It starts in the sense of the shear traction and
+    /// continues while it grows.
     #[default]
     Inelastic,
-    /// The relative velocity of this step, elastic part included [PS, eq. 12].
+    /// The relative velocity of this step, including the elastic part [PS, eq. 12].
     Velocity,
-    /// The relative velocity of the step before.
+    /// The relative velocity of the previous step.
     LastVelocity,
 }
 
@@ -64,9 +64,10 @@ words! { pub(crate) SlipSense, "sense of slip", {
     LastVelocity = "last_velocity",
 } }
 
-/// Thin-layer interface elements: elastic in stick and in debonding [PS, eqs. 6–9], Coulomb friction
-/// in slip [PS, eqs. 10–12], rebonding when the gap has closed; a tenth as thick as the elements
-/// beside it [PS, eq. 13].
+/// Thin-layer interface elements between base and soil.
+///
+/// The layer is elastic in stick and in debonding [PS, eqs. 6–9], has Coulomb friction in slip [PS, eqs.
+/// 10–12], and rebonds when the gap has closed. It is a tenth as thick as the adjacent elements [PS, eq. 13].
 ///
 /// | mode | pressure | shear traction |
 /// |---|---|---|
@@ -74,21 +75,19 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// | slip | p = −k_n g | τ = ± friction · p |
 /// | debonding | p = −r k_n g | τ = r k_s × slip since it opened |
 ///
-/// with r = 0.001, so that an open element still pulls a little. Tractions and slip are continued
-/// from the step before: what has slipped stays slipped. A layer of no thickness is
-/// [`Coulomb`](super::Coulomb).
+/// with r = 0.001, so that an open element still carries a small tension. Tractions and slip continue from
+/// the previous step, so that slip remains. A layer of zero thickness is [`Coulomb`](super::Coulomb).
 ///
-/// The ratio r counts against the layer's own thickness: a layer a hundred times thinner pulls a
-/// hundred times harder while it is open, so that r must shrink with the thickness.
+/// The ratio r refers to the layer's own thickness. A layer a hundred times thinner carries a hundred times
+/// more tension while it is open, so r must be reduced with the thickness.
 ///
-/// With the default [`FrictionLimit`] and [`SlipSense`] and no stiffness left in slip, shear of a
-/// closed element vanishes with its pressure, as friction's limit does. An open element with r > 0
-/// carries some up to the moment it lands, when nothing is left of it: a few steps in a hundred
-/// thousand then have no solution, closed or open, and are a
-/// [`StepError::Contact`](crate::StepError::Contact), which says so where there are up to eight elements.
-/// [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) has none of them. The other
-/// readings let a closed element carry shear up to its opening, or slide against its traction, and
-/// meet such steps more often.
+/// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed
+/// element vanishes with its pressure, as the friction limit does. An open element with r > 0 carries some
+/// shear until it lands, and then loses it. A few steps in a hundred thousand then have no solution, closed
+/// or open. They return a [`StepError::Contact`](crate::StepError::Contact), which states this for up to
+/// eight elements. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no such steps.
+/// The other options let a closed element carry shear up to its opening, or slide against its traction, and
+/// have such steps more often.
 ///
 /// ```
 /// use basemat::{Soil, interface::ThinLayer};
@@ -104,7 +103,7 @@ words! { pub(crate) SlipSense, "sense of slip", {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ThinLayerForm"))]
 pub struct ThinLayer {
-    /// k_n and k_s of a layer as thick as the element beside it.
+    /// k_n and k_s of a layer as thick as the adjacent element is high.
     #[cfg_attr(feature = "serde", serde(rename = "reference_stiffness"))]
     reference: [f64; 2],
     #[cfg_attr(feature = "serde", serde(rename = "thickness_ratio"))]
@@ -143,8 +142,9 @@ validated! {
 }
 
 impl ThinLayer {
-    /// Layer of `soil` beside elements of height `neighbour_height` (m), a tenth as thick, with a
-    /// friction coefficient of zero or more; infinity means that nothing ever slides.
+    /// Layer of `soil`, a tenth as thick as the adjacent elements of height `neighbour_height` (m).
+    ///
+    /// The friction coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient
@@ -157,10 +157,10 @@ impl ThinLayer {
             .with_thickness_ratio(0.1)
     }
 
-    /// Layer with the stiffness k_n and k_s (Pa/m) for a thickness ratio of one.
+    /// Layer with the stiffnesses k_n and k_s (Pa/m) at a thickness ratio of one.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite and above zero and `friction` is not negative.
+    /// [`Error::Input`] unless both are finite and above zero, and `friction` is not negative.
     pub fn from_stiffness(normal: f64, shear: f64, friction: f64) -> Result<Self> {
         positive("normal stiffness of the thin layer", normal)?;
         positive("shear stiffness of the thin layer", shear)?;
@@ -176,10 +176,10 @@ impl ThinLayer {
         })
     }
 
-    /// Sets the thickness, as a fraction of the height of the element beside the layer.
+    /// Sets the thickness, as a fraction of the height of the adjacent element.
     ///
     /// # Errors
-    /// [`Error::Input`] unless finite, above zero, and the stiffness it gives is finite.
+    /// [`Error::Input`] unless the ratio is finite and above zero, and the resulting stiffness is finite.
     pub fn with_thickness_ratio(mut self, ratio: f64) -> Result<Self> {
         self.ratio = positive("thickness ratio of the thin layer", ratio)?;
         for stiffness in self.stiffness() {
@@ -188,7 +188,7 @@ impl ThinLayer {
         Ok(self)
     }
 
-    /// Sets the fraction of the stiffness left in debonding; 0.001 unless given.
+    /// Sets the fraction of the stiffness that remains in debonding; the default is 0.001.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
@@ -211,8 +211,9 @@ impl ThinLayer {
         self
     }
 
-    /// Sets the fraction of the shear stiffness that resists the slip of each step, beyond friction; none unless given.
-    /// It acts as a viscosity does, since the next step does not depend on it.
+    /// Sets the fraction of the shear stiffness that resists the slip of each step, in addition to friction.
+    ///
+    /// The default is zero. It acts as a viscosity, since the next step does not depend on it.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
@@ -226,7 +227,7 @@ impl ThinLayer {
         self.reference.map(|k| k / self.ratio)
     }
 
-    /// Friction's limit of the shear traction, if it is known before the step.
+    /// Friction limit of the shear traction; `None` if it is not known before the step.
     fn known_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.limit {
             FrictionLimit::Total => return None,
@@ -238,7 +239,7 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// ± τ = limit + ratio · k_s (±Δs), written so that infinite friction has its limit (see
+    /// ± τ = limit + ratio · k_s (±Δs), in a form that has a limit for infinite friction (see
     /// [`super::Coulomb`]).
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let drag = self.slip_stiffness * self.stiffness()[1];
@@ -258,7 +259,7 @@ impl ThinLayer {
         }
     }
 
-    /// Slip of the structure in this step, as [`SlipSense`] sees it.
+    /// Slip of the structure in this step, as [`SlipSense`] defines it.
     fn advance(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
         let moved = trial.slip - start.state.slip;
         match self.sense {
@@ -269,7 +270,7 @@ impl ThinLayer {
     }
 }
 
-/// `value` if it is from 0 to 1.
+/// Returns `value` if it is from 0 to 1, else an error.
 fn fraction_of_one(quantity: &'static str, value: f64) -> Result<f64> {
     not_negative(quantity, value)?;
     require(quantity, value, value <= 1.0, "from 0 to 1")
@@ -288,7 +289,7 @@ impl InterfaceLaw for ThinLayer {
             Mode::SlipRight => self.slip_condition(1.0, start),
             Mode::SlipLeft => self.slip_condition(-1.0, start),
             _ => {
-                // What a closed layer carried along the base is gone when it opens.
+                // The shear that a closed layer carried is lost when it opens.
                 let gone = mode == Mode::Open && start.mode.is_closed();
                 let before = if gone { 0.0 } else { start.state.shear };
                 Condition { slip: -shear, ..Condition::shear_is(before - shear * start.state.slip) }
@@ -330,7 +331,7 @@ impl InterfaceLaw for ThinLayer {
         match mode {
             Mode::SlipRight => slides(1.0),
             Mode::SlipLeft => slides(-1.0),
-            // Infinite friction times no pressure is no limit.
+            // Infinite friction times zero pressure is not a limit.
             _ if self.friction == f64::INFINITY || trial.shear.abs() <= limit + slack => {
                 Mode::Stick
             }
@@ -349,7 +350,7 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// Limits in plan: an open element carries nothing, and slip is the part beyond elastic deformation.
+    /// Limits in plan. An open element carries no traction; slip excludes the elastic deformation.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let refuse = |needed| Err(Error::Scene { quantity: "thin layer in plan", needed });
         if self.debonded > 0.0 {
@@ -364,7 +365,7 @@ impl InterfaceLaw for ThinLayer {
         })
     }
 
-    /// Friction coefficient of the law, whatever its [`FrictionLimit`].
+    /// Friction coefficient of the law, for any [`FrictionLimit`].
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }

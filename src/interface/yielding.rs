@@ -5,11 +5,11 @@ use super::{
 };
 use crate::error::{Result, positive};
 
-/// Coulomb friction and uplift on soil whose contact pressure is bounded: where it reaches the
-/// bearing pressure q, the base sinks in for good.
+/// Coulomb friction and uplift on soil whose contact pressure is bounded.
 ///
-/// Each element keeps as a state variable its indentation w ≥ 0: the surface that the base meets again lies w below
-/// the old one. The normal conditions of the element, crossed with stick and slip:
+/// Where the pressure reaches the bearing pressure q, the base sinks permanently. The state variable of each
+/// element is its indentation w ≥ 0: after uplift, the base meets the surface at w below its first position.
+/// The normal conditions of the element, combined with stick and slip:
 ///
 /// | | |
 /// |---|---|
@@ -17,9 +17,9 @@ use crate::error::{Result, positive};
 /// | closed | g = −w, 0 ≤ p ≤ q |
 /// | yielding | p = q, g ≤ −w; w becomes −g |
 ///
-/// The energy balance counts q times the indentation in `contact`. It is the near field of a foundation: a
-/// rocking base settles and its soil is rounded, as in beds of yielding springs (Allotey & El Naggar
-/// 2003), while the half-plane below stays elastic. Sliding does not lower q.
+/// The energy balance counts q times the indentation in `contact`. The law models the near field of a
+/// foundation: a rocking base settles and its soil is rounded, as in beds of yielding springs (Allotey & El
+/// Naggar 2003), while the half-plane below stays elastic. Sliding does not lower q.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -28,7 +28,7 @@ use crate::error::{Result, positive};
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
 ///
-/// // 118 kPa of weight on soil that bears 300 kPa.
+/// // 118 kPa due to weight, on soil with a bearing pressure of 300 kPa.
 /// let mut simulation = Simulation::builder(0.002)
 ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///     .ground(SpringGround::new(-2.0..2.0, 16, 8e7, 4e7)?.with_dashpots(7e5, 4e5)?)
@@ -65,12 +65,13 @@ validated! {
 }
 
 impl Yielding {
-    /// Law with a bearing pressure (Pa) and a friction coefficient of zero or more; infinity means
-    /// that nothing ever slides.
+    /// Law with a bearing pressure (Pa) and a friction coefficient of zero or more.
+    ///
+    /// If the coefficient is infinite, nothing ever slides.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a pressure that is not finite and above zero, for NaN or a negative
-    /// coefficient.
+    /// [`Error::Input`](crate::Error::Input) for a pressure that is not finite and above zero, and for a
+    /// coefficient that is NaN or negative.
     pub fn new(bearing_pressure: f64, friction: f64) -> Result<Self> {
         let bearing_pressure = positive("bearing pressure", bearing_pressure)?;
         Ok(Self { bearing_pressure, contact: Coulomb::new(friction)? })
@@ -82,7 +83,7 @@ impl Yielding {
     }
 }
 
-/// Indentation, the state variable of an element.
+/// Indentation of an element, its state variable, m.
 fn indentation(start: &PreviousContact) -> f64 {
     start.state_variables.first().copied().unwrap_or(0.0)
 }
@@ -93,7 +94,7 @@ impl InterfaceLaw for Yielding {
         if friction == 0.0 {
             &[Mode::SlipRight, Mode::Open, Mode::YieldRight]
         } else if friction == f64::INFINITY {
-            // Its slip modes have no pressure.
+            // The slip modes of infinite friction have no pressure.
             &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open, Mode::Yield]
         } else {
             &[
@@ -127,7 +128,7 @@ impl InterfaceLaw for Yielding {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        // From the sunken surface.
+        // Gap relative to the indented surface.
         let gap = trial.gap + indentation(start);
         let seen = ContactState { gap, ..*trial };
         let next = self.contact.next_mode(mode.elastic(), start, &seen, tolerance);
@@ -170,7 +171,7 @@ impl InterfaceLaw for Yielding {
         })
     }
 
-    /// This law without friction, its bearing pressure kept.
+    /// The same law without friction, with the same bearing pressure.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Self { contact: Coulomb::frictionless(), ..*self })
     }

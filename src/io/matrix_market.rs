@@ -1,7 +1,7 @@
-//! Matrix Market files, read and written.
+//! Reads and writes Matrix Market files.
 //!
-//! The format of Boisvert, Pozo & Remington (NIST IR 5935, 1996): coordinate or array, real or
-//! integer, general or symmetric, as far as a structure's matrices need it.
+//! The format of Boisvert, Pozo & Remington (NIST IR 5935, 1996), as far as structural matrices need it:
+//! coordinate or array, real or integer, general or symmetric.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -18,8 +18,8 @@ use crate::text::file::replaced;
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
     ///
-    /// Understood are `coordinate` and `array`, `real`, `double` and `integer`, `general` and
-    /// `symmetric`. Entries given twice add up.
+    /// Supported: `coordinate` and `array`; `real`, `double` and `integer`; `general` and `symmetric`.
+    /// Entries at the same place are summed.
     ///
     /// # Errors
     /// [`Error::MatrixFile`] with the line and the reason.
@@ -32,7 +32,7 @@ impl Triplets {
         }
     }
 
-    /// Reads the same from any source of bytes; `name` is what errors call it.
+    /// Reads the same from any source of bytes; errors use `name` for the source.
     ///
     /// ```
     /// use basemat::structure::Triplets;
@@ -58,15 +58,15 @@ impl Triplets {
         })
     }
 
-    /// Writes the matrix to a Matrix Market file, in the coordinate format; the file is whole or as it was.
+    /// Writes the matrix to a Matrix Market file, in the coordinate format.
     ///
-    /// Entries at the same place are summed, zeros left out, and a matrix that is symmetric to the last bit is
-    /// written as such. Numbers are written so that reading gives the same ones back.
+    /// The file is written whole, or not changed. Entries at the same place are summed, and zeros left out. A
+    /// matrix that is symmetric to the last bit is written as symmetric. Reading the file returns the same
+    /// numbers.
     ///
     /// # Errors
-    /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite, and
-    /// [`Error::Memory`] for more rows than would fit;
-    /// [`Error::MatrixFile`] when it cannot be written.
+    /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite, [`Error::Memory`] for
+    /// more rows than fit into memory, [`Error::MatrixFile`] when the file cannot be written.
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let mut text = Vec::new();
@@ -75,7 +75,7 @@ impl Triplets {
             .map_err(|error| unwritable(path.display().to_string(), &error))
     }
 
-    /// Writes the same to any sink of bytes; `name` is what errors call it.
+    /// Writes the same to any sink of bytes; errors use `name` for the sink.
     ///
     /// # Errors
     /// As for [`Triplets::write_matrix_market`].
@@ -92,7 +92,7 @@ fn unwritable(file: String, error: &std::io::Error) -> Error {
     whole(file, MatrixFileError::Unwritable(error.kind()))
 }
 
-/// The error for a file as a whole.
+/// The error for a file as a whole, without a line number.
 fn whole(file: String, reason: MatrixFileError) -> Error {
     Error::MatrixFile { file, line: 0, reason }
 }
@@ -119,7 +119,7 @@ const ROWS: &str = "rows of the matrix";
 
 /// Contents of a line, or its fault.
 type Fallible<T> = std::result::Result<T, MatrixFileError>;
-/// Contents of lines, or number and fault of the one that cannot be read.
+/// Contents of lines; the error holds the number of the line and its fault.
 type Reason<T> = std::result::Result<T, (usize, MatrixFileError)>;
 
 /// The first line.
@@ -131,7 +131,7 @@ struct Header {
 /// The lines of the file.
 type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
-/// The next line that is neither empty nor a comment; none at the end of the file.
+/// The next line that is neither empty nor a comment; `None` at the end of the file.
 fn data(lines: &mut Lines) -> Reason<Option<String>> {
     while let Some(line) = lines.next()? {
         if !line.is_empty() && !line.starts_with('%') {
@@ -141,7 +141,7 @@ fn data(lines: &mut Lines) -> Reason<Option<String>> {
     Ok(None)
 }
 
-/// The next such line, or `missing`.
+/// The next line with data; the error `missing` at the end of the file.
 fn needed_data(lines: &mut Lines, missing: MatrixFileError) -> Reason<String> {
     data(lines)?.ok_or_else(|| lines.refuse(missing))
 }
@@ -161,7 +161,7 @@ fn read(source: &mut dyn Read) -> Reason<Triplets> {
     }
     let fits = || {
         check_order(ROWS, rows)?;
-        // An array has a line for each entry.
+        // An array file has one line for each entry.
         let entries = if header.coordinate { 0.0 } else { (rows as f64).powi(2) };
         memory::check(ROWS, rows as f64, entries * size_of::<(usize, usize, f64)>() as f64)
     };
@@ -202,7 +202,7 @@ fn header(line: &str) -> Fallible<Header> {
     Ok(Header { coordinate, symmetric })
 }
 
-/// Exactly `needed` fields.
+/// Splits a line into exactly `needed` fields.
 fn fields(line: &str, needed: usize) -> Fallible<Vec<&str>> {
     let fields: Vec<&str> = line.split_ascii_whitespace().collect();
     let found = fields.len();
@@ -221,7 +221,7 @@ fn number(field: &str) -> Fallible<f64> {
     finite(field).ok_or_else(|| not_a_number(field))
 }
 
-/// An index from 1, as one from 0.
+/// Converts an index that starts from 1 to one that starts from 0.
 fn index(field: &str, order: usize) -> Fallible<usize> {
     let index = whole_number(field)?;
     if (1..=order).contains(&index) {
@@ -283,7 +283,7 @@ fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()
     end(lines, needed)
 }
 
-/// Refuses more entries than the size line announced.
+/// Error for more entries than the size line announced.
 fn end(lines: &mut Lines, needed: usize) -> Reason<()> {
     match data(lines)? {
         Some(_) => Err(lines.refuse(MatrixFileError::Entries { found: needed + 1, needed })),

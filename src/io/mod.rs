@@ -1,6 +1,6 @@
 //! Files of other programs: meshes from Gmsh, matrices by Matrix Market, grids for ParaView.
 //!
-//! Records of ground motion are read by [`motion`](crate::motion), without this feature.
+//! The module [`motion`](crate::motion) reads records of ground motion, without this feature.
 //!
 //! | program or format | here |
 //! |---|---|

@@ -1,11 +1,11 @@
-//! Files for ParaView: a `.pvd` collection of `.vtu` grids, one pair for every frame.
+//! Files for ParaView: a `.pvd` collection of `.vtu` grids, up to two per frame.
 //!
-//! The first grid of a frame is the structure, with the vectors `displacement` (m, change against the static state,
-//! relative to the free field) and `velocity` (m/s, total) at its points: apply *Warp By Vector* to see it move. The
-//! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and `slip` (m) and
-//! `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan it is a rectangle for every element, with
-//! `shear_across` and `slip_across` (along y) and mode 7, slip in any direction. Points are (x, y, 0) in the plane, y
-//! up, and (x, y, z) in plan, z up.
+//! The first grid of a frame is the structure. Its points have the vectors `displacement` (m, change from the
+//! static state, relative to the free field) and `velocity` (m/s, total); apply *Warp By Vector* to see it
+//! move. The second grid is the base. It has one line for each contact element, with `pressure` and `shear`
+//! (Pa), `gap` and `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan
+//! it has one rectangle for each element, with `shear_across` and `slip_across` (along y) as well; mode 7 is
+//! slip in any direction. Points are (x, y, 0) in the plane, y up, and (x, y, z) in plan, z up.
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -30,14 +30,15 @@ use crate::interface::ContactState;
 use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use crate::text::file::{unwritten, write_file};
 
-/// Writes `name.pvd`, and for every frame of motion that `time series` keep a grid of the structure
-/// (`name_0000.vtu`, …) and for every frame of contact one of the base (`name_base_0000.vtu`, …),
-/// into `folder`, which is made if need be. Returns the number of grids.
+/// Writes `name.pvd` and the grids of all kept frames into `folder`; returns the number of grids.
+///
+/// Each frame of motion in `time_series` gives a grid of the structure (`name_0000.vtu`, …), each frame of
+/// contact a grid of the base (`name_base_0000.vtu`, …). The folder is made if it does not exist.
 ///
 /// # Errors
-/// [`Error::Scene`](crate::Error::Scene) if no motion was kept ([`crate::results::Recorder::motion`]) or the name is
-/// not one of letters, digits, `-` and `_`; [`Error::Index`](crate::Error::Index) if `shape` belongs to another
-/// structure; [`Error::Write`](crate::Error::Write) if a file cannot be written.
+/// [`Error::Scene`](crate::Error::Scene) if no motion was kept ([`crate::results::Recorder::motion`]) or the
+/// name contains anything but letters, digits, `-` and `_`; [`Error::Index`](crate::Error::Index) if `shape`
+/// belongs to another structure; [`Error::Write`](crate::Error::Write) if a file cannot be written.
 pub fn write_series(
     folder: impl AsRef<Path>,
     name: &str,
@@ -49,8 +50,9 @@ pub fn write_series(
     write(folder.as_ref(), name, Some(shape), time_series)
 }
 
-/// Writes `name.pvd`, and for every frame of contact that `time series` keep a grid of the base (`name_base_0000.vtu`,
-/// …), as [`write_series`] does: for structures without a [`DeformedShape`].
+/// Writes `name.pvd` and grids of the base only, for structures without a [`DeformedShape`].
+///
+/// Each frame of contact in `time_series` gives a grid (`name_base_0000.vtu`, …), as with [`write_series`].
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if no contact was kept ([`crate::results::Recorder::contact`]) or for the
@@ -153,7 +155,7 @@ pub(super) struct Grid<'a> {
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// VTK's number for a cell of this number of points (vtkCellType.h).
+/// VTK's code for a cell with this number of points (vtkCellType.h).
 fn cell_type(points: usize) -> u8 {
     match points {
         1 => 1,  // vertex

@@ -8,8 +8,10 @@ use std::f64::consts::PI;
 use crate::Soil;
 use crate::error::{Result, finite, positive};
 
-/// Settlement (m, downwards) of the surface at distance `near` (m) from a vertical line load (N/m,
-/// downwards), relative to the surface at distance `far` (m): (1−ν)P/(πμ) ln(far/near).
+/// Settlement of the surface under a vertical line load, relative to a far point, m.
+///
+/// (1−ν)P/(πμ) ln(far/near), downwards, at distance `near` (m) relative to distance `far` (m), for the line
+/// load P (N/m, downwards).
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19b.
 ///
@@ -31,8 +33,9 @@ pub fn flamant_relative_settlement(soil: Soil, load: f64, near: f64, far: f64) -
     Ok((1.0 - soil.poisson()) * load / (PI * soil.shear_modulus()) * (far / near).ln())
 }
 
-/// Horizontal displacement (m, to the right) of the surface at `x` (m) from a vertical line load
-/// (N/m, downwards): −(1−2ν)P/(4μ) sgn x, towards the load; zero under it.
+/// Horizontal displacement of the surface due to a vertical line load, m, to the right.
+///
+/// −(1−2ν)P/(4μ) sgn x at `x` (m) from the load P (N/m, downwards): towards the load, and zero under it.
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19a.
 ///
@@ -52,9 +55,10 @@ pub fn flamant_horizontal_displacement(soil: Soil, load: f64, x: f64) -> Result<
     Ok(-(1.0 - 2.0 * soil.poisson()) * load / (4.0 * soil.shear_modulus()) * sign)
 }
 
-/// Radial stress (Pa, tension positive) at `distance` r (m) and `angle` θ (rad from the downward
-/// vertical) from a vertical line load (N/m, downwards): −2P cos θ/(πr); the other components
-/// vanish.
+/// Radial stress under a vertical line load on the surface, Pa, tension positive.
+///
+/// −2P cos θ/(πr) at `distance` r (m) and `angle` θ (rad from the downward vertical), for the load P (N/m,
+/// downwards). The other components are zero.
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.15.
 ///
@@ -74,8 +78,10 @@ pub fn flamant_radial_stress(load: f64, distance: f64, angle: f64) -> Result<f64
     Ok(-2.0 * load * angle.cos() / (PI * distance))
 }
 
-/// Displacement `[u_x, u_y]` (m) at `point` (m from the load) in a full plane under a line `force`
-/// `[F_x, F_y]` (N/m), relative to its isotropic part at distance `datum` (m).
+/// Displacement `[u_x, u_y]` in a full plane under a line force, m.
+///
+/// At `point` (m from the load) under the `force` `[F_x, F_y]` (N/m), relative to the isotropic part of the
+/// displacement at distance `datum` (m).
 ///
 /// Kelvin's solution in plane strain, `u_i` = ((3−4ν) ln(datum/r) `F_i` + `r_i` (r·F)/r²)/(8πμ(1−ν)):
 /// Brebbia & Dominguez, *Boundary Elements: An Introductory Course*, 1992, ch. 3.
@@ -89,8 +95,8 @@ pub fn flamant_radial_stress(load: f64, distance: f64, angle: f64) -> Result<f64
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`](crate::Error::Input) unless all numbers are finite and the distance of the
-/// point and the datum above zero.
+/// [`Error::Input`](crate::Error::Input) unless all numbers are finite, and the distance of the point and the
+/// datum are above zero.
 pub fn kelvin_relative_displacement(
     soil: Soil,
     force: [f64; 2],
@@ -121,7 +127,7 @@ pub(super) fn carlson_rf(x: f64, y: f64, z: f64) -> f64 {
         let mean = (x + y + z) / 3.0;
         let (dx, dy) = (1.0 - x / mean, 1.0 - y / mean);
         let dz = -(dx + dy);
-        // the neglected terms are of sixth order in these
+        // neglected terms are of sixth order in these differences
         if dx.abs().max(dy.abs()).max(dz.abs()) < 1e-3 || !mean.is_finite() {
             let e2 = dx * dy - dz * dz;
             let e3 = dx * dy * dz;

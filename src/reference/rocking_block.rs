@@ -37,33 +37,33 @@ impl RockingBlock {
         Ok(Self { half_width, half_height, gravity })
     }
 
-    /// α = atan(b/h): tilt at which the centre of gravity is above the corner, rad.
+    /// Tilt α = atan(b/h) at which the centre of gravity is above the corner, rad.
     pub fn slenderness_angle(&self) -> f64 {
         self.half_width.atan2(self.half_height)
     }
 
-    /// p = √(3g/(4R)), R = √(b² + h²), 1/s: rate of the inverted pendulum.
+    /// Rate of the inverted pendulum p = √(3g/(4R)), R = √(b² + h²), 1/s.
     pub fn frequency_parameter(&self) -> f64 {
         (0.75 * self.gravity / self.half_width.hypot(self.half_height)).sqrt()
     }
 
-    /// g b/h: ground acceleration at which the block starts to rock, m/s².
+    /// Ground acceleration g b/h at which the block starts to rock, m/s².
     pub fn uplift_acceleration(&self) -> f64 {
         self.gravity * self.half_width / self.half_height
     }
 
-    /// 1 − 1.5 sin²α: angular velocity after an impact over that before it (Housner's r is its
-    /// square), from the moment of momentum about the new corner.
+    /// Ratio 1 − 1.5 sin²α of the angular velocities after and before an impact.
     ///
-    /// Negative for a block with sin²α > 2/3, which does not rock on.
+    /// It follows from the moment of momentum about the new corner. Housner's r is the square of this ratio.
+    /// It is negative for a block with sin²α > 2/3, which stops at an impact.
     pub fn restitution(&self) -> f64 {
         1.0 - 1.5 * self.slenderness_angle().sin().powi(2)
     }
 
     /// Full period of rocking from amplitude θ₀ (rad) without loss, s, for slender blocks.
     ///
-    /// T = (4/p) arcosh(1/(1 − θ₀/α)), Housner 1963, with sin(α − θ) ≈ α − θ; the time from
-    /// release to impact is a quarter of it.
+    /// T = (4/p) arcosh(1/(1 − θ₀/α)), Housner 1963, with sin(α − θ) ≈ α − θ. The time from release to impact
+    /// is a quarter of the period.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
@@ -76,9 +76,9 @@ impl RockingBlock {
 
     /// Full period of rocking from amplitude θ₀ (rad) without loss, s, for any block.
     ///
-    /// T = (4/p) (K(k) − F(φ, k)), k = cos((α − θ₀)/2), sin φ = cos(α/2)/k: the pendulum's
-    /// integral of θ″ = −p² sin(α − θ). The difference is taken as one integral
-    /// (NIST DLMF 19.11.7), so that small amplitudes keep their digits.
+    /// T = (4/p) (K(k) − F(φ, k)), k = cos((α − θ₀)/2), sin φ = cos(α/2)/k: the pendulum's integral of θ″ =
+    /// −p² sin(α − θ). The difference is computed as one integral (NIST DLMF 19.11.7), so that small
+    /// amplitudes keep their digits.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
@@ -95,7 +95,7 @@ impl RockingBlock {
 
     /// Rate of rotation (rad/s) just before the impact that follows amplitude θ₀ (rad).
     ///
-    /// p √(2 (cos(α − θ₀) − cos α)), from the energy.
+    /// p √(2 (cos(α − θ₀) − cos α)), from the conservation of energy.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
@@ -106,8 +106,9 @@ impl RockingBlock {
         Ok(self.frequency_parameter() * (2.0 * half_square).sqrt())
     }
 
-    /// Amplitude (rad) after one impact: cos(α − θ₁) = cos α + η² (cos(α − θ₀) − cos α), η the
-    /// restitution.
+    /// Amplitude θ₁ after one impact, rad.
+    ///
+    /// cos(α − θ₁) = cos α + η² (cos(α − θ₀) − cos α), with η the restitution.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
@@ -128,7 +129,8 @@ impl RockingBlock {
         Ok(2.0 * sine.asin())
     }
 
-    /// Amplitude (rad) after one impact, for slender blocks (Housner 1963):
+    /// Amplitude θ₁ after one impact, rad, for slender blocks (Housner 1963).
+    ///
     /// θ₁/α = 1 − √(1 − η² (1 − (1 − θ₀/α)²)).
     ///
     /// # Errors
@@ -142,7 +144,7 @@ impl RockingBlock {
 
     /// Times (s) of the first `count` impacts after release from amplitude θ₀ (rad).
     ///
-    /// A quarter of the period of θ₀, then half the period of each next amplitude.
+    /// A quarter of the period of θ₀, then half the period of each following amplitude.
     ///
     /// ```
     /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;

@@ -1,15 +1,15 @@
-//! Rigid block that slides on shaken rigid ground, in closed form and by integration.
+//! Rigid block that slides on shaken rigid ground, solved exactly.
 
 use crate::error::{Result, positive};
 use crate::motion::{Record, quadratic_roots_within};
 
 /// Rigid block that slides both ways on horizontally shaken rigid ground, with Coulomb friction.
 ///
-/// Newmark, "Effects of earthquakes on dams and embankments", Géotechnique 15 (1965), 139–160,
-/// with the same resistance both ways: at rest while |a| ≤ f g, sliding with
-/// v′ = −a − f g sgn v otherwise (a the ground's acceleration, v the slip velocity, static and
-/// kinetic friction f alike). For a record that is linear between samples every start and stop is
-/// the root of a linear or quadratic equation, so the solution is exact but for rounding.
+/// Newmark, "Effects of earthquakes on dams and embankments", Géotechnique 15 (1965), 139–160, with the same
+/// resistance both ways. The block is at rest while |a| ≤ f g. It slides with v′ = −a − f g sgn v otherwise.
+/// a is the ground's acceleration, v the slip velocity, and f both the static and the kinetic friction. For a
+/// record that is linear between samples, every start and stop is the root of a linear or quadratic equation,
+/// so the solution is exact up to rounding.
 ///
 /// A pulse of 2 f g for one second pushes the block back by f g (1 s)², half of it after the pulse:
 /// ```
@@ -39,12 +39,12 @@ impl SlidingBlock {
         Ok(Self { yield_acceleration })
     }
 
-    /// f g: ground acceleration that makes the block slide, m/s².
+    /// Ground acceleration f g at which the block slides, m/s².
     pub fn yield_acceleration(&self) -> f64 {
         self.yield_acceleration
     }
 
-    /// Slip under the record, and after its end until the block is at rest.
+    /// Slip during the record, and after its end until the block is at rest.
     pub fn slide(&self, record: &Record) -> SlidingHistory {
         let mut run = Run::new(self.yield_acceleration);
         let step = record.time_step();
@@ -54,13 +54,13 @@ impl SlidingBlock {
         }
         let end = record.duration();
         let stop = run.velocity.abs() / self.yield_acceleration;
-        // longer than the block needs, so that the stop falls inside
+        // longer than the block needs to stop, so that the stop falls inside the interval
         run.interval(end, end + 2.0 * stop + step, 0.0, 0.0);
         run.finish(end + 2.0 * stop + step)
     }
 }
 
-/// State while the record is run through.
+/// State while the record is processed.
 struct Run {
     yield_acceleration: f64,
     slip: f64,
@@ -85,8 +85,7 @@ impl Run {
         }
     }
 
-    /// Runs through one interval in which the ground's acceleration is `ground` + `jerk`·(t −
-    /// `start`).
+    /// Processes one interval in which the ground's acceleration is `ground` + `jerk`·(t − `start`).
     fn interval(&mut self, start: f64, end: f64, ground: f64, jerk: f64) {
         let (mut time, mut ground) = (start, ground);
         while time < end {
@@ -103,7 +102,7 @@ impl Run {
         }
     }
 
-    /// Time to the start of slip, if within `left`.
+    /// Time from rest to the start of slip, s, if within `left`.
     fn rest(&mut self, time: f64, left: f64, ground: &mut f64, jerk: f64) -> Option<f64> {
         let limit = self.yield_acceleration;
         let outward = *ground * jerk > 0.0;
@@ -116,7 +115,7 @@ impl Run {
             if jerk == 0.0 || elapsed >= left {
                 return None;
             }
-            // exactly: the slip acceleration starts from zero, and rounding must not turn it
+            // set exactly: the slip acceleration starts from zero, and rounding must not change its sign
             *ground = limit.copysign(jerk);
             elapsed
         };
@@ -125,12 +124,12 @@ impl Run {
         Some(elapsed)
     }
 
-    /// Time to the end of slip in this direction, if within `left`.
+    /// Time to the end of slip in this direction, s, if within `left`.
     fn slide(&mut self, time: f64, left: f64, ground: &mut f64, jerk: f64) -> Option<f64> {
         let acceleration = -*ground - self.direction * self.yield_acceleration;
         let outward = self.direction * acceleration > 0.0
             || (acceleration == 0.0 && self.direction * jerk < 0.0);
-        // a stop at the very end of the last interval may have been rounded past it
+        // a stop at the end of the last interval may have been rounded beyond that end
         let rounded_past = self.direction * self.velocity <= 0.0;
         if rounded_past {
             self.velocity = 0.0;
@@ -183,14 +182,14 @@ impl Run {
 /// Motion after an event, up to the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
-    /// Time at the start of the slip, s.
+    /// Time at the start of the motion, s.
     pub(super) time: f64,
-    /// Slip, slip velocity, slip acceleration and its rate at its start.
+    /// Slip (m), slip velocity, slip acceleration and its rate at the start.
     pub(super) state: [f64; 4],
 }
 
 impl Piece {
-    /// Slip and slip velocity a time `s` after the start.
+    /// Slip and slip velocity at the time `s` after the start.
     pub(super) fn after(&self, s: f64) -> [f64; 2] {
         let [slip, velocity, acceleration, jerk] = self.state;
         [
@@ -236,7 +235,7 @@ impl SlidingHistory {
         self.extremes[1]
     }
 
-    /// Largest slip to the left, m, as a number not above zero.
+    /// Largest slip to the left, m; zero or negative.
     pub fn minimum(&self) -> f64 {
         self.extremes[0]
     }

@@ -5,17 +5,16 @@ use std::f64::consts::PI;
 use crate::Soil;
 use crate::error::{Result, finite, positive, require};
 
-/// Rigid flat strip on an elastic half-plane, pressed by an eccentric load, that may lift off.
+/// Rigid flat strip on an elastic half-plane that may uplift under an eccentric load.
 ///
-/// Without friction, or sliding as a whole with Coulomb friction, so that the tractions follow
-/// from the pressure alone. The pressure is that of the inclined punch, with exponents −1/2 ± γ at
-/// its ends, tan πγ = −f (1−2ν)/(2(1−ν)), and a smooth end where the strip lifts: Muskhelishvili,
-/// *Some Basic Problems of the Mathematical Theory of Elasticity*, 1953, part VI; Johnson, *Contact
-/// Mechanics*, 1985, §2.8. The tilt is small; the settlement has no datum in two dimensions, so only
-/// the tilt is given.
+/// The strip is frictionless, or slides as a whole with Coulomb friction, so that the tractions follow from
+/// the pressure alone. The pressure is that under an inclined punch, with exponents −1/2 ± γ at its ends, tan
+/// πγ = −f (1−2ν)/(2(1−ν)), and zero pressure at an end where the strip lifts: Muskhelishvili, *Some Basic
+/// Problems of the Mathematical Theory of Elasticity*, 1953, part VI; Johnson, *Contact Mechanics*, 1985,
+/// §2.8. The tilt is small. The settlement has no datum in two dimensions, so only the tilt is returned.
 ///
-/// The load acts at an eccentricity e from the middle, positive to the right, which tilts the
-/// strip clockwise: `tilt` and moments are positive counter-clockwise, so of the sign of −e.
+/// The load acts at an eccentricity e from the middle, positive to the right, and tilts the strip clockwise.
+/// `tilt` and moments are positive counter-clockwise, so they have the sign of −e.
 ///
 /// ```
 /// use basemat::{Soil, reference::NoTensionStrip};
@@ -55,11 +54,11 @@ impl StripContact {
 impl NoTensionStrip {
     /// Strip of half width B (m) on `soil`, sliding with `friction` f.
     ///
-    /// f > 0: the strip slides to the right and drags the soil to the right with f times the
-    /// pressure; f < 0: to the left; f = 0: smooth.
+    /// f > 0: the strip slides to the right and drags the soil to the right with f times the pressure; f < 0:
+    /// to the left; f = 0: frictionless.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless B is finite and above zero and f finite.
+    /// [`Error::Input`](crate::Error::Input) unless B is finite and above zero, and f is finite.
     pub fn new(soil: Soil, half_width: f64, friction: f64) -> Result<Self> {
         positive("half width of the strip", half_width)?;
         finite("friction of the strip", friction)?;
@@ -67,16 +66,15 @@ impl NoTensionStrip {
         Ok(Self { soil, half_width, exponent: -(friction * ratio).atan() / PI })
     }
 
-    /// γ: shift of the exponents of the pressure, −1/2 + γ at the left end and −1/2 − γ at the
-    /// right.
+    /// Shift γ of the exponents of the pressure: −1/2 + γ at the left end, −1/2 − γ at the right end.
     pub fn exponent(&self) -> f64 {
         self.exponent
     }
 
     /// Contact and tilt under `load` N (N/m, downwards) at `eccentricity` e (m).
     ///
-    /// Full contact for −B(1/2 − γ) ≤ e ≤ B(1/2 + γ); with more, over a length 2(B−e)/(1/2−γ) at the
-    /// right edge (2(B+e)/(1/2+γ) at the left).
+    /// Contact is full for −B(1/2 − γ) ≤ e ≤ B(1/2 + γ). For a larger e, the contact length is 2(B−e)/(1/2−γ)
+    /// at the right edge, and 2(B+e)/(1/2+γ) at the left edge for a smaller e.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and |e| < B.
@@ -97,8 +95,9 @@ impl NoTensionStrip {
         }
     }
 
-    /// Contact pressure (Pa) at `x` (m from the middle), zero outside the contact, infinite at an
-    /// edge that stays down.
+    /// Contact pressure at `x` from the middle of the strip (m), Pa.
+    ///
+    /// It is zero outside the contact, and infinite at an edge in contact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) as for [`contact`](Self::contact), or if `x` is not finite.
@@ -124,13 +123,14 @@ impl NoTensionStrip {
         Ok(scale * (1.0 + self.slope(eccentricity) * (x - 2.0 * g * b)) * weight)
     }
 
-    /// Moment about the middle (N m/m, counter-clockwise, exerted on the strip by its load) that
-    /// gives the `tilt` (rad, counter-clockwise) under `load` N (N/m, downwards).
+    /// Moment about the middle that causes the `tilt`, N m/m, counter-clockwise, exerted by the load on the
+    /// strip.
     ///
-    /// Smooth, with θ₀ = (1−ν)N/(πμB): M/(NB) = θ/(2θ₀) up to θ₀ and 1 − θ₀/(2θ) beyond.
+    /// `tilt` in rad, counter-clockwise; the load N in N/m, downwards. Without friction, with θ₀ =
+    /// (1−ν)N/(πμB): M/(NB) = θ/(2θ₀) up to θ₀ and 1 − θ₀/(2θ) beyond.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and the tilt finite.
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero, and the tilt is finite.
     pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
         let (b, g) = (self.half_width, self.exponent);
         self.check(load, 0.0)?;
@@ -171,12 +171,12 @@ impl NoTensionStrip {
 
 /// Massless rigid strip of width 2B on an elastic half-plane: limits of its dynamic stiffness.
 ///
-/// Time factor e^(+iωt). Static: Muskhelishvili, *Some Basic Problems of the Mathematical Theory
-/// of Elasticity*, 1953, part VI (bonded punch), whose tractions oscillate with the exponent ε at
-/// the edges. High frequency: each point radiates a plane wave, force per area ρc times velocity.
-/// Low frequency: a 2-D half-plane has no static stiffness in translation, but its quadrature
-/// compliance has a limit. Dynamic tables: Luco & Westmann, "Dynamic response of a rigid footing
-/// bonded to an elastic half space", J. Appl. Mech. 39 (1972), 527–534.
+/// Time factor e^(+iωt). Static: Muskhelishvili, *Some Basic Problems of the Mathematical Theory of
+/// Elasticity*, 1953, part VI (bonded punch); its tractions oscillate with the exponent ε at the edges. High
+/// frequency: each point radiates a plane wave, with force per area ρc times velocity. Low frequency: a 2-D
+/// half-plane has no static stiffness in translation, but its quadrature compliance has a limit. Dynamic
+/// tables: Luco & Westmann, "Dynamic response of a rigid footing bonded to an elastic half space", J. Appl.
+/// Mech. 39 (1972), 527–534.
 ///
 /// ```
 /// use basemat::{Soil, reference::RigidStrip};
@@ -201,56 +201,58 @@ impl RigidStrip {
         Ok(Self { soil, half_width })
     }
 
-    /// `2Bρc_S`: high-frequency limit of the horizontal stiffness over iω, N s/m per metre.
+    /// High-frequency limit `2Bρc_S` of the horizontal stiffness over iω, N s/m per metre.
     pub fn horizontal_dashpot(&self) -> f64 {
         2.0 * self.half_width * self.soil.density() * self.soil.shear_wave_speed()
     }
 
-    /// `2Bρc_P`: high-frequency limit of the vertical stiffness over iω, N s/m per metre.
+    /// High-frequency limit `2Bρc_P` of the vertical stiffness over iω, N s/m per metre.
     pub fn vertical_dashpot(&self) -> f64 {
         2.0 * self.half_width * self.soil.density() * self.soil.pressure_wave_speed()
     }
 
-    /// `(2/3)B³ρc_P`: high-frequency limit of the rocking stiffness over iω, N m s/rad per metre.
+    /// High-frequency limit `(2/3)B³ρc_P` of the rocking stiffness over iω, N m s/rad per metre.
     pub fn rocking_dashpot(&self) -> f64 {
         self.vertical_dashpot() * self.half_width * self.half_width / 3.0
     }
 
-    /// πμB²/(2(1−ν)): static rocking stiffness of the smooth strip, N m/rad per metre.
+    /// Static rocking stiffness πμB²/(2(1−ν)) of the frictionless strip, N m/rad per metre.
     pub fn smooth_rocking_stiffness(&self) -> f64 {
         let b = self.half_width;
         PI * self.soil.shear_modulus() * b * b / (2.0 * (1.0 - self.soil.poisson()))
     }
 
-    /// ε = ln(3−4ν)/(2π): exponent of the edge oscillation of the bonded strip.
+    /// Exponent ε = ln(3−4ν)/(2π) of the edge oscillation of the bonded strip.
     pub fn oscillation_exponent(&self) -> f64 {
         (3.0 - 4.0 * self.soil.poisson()).ln() / (2.0 * PI)
     }
 
-    /// (1+4ε²) πμB²/(2(1−ν)): static rocking stiffness of the bonded strip that is free to move
-    /// horizontally (`K_rr − K_hr²/K_hh`, the inverse of the rocking compliance), N m/rad per
-    /// metre.
+    /// Static rocking stiffness of the bonded strip, N m/rad per metre.
+    ///
+    /// (1+4ε²) πμB²/(2(1−ν)) for a strip that is free to move horizontally: `K_rr − K_hr²/K_hh`, the inverse
+    /// of the rocking compliance.
     pub fn bonded_rocking_stiffness(&self) -> f64 {
         self.smooth_rocking_stiffness() * (1.0 + 4.0 * self.oscillation_exponent().powi(2))
     }
 
-    /// 2εB: static limit of `K_hr/K_hh` of the bonded strip, m, with the rotation positive
-    /// counter-clockwise.
+    /// Static limit 2εB of `K_hr/K_hh` of the bonded strip, m.
     ///
-    /// A moment without horizontal force moves the bonded strip horizontally by −2εB times its
-    /// rotation.
+    /// The rotation is positive counter-clockwise. A moment without horizontal force moves the bonded strip
+    /// horizontally by −2εB times its rotation.
     pub fn bonded_coupling_length(&self) -> f64 {
         2.0 * self.oscillation_exponent() * self.half_width
     }
 
-    /// −(1−ν)/(2μ): low-frequency limit of the imaginary part of the vertical and the horizontal
-    /// compliance, 1/Pa.
+    /// Low-frequency limit −(1−ν)/(2μ) of the imaginary part of the translational compliances, 1/Pa.
+    ///
+    /// The vertical and the horizontal compliance have the same limit.
     pub fn quadrature_compliance(&self) -> f64 {
         -(1.0 - self.soil.poisson()) / (2.0 * self.soil.shear_modulus())
     }
 
-    /// (1−ν)/(πμ): growth of the real part of the vertical and the horizontal compliance with
-    /// ln(1/ω) at low frequency, 1/Pa.
+    /// Growth (1−ν)/(πμ) of the real part of the translational compliances with ln(1/ω), 1/Pa.
+    ///
+    /// At low frequency, for the vertical and the horizontal compliance.
     pub fn logarithmic_compliance(&self) -> f64 {
         (1.0 - self.soil.poisson()) / (PI * self.soil.shear_modulus())
     }
@@ -258,12 +260,12 @@ impl RigidStrip {
 
 // Rigid strip on a bed of springs without tension.
 
-/// Rigid strip on a bed of independent springs that bear no tension.
+/// Rigid strip on a bed of independent springs that carry no tension.
 ///
-/// Elementary statics of the eccentrically loaded footing, full contact up to e = B/3; as in
-/// Psycharis & Jennings, "Rocking of slender rigid bodies allowed to uplift", Earthquake Eng.
-/// Struct. Dyn. 11 (1983), 57–76, and Chopra & Yim, "Simplified earthquake analysis of structures
-/// with foundation uplift", J. Struct. Eng. ASCE 111 (1985), 906–930.
+/// Elementary statics of the eccentrically loaded footing, with full contact up to e = B/3, as in Psycharis &
+/// Jennings, "Rocking of slender rigid bodies allowed to uplift", Earthquake Eng. Struct. Dyn. 11 (1983),
+/// 57–76, and Chopra & Yim, "Simplified earthquake analysis of structures with foundation uplift", J. Struct.
+/// Eng. ASCE 111 (1985), 906–930.
 ///
 /// ```
 /// let strip = basemat::reference::WinklerStrip::new(3.0e6, 2.0)?;
@@ -290,7 +292,7 @@ impl WinklerStrip {
         Ok(Self { stiffness, half_width })
     }
 
-    /// N/(2kB²): tilt (rad, either sense) at which an edge lifts under `load` N (N/m, downwards).
+    /// Tilt N/(2kB²) in either direction at which an edge lifts under `load` N (N/m, downwards), rad.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero.
@@ -299,13 +301,14 @@ impl WinklerStrip {
         Ok(load / (2.0 * self.stiffness * self.half_width * self.half_width))
     }
 
-    /// Moment about the middle (N m/m) at `tilt` (rad) under `load` N, both positive
-    /// counter-clockwise.
+    /// Moment about the middle at `tilt` (rad) under `load` N, N m/m.
+    ///
+    /// Tilt and moment are positive counter-clockwise.
     ///
     /// (2/3) k B³ θ in full contact, N B (1 − (2/3) √(θᵤ/θ)) beyond the uplift at θᵤ.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and the tilt finite.
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero, and the tilt is finite.
     pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
         let share = self.contact_share(load, tilt)?;
         let b = self.half_width;
@@ -318,7 +321,7 @@ impl WinklerStrip {
     /// Length of the contact (m) at `tilt` (rad) under `load` N: 2B, then 2B √(θᵤ/|θ|).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and the tilt finite.
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero, and the tilt is finite.
     pub fn contact_length(&self, load: f64, tilt: f64) -> Result<f64> {
         Ok(2.0 * self.half_width * self.contact_share(load, tilt)?)
     }

@@ -1,4 +1,4 @@
-//! Files of cases, read so that a damaged row is never taken for a whole one.
+//! Reads files of cases, and detects damaged rows.
 
 use std::path::Path;
 
@@ -7,25 +7,26 @@ use super::{Grid, LAST_COLUMNS};
 use crate::error::{CaseFileError, Result, SweepError};
 use crate::text::column::excerpt;
 
-/// Columns and rows of a file, in its order.
+/// Columns and rows of a file, in the file's order.
 pub(super) struct Content {
     pub(super) columns: Vec<String>,
     pub(super) rows: Vec<Row>,
-    /// Bytes up to the end of the last whole row.
+    /// Number of bytes up to the end of the last complete row.
     pub(super) end: u64,
 }
 
 /// Permitted endings of a file.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Ending {
-    /// End with a whole line, as of files that were written to their end.
+    /// The file ends with a complete line, as a file that was written to its end.
     Whole,
-    /// End within a line or before the first one, as the process was killed.
+    /// The file ends anywhere, as when the process was killed.
     Anywhere,
 }
 
-/// Reads a file of rows of `grid`, of those cases that are `wanted`, with the results `columns` if
-/// they are known.
+/// Reads a file with rows of `grid`, for the cases that are `wanted`.
+///
+/// `columns`: the names of the results if they are known.
 pub(super) fn read(
     path: &Path,
     grid: &Grid,
@@ -36,7 +37,7 @@ pub(super) fn read(
     let bytes = std::fs::read(path)
         .map_err(|error| SweepError::Unreadable { file: name(path), reason: error.kind() })?;
     let fault = |(line, reason)| SweepError::File { file: name(path), line, reason };
-    // A character may be cut as well as a line.
+    // The file may end within a character as well as within a line.
     let text = match std::str::from_utf8(&bytes) {
         Ok(text) => text,
         Err(error) if ending == Ending::Anywhere && error.error_len().is_none() => {
@@ -47,7 +48,7 @@ pub(super) fn read(
             return Err(fault((line, CaseFileError::NotText)).into());
         }
     };
-    // A byte-order mark is passed over.
+    // A byte-order mark is skipped.
     let rows = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mark = text.len() - rows.len();
     let records = Records::new(rows);
@@ -82,8 +83,10 @@ pub(super) fn read(
     Ok(Content { columns: heading.unwrap_or_default(), rows: found, end })
 }
 
-/// Whether a whole row begins behind a line end of `text`, which ends within a cell: then a
-/// quotation mark out of place has swallowed rows that were written, and nothing was cut there.
+/// Whether a complete row begins after a line end of `text`, which ends within a cell.
+///
+/// If so, a misplaced quotation mark joined rows that were written completely, and the file was not cut
+/// there.
 fn holds_row(text: &str, is_row: &dyn Fn(&Record) -> bool) -> bool {
     text.match_indices('\n').any(|(at, _)| {
         let next = Records::new(&text[at + 1..]).next();
@@ -91,7 +94,7 @@ fn holds_row(text: &str, is_row: &dyn Fn(&Record) -> bool) -> bool {
     })
 }
 
-/// The results' columns of a heading.
+/// The names of the results in a heading.
 fn headed(
     record: &Record,
     grid: &Grid,
@@ -100,7 +103,7 @@ fn headed(
     let own = if let Some(columns) = columns {
         columns
     } else {
-        // Those between the parameters and the last ones are the file's own.
+        // The names between the parameters and the last columns belong to the file.
         let mut own = record.cells.get(1 + grid.parameters.len()..).unwrap_or_default();
         for last in LAST_COLUMNS.iter().rev() {
             own = own.strip_suffix(&[(*last).to_owned()]).unwrap_or(own);
@@ -123,7 +126,7 @@ fn headed(
     Ok(own.to_vec())
 }
 
-/// The case of a row, with the sweep's parameters, and its results or error.
+/// The case of a row with its results or error; checks the parameters against the sweep.
 fn row(
     record: &Record,
     grid: &Grid,
@@ -144,7 +147,7 @@ fn row(
     let case = case.ok_or_else(|| (line, CaseFileError::Case { text: excerpt(text) }))?;
     for (index, (cell, needed)) in parameters.iter().zip(parameter_cells(grid, case)).enumerate() {
         let parameter = &grid.parameters[index];
-        // Numbers may have been printed by another program, but must be the same to the last bit.
+        // Another program may have printed the numbers, but they must be the same to the last bit.
         let same = match parameter.number(grid.place_of(case, index)) {
             Some(number) => parsed(cell).is_some_and(|found| found.to_bits() == number.to_bits()),
             None => *cell == needed,
@@ -190,11 +193,11 @@ pub(super) struct Record {
     /// Number of its first line, from 1.
     pub(super) line: usize,
     pub(super) cells: Vec<String>,
-    /// Bytes of the text up to its end.
+    /// Number of bytes of the text up to the end of this row.
     pub(super) end: usize,
 }
 
-/// The rows of a text, one after the other; a fault, which ends them, comes with its line.
+/// The rows of a text in order; a fault ends them and is returned with its line.
 pub(super) struct Records<'a> {
     text: &'a str,
     at: usize,
@@ -206,7 +209,7 @@ impl<'a> Records<'a> {
         Self { text, at: 0, line: 1 }
     }
 
-    /// A cell and whether the row ends behind it. Moves behind the comma or line end.
+    /// The next cell and whether it ends the row; moves past the comma or line end.
     fn cell(&mut self) -> std::result::Result<(String, bool), CaseFileError> {
         let rest = &self.text[self.at..];
         let (cell, length) = if let Some(quoted) = rest.strip_prefix('"') {
@@ -235,7 +238,8 @@ impl<'a> Records<'a> {
     }
 }
 
-/// The text up to the closing quotation mark, doubled ones made single, and its bytes with that mark.
+/// Text up to the closing quotation mark, with doubled marks made single, and its length in bytes with that
+/// mark.
 fn unquoted(text: &str) -> Option<(String, usize)> {
     let mut cell = String::new();
     let mut at = 0;

@@ -1,8 +1,8 @@
 //! Many independent simulations: sweeps over parameters, their tables, and shards of both.
 //!
-//! A [`Sweep`] runs its cases by one closure; with the feature `rayon` on all processors, without it
-//! one after the other. Results are the same bit for bit: a simulation is built, marched and dropped
-//! on one thread. An error or a panic in one case leaves the others.
+//! A [`Sweep`] runs its cases by one closure: with the feature `rayon` on all processors, without it one
+//! after the other. Results are the same bit for bit, because each simulation is built, run and dropped on
+//! one thread. An error or a panic in one case does not affect the others.
 //!
 //! ```
 //! use basemat::prelude::*;
@@ -30,9 +30,9 @@
 //! # Ok::<(), basemat::Error>(())
 //! ```
 //!
-//! Thousands of runs go to many processes: [`Sweep::shard`] takes a part of the cases,
-//! [`Sweep::table_in`] keeps its rows in a file from which a killed process goes on, and [`Sweep::merge`]
-//! puts the files of all shards together. `docs/guide.md` has a complete job array.
+//! Thousands of runs can be distributed over many processes. [`Sweep::shard`] selects a part of the cases.
+//! [`Sweep::table_in`] stores its rows in a file, from which a restarted process continues. [`Sweep::merge`]
+//! combines the files of all shards. `docs/guide.md` has a complete job array.
 
 mod file;
 mod run;
@@ -49,8 +49,7 @@ use crate::error::{Error, Result, SweepError, memory};
 
 // Parameters and the grid of cases that they span.
 
-/// Bytes of a case in tables and while files are merged: its number, and its outcome without the
-/// results.
+/// Bytes of a case in tables and while files are merged: its number, and its outcome without results.
 const BYTES_PER_CASE: f64 = 40.0;
 
 /// Cases numbered by their place in the grid, the last parameter fastest.
@@ -61,7 +60,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// All combinations.
+    /// All combinations of the parameters' values.
     pub(super) fn new(parameters: Vec<Parameter>) -> Result<Self> {
         check_names(parameters.iter().map(Parameter::name))?;
         let mut count = 1_usize;
@@ -107,17 +106,17 @@ impl Grid {
             .ok_or_else(|| self.no_name("parameter", name, &[]))
     }
 
-    /// The error of a name that neither a parameter has nor one of `columns`.
+    /// The error for a name that is neither a parameter nor one of `columns`.
     pub(super) fn no_name(&self, quantity: &'static str, name: &str, columns: &[String]) -> Error {
         let parameters = self.parameters.iter().map(Parameter::name);
         Error::no_name(quantity, name, parameters.chain(columns.iter().map(String::as_str)))
     }
 }
 
-/// Columns of a table behind the results.
+/// Columns of a table after the results.
 pub(super) const LAST_COLUMNS: [&str; 2] = ["error", "check"];
 
-/// Refuses columns without a name, and two of one name, those of every table among them.
+/// Error for a column without a name, or with a name that occurs twice or is reserved.
 pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
     let mut before = HashSet::from(LAST_COLUMNS);
     before.insert("case");
@@ -132,9 +131,9 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
     Ok(())
 }
 
-/// A parameter of a [`Sweep`]: its name and the values that it takes, numbers or texts.
+/// A parameter of a [`Sweep`]: its name and its values, numbers or texts.
 ///
-/// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its
+/// [`Sweep::grid`](Sweep::grid) checks the values. A constant of the study is a parameter with one value: its
 /// column then distinguishes the tables of different studies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
@@ -149,12 +148,12 @@ enum Values {
 }
 
 impl Parameter {
-    /// A parameter with numbers, in units that its name should give: `width_m`.
+    /// A parameter with numbers; its name should contain the unit: `width_m`.
     pub fn numbers(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
         Self { name: name.into(), values: Values::Numbers(values.into_iter().collect()) }
     }
 
-    /// A parameter with texts: names of records, say.
+    /// A parameter with texts, for example names of records.
     pub fn texts(
         name: impl Into<String>,
         values: impl IntoIterator<Item = impl Into<String>>,
@@ -181,7 +180,7 @@ impl Parameter {
         self.len() == 0
     }
 
-    /// Number at `place` of a parameter that takes numbers, if it has one there.
+    /// Number at `place`; `None` for a parameter with texts or beyond the last value.
     pub(super) fn number(&self, place: usize) -> Option<f64> {
         match &self.values {
             Values::Numbers(numbers) => numbers.get(place).copied(),
@@ -189,7 +188,7 @@ impl Parameter {
         }
     }
 
-    /// Text at `place` of a parameter that takes texts, if it has one there.
+    /// Text at `place`; `None` for a parameter with numbers or beyond the last value.
     pub(super) fn text(&self, place: usize) -> Option<&str> {
         match &self.values {
             Values::Numbers(_) => None,
@@ -197,7 +196,7 @@ impl Parameter {
         }
     }
 
-    /// Refuses no values, the same one twice, numbers that are not finite and empty texts.
+    /// Error for no values, a value twice, a number that is not finite, or an empty text.
     pub(super) fn check(&self) -> Result<()> {
         let parameter = || self.name.clone();
         if self.is_empty() {
@@ -208,7 +207,7 @@ impl Parameter {
                 if let Some(&value) = numbers.iter().find(|value| !value.is_finite()) {
                     return Err(SweepError::NotFinite { parameter: parameter(), value }.into());
                 }
-                // Both zeros are one value.
+                // Positive and negative zero are the same value.
                 let bits = |value: &f64| (value + 0.0).to_bits();
                 first_repeated(numbers, bits).map(f64::to_string)
             }
@@ -226,7 +225,7 @@ impl Parameter {
     }
 }
 
-/// The first value whose key was there before.
+/// The first value whose key has occurred before.
 fn first_repeated<'a, T, K: Hash + Eq>(values: &'a [T], key: impl Fn(&'a T) -> K) -> Option<&'a T> {
     let mut before = HashSet::new();
     values.iter().find(|value| !before.insert(key(value)))

@@ -1,4 +1,4 @@
-//! Cases run by one closure, on all processors or one after the other.
+//! Runs cases by one closure, on all processors or one after the other.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::{Grid, Parameter};
 use crate::error::{CaseError, Error, Result};
 
-/// A number of cases to run, each by the same closure.
+/// A number of cases, each run by the same closure.
 ///
 /// ```
 /// use basemat::sweep::Parameter;
@@ -52,7 +52,7 @@ short_debug! {
     stride: self.stride
 }
 
-/// Case of a [`Sweep`], while it runs.
+/// A case of a [`Sweep`] while it runs.
 #[non_exhaustive]
 pub struct SweepCase<'a> {
     /// Number of the case in the whole sweep, from 0.
@@ -67,7 +67,7 @@ impl SweepCase<'_> {
     /// Value of a parameter with numbers.
     ///
     /// # Errors
-    /// [`Error::Name`] if there is none of this name.
+    /// [`Error::Name`] if no such parameter has this name.
     pub fn value(&self, parameter: &str) -> Result<f64> {
         let number = self.grid.number(self.index, parameter);
         number.ok_or_else(|| self.grid.no_name("parameter with numbers", parameter, &[]))
@@ -76,13 +76,14 @@ impl SweepCase<'_> {
     /// Value of a parameter with texts.
     ///
     /// # Errors
-    /// [`Error::Name`] if there is none of this name.
+    /// [`Error::Name`] if no such parameter has this name.
     pub fn text(&self, parameter: &str) -> Result<&str> {
         self.grid.text(self.index, parameter)
     }
 
-    /// Place of the case's value among all of a parameter, from 0: the index into a list of records,
-    /// say.
+    /// Position of the case's value among all values of a parameter, from 0.
+    ///
+    /// Use it, for example, as the index into a list of records.
     ///
     /// # Errors
     /// [`Error::Name`] if there is no parameter of this name.
@@ -90,7 +91,7 @@ impl SweepCase<'_> {
         self.grid.place(self.index, parameter)
     }
 
-    /// Tells the sweep's progress callback which `fraction` of this case is done.
+    /// Reports to the sweep's progress callback the completed `fraction` of this case.
     pub fn report(&self, fraction: f64) {
         (self.progress)(self.index, fraction);
     }
@@ -102,13 +103,15 @@ impl<'a> Sweep<'a> {
         Self::over(Grid { parameters: Vec::new(), count })
     }
 
-    /// A sweep over all combinations of the parameters' values. Cases are numbered in the order of
-    /// the values, the last parameter fastest; without parameters there is one case.
+    /// A sweep over all combinations of the parameters' values.
+    ///
+    /// Cases are numbered in the order of the values, the last parameter fastest. Without parameters there is
+    /// one case.
     ///
     /// # Errors
-    /// [`Error::DuplicateName`] if two parameters have one name, or one is called `case`, `error` or
-    /// `check`; [`Error::Sweep`] for a parameter without a name or values, for a value that is there
-    /// twice, is not finite or an empty text; [`Error::Memory`] for more cases than a table holds.
+    /// [`Error::DuplicateName`] if two parameters have the same name, or one is called `case`, `error` or
+    /// `check`; [`Error::Sweep`] for a parameter without a name or values, and for a value that occurs twice,
+    /// is not finite or is an empty text; [`Error::Memory`] for more cases than a table holds.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
         Ok(Self::over(Grid::new(parameters.into_iter().collect())?))
     }
@@ -118,41 +121,44 @@ impl<'a> Sweep<'a> {
         Self { grid: Arc::new(grid), first: 0, stride: NonZeroUsize::MIN, progress }
     }
 
-    /// Keeps every `of`-th case only, from case `index` on: part `index` of `of` equal ones, from 0. Cases keep their
-    /// numbers. A shard may be cut into shards again.
+    /// Keeps only every `of`-th case, from case `index` on: part `index` (from 0) of `of` equal parts.
+    ///
+    /// Cases keep their numbers. A shard may be cut into shards again.
     ///
     /// # Errors
     /// [`Error::Index`] unless `index` is below `of`.
     pub fn shard(self, index: usize, of: usize) -> Result<Self> {
         let outside = Error::Index { quantity: "shard", index, bound: of };
         let of = NonZeroUsize::new(of).filter(|of| index < of.get()).ok_or(outside)?;
-        // A saturated start lies beyond the last case.
+        // A saturated start is beyond the last case.
         let first = self.first.saturating_add(self.stride.get().saturating_mul(index));
         Ok(Self { first, stride: self.stride.saturating_mul(of), ..self })
     }
 
-    /// Numbers of the cases that are run: all, or those of the shard.
+    /// Numbers of the cases that are run: all cases, or the cases of the shard.
     pub fn cases(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
         (self.first.min(self.grid.count)..self.grid.count).step_by(self.stride.get())
     }
 
-    /// Place of a case among those that are run, if it is one.
+    /// Position of a case among the cases that are run; `None` if it is not run.
     pub(super) fn place(&self, case: usize) -> Option<usize> {
         let behind = case.checked_sub(self.first).filter(|_| case < self.grid.count)?;
         (behind % self.stride == 0).then(|| behind / self.stride)
     }
 
-    /// Calls `progress` with a case's number and the fraction of it that is done: whenever the case
-    /// says so with [`SweepCase::report`], and with 1 when it ends, well or not.
+    /// Calls `progress` with a case's number and its completed fraction.
+    ///
+    /// It is called at each [`SweepCase::report`], and with 1 when the case ends, successful or not.
     #[must_use]
     pub fn on_progress(mut self, progress: impl Fn(usize, f64) + Sync + 'a) -> Self {
         self.progress = Box::new(progress);
         self
     }
 
-    /// Runs the cases and returns their results, in the order of the cases. A case that fails or
-    /// panics is a result like any other: the sweep goes on. Where panics abort the program
-    /// (`panic = "abort"`) they cannot be caught.
+    /// Runs the cases and returns their results, in the order of the cases.
+    ///
+    /// A case that fails or panics has an error as its result, and the sweep continues. If panics abort the
+    /// program (`panic = "abort"`), they cannot be caught.
     pub fn collect<T: Send, E: Send>(
         &self,
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
@@ -163,8 +169,10 @@ impl<'a> Sweep<'a> {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
-    /// Runs all cases like [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
-    /// it is there, in whatever order cases end, one at a time.
+    /// Runs all cases like [`Sweep::collect`], but passes each result to `sink` when its case ends.
+    ///
+    /// `sink` gets the number of the case and its result, one case at a time, in the order in which cases
+    /// end.
     ///
     /// # Panics
     /// If `sink` or the progress callback does.
@@ -180,8 +188,9 @@ impl<'a> Sweep<'a> {
         });
     }
 
-    /// [`Sweep::run`] for `count` cases, whose numbers `number` gives, until `sink` breaks: cases that are running then
-    /// come to it as well, no others are begun.
+    /// [`Sweep::run`] for `count` cases with the numbers `number`, until `sink` breaks.
+    ///
+    /// Cases that are running then still pass their results to `sink`; no others are started.
     pub(super) fn run_each<T: Send, E: Send>(
         &self,
         count: usize,
@@ -193,7 +202,7 @@ impl<'a> Sweep<'a> {
         for_each(count, &|place| {
             let index = number(place);
             let case = SweepCase { index, grid: &self.grid, progress: &*self.progress };
-            // A panicking case drops its own values; state that cases share is the caller's to keep sound.
+            // A panicking case drops its own values; the caller must keep state that cases share sound.
             let result = match catch_unwind(AssertUnwindSafe(|| run(&case))) {
                 Ok(result) => result.map_err(CaseError::Failed),
                 Err(payload) => Err(CaseError::panicked(payload.as_ref())),
@@ -208,7 +217,7 @@ impl<'a> Sweep<'a> {
 #[cfg(feature = "rayon")]
 fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
-    // Cases are long and few: each is a task of its own.
+    // Cases are long and few, so each is a separate task.
     let _ = (0..count).into_par_iter().with_max_len(1).try_for_each(run);
 }
 

@@ -1,4 +1,4 @@
-//! Parameters and results of cases, a row each.
+//! Parameters and results of cases, one row each.
 
 use std::fmt;
 use std::path::Path;
@@ -11,11 +11,12 @@ use crate::text::column::{Cell, number};
 use crate::text::csv::{Csv, csv_line};
 use crate::text::table::{LONGEST_LINE, Table, in_columns};
 
-/// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has
-/// none if it failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide one
-/// breaks into blocks.
+/// The results of a [`Sweep`](super::Sweep), one row for each case.
 ///
-/// Tables are equal if all their bits are; every NaN is the same.
+/// A row has the case's number, its parameters, and its results or its error. The table prints with five
+/// figures, in lines of at most 99 characters; a wide table breaks into blocks.
+///
+/// Tables are equal if all their bits are equal; every NaN counts as the same.
 #[derive(Debug, Clone)]
 pub struct CaseTable {
     pub(super) grid: Arc<Grid>,
@@ -24,7 +25,7 @@ pub struct CaseTable {
     pub(super) rows: Vec<Row>,
 }
 
-/// A case, its results or its error.
+/// A case with its results or its error.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     pub(super) case: usize,
@@ -32,7 +33,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// A row; a NaN loses its sign and payload, and an error without words gets one.
+    /// A row. A NaN loses its sign and payload; an empty error text becomes "failed".
     pub(super) fn new(case: usize, outcome: std::result::Result<Vec<f64>, String>) -> Self {
         let clean = |value: f64| if value.is_nan() { f64::NAN } else { value };
         let outcome = match outcome {
@@ -43,8 +44,7 @@ impl Row {
         Self { case, outcome }
     }
 
-    /// Check sum over all that the row says, in digits: the columns' names, and every cell by its
-    /// value.
+    /// Check sum of the columns' names and of all cells' values, as hexadecimal digits.
     pub(super) fn check(&self, grid: &Grid, columns: &[String]) -> String {
         let mut sum = CheckSum::default();
         for name in heading(grid, columns) {
@@ -59,7 +59,7 @@ impl Row {
         sum.text()
     }
 
-    /// Writes the row as a line of CSV, with its end.
+    /// Writes the row as a line of CSV, with its line end.
     pub(super) fn csv(&self, grid: &Grid, columns: &[String]) -> String {
         let mut cells = vec![self.case.to_string()];
         cells.extend(parameter_cells(grid, self.case));
@@ -94,7 +94,7 @@ impl PartialEq for CaseTable {
     }
 }
 
-/// Values of a case's parameters, printed.
+/// Values of a case's parameters, as text.
 pub(super) fn parameter_cells(grid: &Grid, case: usize) -> impl Iterator<Item = String> {
     grid.parameters.iter().enumerate().map(move |(index, parameter)| {
         let place = grid.place_of(case, index);
@@ -127,7 +127,7 @@ impl<'a> CaseRow<'a> {
     /// A result, or the value of a parameter with numbers.
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if no column of numbers is called so;
+    /// [`Error::Name`](crate::Error::Name) if no column of numbers has this name;
     /// [`SweepError::Failed`] for a result of a case that failed.
     pub fn value(&self, column: &str) -> Result<f64> {
         if let Some(number) = self.table.grid.number(self.index, column) {
@@ -148,12 +148,12 @@ impl<'a> CaseRow<'a> {
     /// Value of a parameter with texts.
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if there is none of this name.
+    /// [`Error::Name`](crate::Error::Name) if no such parameter has this name.
     pub fn text(&self, parameter: &str) -> Result<&'a str> {
         self.table.grid.text(self.index, parameter)
     }
 
-    /// Place of the case's value among all of a parameter, from 0.
+    /// Position of the case's value among all values of a parameter, from 0.
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is no parameter of this name.
@@ -176,10 +176,12 @@ impl CaseTable {
         &self.columns
     }
 
-    /// Writes the table as CSV (RFC 4180): a heading and a line for every case: `case`, the parameters, the results,
-    /// `error` and `check`, a check sum of the row without which it is not read again. Numbers have as many digits as
-    /// read back to the last bit, in the caller's units; NaN is an empty cell, infinities are `inf` and `-inf`. Of a
-    /// case that failed the results are empty and `error` is not.
+    /// Writes the table as CSV (RFC 4180): a heading, and a line for each case.
+    ///
+    /// Columns are `case`, the parameters, the results, `error` and `check`, the check sum of the row that is
+    /// needed to read it again. Numbers, in the caller's units, have enough digits to be read back to the
+    /// last bit. NaN is an empty cell, infinities are `inf` and `-inf`. A case that failed has empty results
+    /// and a text in `error`.
     pub fn csv(&self) -> Csv {
         let mut text = csv_line(&heading(&self.grid, &self.columns));
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
@@ -187,15 +189,15 @@ impl CaseTable {
     }
 }
 
-/// The path, printed.
+/// The path as text.
 pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Five figures, counts as they are; the smallest numbers, too, which need not be rounding here.
+/// Prints five figures; whole numbers in full; the smallest numbers with an exponent.
 fn figures(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 {
-        // No negative zero.
+        // Adding zero removes a negative sign of zero.
         format!("{}", value + 0.0)
     } else if value.abs() < 1e-6 {
         format!("{value:.3e}")

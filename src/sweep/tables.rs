@@ -1,4 +1,4 @@
-//! Tables of a sweep: computed, kept in a file while they are computed, merged from shards.
+//! Tables of a sweep: computed, stored in a file while they are computed, merged from shards.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -16,10 +16,10 @@ use crate::error::{CaseError, Error, Result, SweepError, same_length};
 use crate::text::csv::csv_line;
 use crate::text::file::{make_folder_of, replaced, unwritten};
 
-/// Rows by their cases, each with the file that it is from.
+/// Rows by their cases, each with the file that contains it.
 type Rows = BTreeMap<usize, (Row, PathBuf)>;
 
-/// A case's row.
+/// Row of a case from its result.
 fn row<const N: usize, E: Display>(
     case: usize,
     result: std::result::Result<[f64; N], CaseError<E>>,
@@ -28,8 +28,10 @@ fn row<const N: usize, E: Display>(
 }
 
 impl Sweep<'_> {
-    /// Runs the cases and puts their parameters and `columns` of results into a table. A case that
-    /// fails or panics is a row that says why. Units belong into the columns' names: `residual_slip_m`.
+    /// Runs the cases and returns a table of their parameters and `columns` of results.
+    ///
+    /// The row of a case that fails or panics contains its error. The columns' names should contain units:
+    /// `residual_slip_m`.
     ///
     /// ```
     /// use basemat::sweep::{Parameter, Sweep};
@@ -44,8 +46,9 @@ impl Sweep<'_> {
     /// ```
     ///
     /// # Errors
-    /// Not those of cases. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
-    /// (parameters, `case`, `error` and `check` among them) have one name, [`SweepError::Unnamed`] if one has none.
+    /// Errors of cases are not returned. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
+    /// (parameters, `case`, `error` and `check` among them) have the same name, [`SweepError::Unnamed`] if
+    /// one has no name.
     pub fn table<const N: usize, E: Display + Send>(
         &self,
         columns: [&str; N],
@@ -57,19 +60,21 @@ impl Sweep<'_> {
         Ok(self.tabled(columns, rows))
     }
 
-    /// Runs a [`Sweep::table`] that is kept in a file: a process that is killed and started again goes on where
-    /// it was, and one whose table is complete reads it back.
+    /// Runs a [`Sweep::table`] and stores its rows in a file, so that it can be restarted.
     ///
-    /// While cases run, their rows are in the file `path` with `.part` at its end; when all are
-    /// there, `path` itself is written in one piece and the other file removed. Cases with a row in either
-    /// file are not run again, failed ones included: delete the row to have a case run once more, the
-    /// files after a change of what a case computes. Two processes must not keep the same file.
+    /// A process that was killed and started again continues where it stopped; if the table is complete, it
+    /// is only read.
+    ///
+    /// While cases run, their rows are in the file `path` with `.part` at its end. When all rows are there,
+    /// `path` itself is written at once and the other file removed. Cases with a row in either file are not
+    /// run again, nor are failed cases. To run a case again, delete its row. After a change of the
+    /// computation itself, delete both files. Two processes must not use the same file.
     ///
     /// # Errors
-    /// As for [`Sweep::table`]; [`Error::Write`] if the file of rows cannot be opened,
-    /// [`SweepError::Unwritten`] with all rows computed, and no case begun after that, if a row cannot
-    /// be written; [`SweepError::File`] if a file that is there has not these columns, these values of
-    /// parameters and cases of this shard only, or if a row does not agree with its check sum.
+    /// As for [`Sweep::table`]; [`Error::Write`] if the file of rows cannot be opened.
+    /// [`SweepError::Unwritten`] if a row cannot be written: it holds all computed rows, and no further case
+    /// is started. [`SweepError::File`] if an existing file has other columns, other values of parameters or
+    /// cases outside this shard, or if a row does not agree with its check sum.
     pub fn table_in<const N: usize, E: Display + Send>(
         &self,
         path: impl AsRef<Path>,
@@ -95,7 +100,7 @@ impl Sweep<'_> {
         if !left.is_empty() {
             let open = || {
                 let mut file = OpenOptions::new().create(true).append(true).open(&part)?;
-                // The line within which a process was killed goes.
+                // The line within which a process was killed is deleted.
                 file.set_len(begun)?;
                 if begun == 0 {
                     file.write_all(csv_line(&heading(&self.grid, &columns)).as_bytes())?;
@@ -106,8 +111,7 @@ impl Sweep<'_> {
             let mut fault = None;
             self.run_each(left.len(), &|place| left[place], run, |case, result| {
                 let row = row(case, result);
-                // After a failed write nothing more is written, so that only the last line can be
-                // incomplete.
+                // After a failed write nothing more is written, so that only the last line can be incomplete.
                 if fault.is_none() {
                     fault = file.write_all(row.csv(&self.grid, &columns).as_bytes()).err();
                 }
@@ -123,27 +127,28 @@ impl Sweep<'_> {
             if let Err(fault) = replaced(path, table.csv().as_ref()) {
                 return Err(self.unwritten(path, fault.kind(), &table));
             }
-            // If it stays, its rows are those of `path`.
+            // If the file cannot be removed, it contains the same rows as `path`.
             let _ = remove_file(&part);
         }
         Ok(table)
     }
 
-    /// The error of a file that cannot be written, with the rows of `table`.
+    /// The error for a file that cannot be written, with the rows of `table`.
     fn unwritten(&self, file: &Path, reason: ErrorKind, table: &CaseTable) -> Error {
         let (file, computed) = (name(file), table.rows.len());
         let left = self.cases().len() - computed;
         SweepError::Unwritten { file, reason, computed, left, rows: table.csv().0 }.into()
     }
 
-    /// The table of all cases from the files of its shards, to the last bit the one that
-    /// [`Sweep::table`] would have made. The sweep is the one that was cut into shards.
+    /// Combines the files of all shards into the table of all cases.
+    ///
+    /// The table is equal to the last bit to the table of [`Sweep::table`]. `self` is the sweep that was cut
+    /// into shards.
     ///
     /// # Errors
-    /// [`Error::Sweep`]: [`SweepError::File`] for a file that was cut off, has other columns than the
-    /// first one, values of parameters that are not this sweep's, bit for bit, or a row that does not
-    /// agree with its check sum;
-    /// [`SweepError::Twice`] and [`SweepError::Missing`] for cases that are there twice or not at
+    /// [`Error::Sweep`]: [`SweepError::File`] for a file that was cut off, has other columns than the first
+    /// one or other values of parameters than this sweep, bit for bit, or has a row that does not agree with
+    /// its check sum; [`SweepError::Twice`] and [`SweepError::Missing`] for cases that occur twice or not at
     /// all; [`SweepError::Unreadable`].
     pub fn merge(&self, paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<CaseTable> {
         let (mut rows, mut columns, mut files) = (Rows::new(), None, 0);
@@ -163,12 +168,14 @@ impl Sweep<'_> {
         Ok(self.tabled(columns, rows.into_values().map(|(row, _)| row).collect()))
     }
 
-    /// Table of cases that another program ran: `columns` of results, and for each of
-    /// [`Sweep::cases`] its results or the text of its error.
+    /// Table of cases that another program ran.
+    ///
+    /// `columns` are the names of the results. `outcomes` has for each case of [`Sweep::cases`] its results
+    /// or the text of its error.
     ///
     /// # Errors
-    /// [`Error::Size`] for a number of outcomes that is not that of the cases, and for one of results
-    /// that is not that of the columns; those of [`Sweep::table`].
+    /// [`Error::Size`] if the number of outcomes differs from the number of cases, or the number of results
+    /// from the number of columns; the errors of [`Sweep::table`].
     pub fn tabulate<S: AsRef<str>>(
         &self,
         columns: &[S],
@@ -184,7 +191,7 @@ impl Sweep<'_> {
         Ok(self.tabled(columns, rows.collect()))
     }
 
-    /// The columns' names, if they may stand beside the parameters'.
+    /// The columns' names, checked together with the parameters' names.
     fn named<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
         let own = || columns.iter().map(AsRef::as_ref);
         check_names(self.grid.parameters.iter().map(Parameter::name).chain(own()))?;
@@ -196,8 +203,10 @@ impl Sweep<'_> {
         CaseTable { grid: self.grid.clone(), columns, rows }
     }
 
-    /// Adds the rows of a file. One that is there already may come again in a file that was left
-    /// behind, [`Ending::Anywhere`].
+    /// Adds the rows of a file to `rows`.
+    ///
+    /// With [`Ending::Anywhere`], a row that is already there may occur again, in a file that was not
+    /// removed.
     fn gather(
         &self,
         rows: &mut Rows,
@@ -225,17 +234,18 @@ impl Sweep<'_> {
     }
 }
 
-/// Most missing shards that are named; beyond, cases are.
+/// Largest number of missing shards that an error lists; above, it lists cases.
 const MOST_SHARDS: usize = 256;
 
-/// The shards `[index, of]` whose cases are exactly the missing ones of `count`, if `files` others are
-/// there.
+/// The shards `[index, of]` whose cases are exactly the missing cases of `count`.
+///
+/// `files` is the number of other shards that are there.
 fn missing_shards(missing: &[usize], count: usize, files: usize) -> Vec<[usize; 2]> {
     if files == 0 {
         return Vec::new();
     }
     for of in files + 1..=(files + missing.len().min(MOST_SHARDS)).min(count) {
-        // Cases of a shard: count / of, or one more.
+        // Number of cases of a shard: count / of, or one more.
         let (shards, least) = (of - files, count / of);
         if !(shards * least..=shards * (least + 1)).contains(&missing.len()) {
             continue;
@@ -289,7 +299,7 @@ mod tests {
         let mut two = [shard(0, 4), shard(3, 4)].concat();
         two.sort_unstable();
         assert_eq!(missing_shards(&two, 10, 2), [[0, 4], [3, 4]]);
-        // A case more, a case less, and none there.
+        // One case more, one case less, and no files.
         assert!(missing_shards(&[1, 2, 5, 9], 10, 3).is_empty());
         assert!(missing_shards(&[1, 5], 10, 3).is_empty());
         assert!(missing_shards(&(0..10).collect::<Vec<_>>(), 10, 0).is_empty());

@@ -1,4 +1,4 @@
-//! Lines of text files of bounded length, for all readers.
+//! Lines of limited length from text files, for all readers.
 
 use std::borrow::Cow;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
@@ -7,20 +7,20 @@ use crate::error::RecordError;
 #[cfg(feature = "io")]
 use crate::error::{MatrixFileError, MeshFileError};
 
-/// Longest line, bytes: a file without line ends must not fill the memory.
+/// Longest line, bytes, so that a file without line ends does not fill the memory.
 const LONGEST: u64 = 65_536;
 /// UTF-8's byte-order mark.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Why a line could not be read.
+/// Reason why a line could not be read.
 pub(crate) enum Unread {
     /// The source failed.
     Failed(ErrorKind),
-    /// A line of more than this number of bytes.
+    /// The line has more than this number of bytes.
     TooLong(usize),
 }
 
-/// The lines of a text, one at a time; a byte-order mark before the first is passed over.
+/// The lines of a text, one at a time; a byte-order mark before the first line is skipped.
 pub(crate) struct Lines<R> {
     source: BufReader<R>,
     bytes: Vec<u8>,
@@ -33,7 +33,7 @@ impl<R: Read> Lines<R> {
         Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
     }
 
-    /// Goes to the next line; `false` at the end of the source. A failure comes with the line's number.
+    /// Goes to the next line; `false` at the end of the source. An error includes the line's number.
     pub(crate) fn advance<E: From<Unread>>(&mut self) -> Result<bool, (usize, E)> {
         let there = self.read().map_err(|unread| (self.number + 1, unread.into()))?;
         self.number += usize::from(there);
@@ -54,23 +54,23 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// The next line without white space at its ends, or none at the end of the source.
+    /// The next line without white space at its ends; `None` at the end of the source.
     pub(crate) fn next<E: From<Unread>>(&mut self) -> Result<Option<String>, (usize, E)> {
         Ok(self.next_columns()?.map(|line| line.trim_start().to_owned()))
     }
 
-    /// The next line with the white space at its beginning.
+    /// The next line, including the white space at its beginning; `None` at the end of the source.
     pub(crate) fn next_columns<E: From<Unread>>(&mut self) -> Result<Option<String>, (usize, E)> {
         Ok(self.advance()?.then(|| self.text().trim_end().to_owned()))
     }
 
-    /// The error for the present line.
+    /// An error with the number of the present line.
     pub(crate) fn refuse<E>(&self, reason: E) -> (usize, E) {
         (self.number, reason)
     }
 
-    /// The present line with its end. Bytes that are not UTF-8 become signs that are no number; in
-    /// comments they do not matter.
+    /// The present line with its line end. Bytes that are not UTF-8 become characters that no number
+    /// contains; in comments they do not matter.
     pub(crate) fn text(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(&self.bytes)
     }

@@ -1,7 +1,8 @@
-//! The check sum of all files: coefficients, checkpoints, rows of sweeps.
+//! The check sum of all files: convolution weights, checkpoints, rows of sweeps.
 
-/// A check sum of words: a change within one word always changes it, any other damage all but
-/// surely (FNV-1a over words of 64 bits, rotated after each).
+/// A check sum of 64-bit words (FNV-1a, rotated after each word).
+///
+/// A change within one word always changes the sum; any other damage changes it almost certainly.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CheckSum(u64);
 
@@ -20,7 +21,7 @@ impl CheckSum {
         self.add(number.to_bits());
     }
 
-    /// The length of a list and its entries, so that no entry can move to the next list.
+    /// Adds the length of a list and its entries, so that no entry can move to the next list.
     pub(crate) fn add_list(&mut self, words: impl ExactSizeIterator<Item = u64>) {
         self.add(words.len() as u64);
         words.for_each(|word| self.add(word));

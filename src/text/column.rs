@@ -1,11 +1,12 @@
-//! Names of columns and numbers in cells: the one rule for all files.
+//! Names of columns and numbers in cells, by the same rule for all files.
 
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fmt::Write;
 
-/// Name of the column of a quantity: its name in `snake_case`, then its unit spelled out
-/// (`_n_per_m`, `_m_per_s2`, `_rad`), nothing for a ratio.
+/// Name of a quantity's column: its name in `snake_case`, then its unit in words.
+///
+/// Units are, for example, `_n_per_m`, `_m_per_s2`, `_rad`; a ratio has no unit.
 pub(crate) fn column(name: &str, unit: &str) -> String {
     let mut text = snake(name);
     if text.is_empty() {
@@ -19,8 +20,9 @@ pub(crate) fn column(name: &str, unit: &str) -> String {
     text
 }
 
-/// `columns` made different from each other and from `taken`: of equal ones the second ends in `_2`,
-/// the third in `_3`.
+/// Makes `columns` different from each other and from `taken`.
+///
+/// Of equal names the second ends in `_2`, the third in `_3`.
 pub(crate) fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
     let mut known: BTreeSet<String> = taken.iter().cloned().collect();
     let mut rename = |column: String| {
@@ -33,14 +35,14 @@ pub(crate) fn distinct(taken: &[String], columns: impl Iterator<Item = String>) 
     columns.map(&mut rename).collect()
 }
 
-/// Letters and digits in lower case, an underscore for anything between.
+/// Letters and digits in lower case, with an underscore for all characters between them.
 fn snake(text: &str) -> String {
     let words = text.split(|sign: char| !sign.is_alphanumeric());
     let words = words.filter(|word| !word.is_empty()).map(str::to_lowercase);
     words.collect::<Vec<_>>().join("_")
 }
 
-/// A unit with its signs as words.
+/// A unit with its symbols as words.
 fn spelled(unit: &str) -> String {
     let mut text = String::new();
     for sign in unit.chars() {
@@ -60,14 +62,15 @@ fn spelled(unit: &str) -> String {
     text
 }
 
-/// A number in a cell: the shortest decimal that reads back as the same, nothing for NaN, `inf` and
-/// `-inf`.
+/// A number in a cell: the shortest decimal that reads back as the same number.
+///
+/// NaN is an empty cell, infinities are `inf` and `-inf`.
 #[derive(Clone, Copy)]
 pub(crate) struct Cell(pub(crate) f64);
 
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // The debug format has an exponent where that is shorter.
+        // The debug format uses an exponent where it is shorter.
         if self.0.is_nan() { Ok(()) } else { write!(f, "{:?}", self.0) }
     }
 }
@@ -84,10 +87,13 @@ pub(crate) fn line<T: fmt::Display>(cells: impl IntoIterator<Item = T>) -> Strin
     text
 }
 
-// Decimal numbers in text files, the one place that says what counts as a number, and numbers as engineers read them.
+// Decimal numbers in text files (this defines which text counts as a number), and numbers as engineers read
+// them.
 
-/// The finite number that all of `text` is, with the exponent of C or of Fortran: `1.5`, `-2E+3`,
-/// `.5D-2`. No other text is one: no unit behind it, no decimal comma, no `inf`.
+/// The finite number that the whole of `text` is; `None` for any other text.
+///
+/// The exponent may have the form of C or Fortran: `1.5`, `-2E+3`, `.5D-2`. A unit after the number, a
+/// decimal comma and `inf` are not accepted.
 pub(crate) fn finite(text: &str) -> Option<f64> {
     let known = |sign: u8| sign.is_ascii_digit() || b"+-.eEdD".contains(&sign);
     if !text.bytes().all(known) {
@@ -100,8 +106,10 @@ pub(crate) fn finite(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The number in a field of Fortran's `kPFw.d`: without a decimal point, the last `decimals` digits
-/// are behind one; without an exponent, 10ᵏ times the value is printed.
+/// The number in a field of Fortran's format `kPFw.d`.
+///
+/// Without a decimal point, the last `decimals` digits are after the point. Without an exponent, 10ᵏ times
+/// the value is printed.
 pub(crate) fn in_field(text: &str, decimals: u16, scale: u16) -> Option<f64> {
     let (digits, exponent) = match text.find(['e', 'E', 'd', 'D']) {
         Some(at) => (&text[..at], Some(text[at + 1..].parse::<i32>().ok()?)),
@@ -115,12 +123,12 @@ pub(crate) fn in_field(text: &str, decimals: u16, scale: u16) -> Option<f64> {
     }
 }
 
-/// Whether a field leaves its decimal point to the format.
+/// Whether a field has no decimal point, so that the format defines it.
 pub(crate) fn has_implied_point(text: &str) -> bool {
     !text.contains('.')
 }
 
-/// The first 40 characters, for errors; those that do not show are written as `\u{feff}`.
+/// The first 40 characters, for errors; invisible characters are escaped, as in `\u{feff}`.
 pub(crate) fn excerpt(text: &str) -> String {
     let hidden =
         |sign: char| sign.is_control() || matches!(sign, '\u{feff}' | '\u{200b}'..='\u{200f}');
@@ -132,7 +140,7 @@ pub(crate) fn excerpt(text: &str) -> String {
 
 // Numbers as engineers read them.
 
-/// Factor from an SI unit to the one that is printed for it, and that; others stay.
+/// Factor from an SI unit to the printed unit, and the printed unit; other units are unchanged.
 pub(crate) fn printed(unit: &str) -> (f64, &str) {
     match unit {
         "m" => (1e3, "mm"),
@@ -143,15 +151,15 @@ pub(crate) fn printed(unit: &str) -> (f64, &str) {
     }
 }
 
-/// A unit per metre of thickness, which in plan is that of the whole body.
+/// Converts a unit per metre of thickness to the unit of the whole body in plan.
 pub(crate) fn of_body(unit: &str, in_plan: bool) -> &str {
     unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
 }
 
-/// Limit, in units of engineers, below which a number counts as rounding.
+/// Limit, in printed units, below which a number counts as rounding.
 const NOTHING: f64 = 1e-9;
 
-/// Five figures, no exponents where they can be helped; no negative zero.
+/// Prints five figures, with an exponent only for very small or large numbers, and no negative zero.
 pub(crate) fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude < NOTHING {

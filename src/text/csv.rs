@@ -8,8 +8,9 @@ use std::path::Path;
 use crate::error::Result;
 use crate::text::file::write_file;
 
-/// Text of a CSV file (RFC 4180): a heading and a line for every row. It is a `str`, to be searched, printed or
-/// written to any writer.
+/// Text of a CSV file (RFC 4180): a heading, and a line for each row.
+///
+/// It dereferences to `str`, for searching, printing or writing to any writer.
 ///
 /// ```
 /// use basemat::motion::Record;
@@ -24,11 +25,12 @@ use crate::text::file::write_file;
 pub struct Csv(pub(crate) String);
 
 impl Csv {
-    /// Saves the text as a file; its folder is made if it is not there. The file is there with all its lines or as it
-    /// was before: it is written under another name and renamed.
+    /// Saves the text as a file; its folder is made if it does not exist.
+    ///
+    /// The file is written under another name and renamed, so it is either complete or unchanged.
     ///
     /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if that fails.
+    /// [`Error::Write`](crate::Error::Write) if the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         write_file(path.as_ref(), self)
     }
@@ -54,7 +56,7 @@ impl fmt::Display for Csv {
     }
 }
 
-/// A cell as CSV has it (RFC 4180): in quotes where it needs them.
+/// A cell of CSV (RFC 4180), in quotation marks if it needs them.
 pub(crate) fn csv_cell(cell: &str) -> Cow<'_, str> {
     if cell.contains([',', '"', '\n', '\r']) {
         Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
@@ -63,7 +65,7 @@ pub(crate) fn csv_cell(cell: &str) -> Cow<'_, str> {
     }
 }
 
-/// Cells as a line of CSV, with its end.
+/// Cells as a line of CSV, with its line end.
 pub(crate) fn csv_line(cells: &[String]) -> String {
     cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
 }

@@ -1,4 +1,4 @@
-//! Files that are written whole or left as they were.
+//! Writes files completely, or leaves them unchanged.
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
@@ -6,19 +6,19 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// [`Error::Write`] of `path`.
+/// Makes the [`Error::Write`] of `path`.
 pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
     move |error| Error::Write { file: path.display().to_string(), reason: error.kind() }
 }
 
-/// Replaces a file by one with this content, or leaves it as it was.
+/// Replaces a file by one with this content; if that fails, the file is unchanged.
 pub(crate) fn replaced(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    // A link stays one; a pipe or a terminal is written to.
+    // A symbolic link stays a link; to a pipe or a terminal the content is written directly.
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     if path.exists() && !path.is_file() {
         return std::fs::write(&path, content);
     }
-    // The hash of nothing, under keys that are random: two processes must not share the name.
+    // The hash of no data with random keys: two processes must not use the same name.
     let mark = RandomState::new().build_hasher().finish();
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(format!(".{mark:016x}.tmp"));
@@ -38,7 +38,7 @@ pub(crate) fn make_folder_of(path: &Path) -> Result<()> {
     path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(unwritten(path))
 }
 
-/// [`replaced`], in a folder that is made if it is not there.
+/// Writes a file by [`replaced`], and makes its folder if it does not exist.
 pub(crate) fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
     make_folder_of(path)?;
     replaced(path, content.as_ref()).map_err(unwritten(path))

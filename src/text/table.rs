@@ -7,7 +7,7 @@ fn one_line(cell: &str) -> String {
     cell.replace(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'), " ")
 }
 
-/// A cell that is longer than its column ends in `…`.
+/// A cell that is longer than its column is cut, and ends in `…`.
 fn cut(cell: String, width: usize) -> String {
     if cell.chars().nth(width).is_none() {
         return cell;
@@ -15,12 +15,13 @@ fn cut(cell: String, width: usize) -> String {
     cell.chars().take(width.saturating_sub(1)).chain(['…']).collect()
 }
 
-/// Characters of a line, at most: below 100.
+/// Largest number of characters of a line: below 100.
 pub(crate) const LONGEST_LINE: usize = 99;
-/// Characters of the first column and of others that are repeated, at most, in a table that breaks.
+/// Largest width of the first column, and of other repeated columns, in a table that breaks into blocks,
+/// characters.
 const WIDEST_NAME: usize = 47;
 const WIDEST_REPEATED: usize = 20;
-/// Blanks between columns.
+/// Number of blanks between columns.
 const GAP: usize = 2;
 
 /// A heading and rows of cells; the first column holds names.
@@ -32,8 +33,9 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Columns aligned with spaces, names to the left and the rest to the right. A table that is
-    /// wider than a line breaks into blocks, and cells that are too long for them end in `…`.
+    /// The table with columns aligned by spaces, names to the left and other columns to the right.
+    ///
+    /// A table that is wider than a line breaks into blocks; cells that are too long are cut, and end in `…`.
     pub(crate) fn text(&self) -> String {
         let columns = self.heading.len();
         let width = |column: usize| {
@@ -108,11 +110,12 @@ impl Table {
 
 // Text broken into lines.
 
-/// Stands for the rest of a text that was cut.
+/// Replaces the rest of a text that was cut.
 const CUT: char = '…';
 
-/// The text in lines of at most the `width` `room`, between words where that can be; what needs more
-/// than `most` lines is cut, and ends in "…".
+/// The text in lines of at most the `width` `room`, broken between words where possible.
+///
+/// A text that needs more than `most` lines is cut, and ends in "…".
 pub(crate) fn wrapped(
     text: &str,
     room: f64,
@@ -124,7 +127,7 @@ pub(crate) fn wrapped(
     'all: for word in text.split_whitespace() {
         let mut line = lines.len() - 1;
         if !lines[line].is_empty() {
-            // The last line takes of the word what it can.
+            // The last line takes as much of the word as fits.
             let fits = width(&format!("{} {word}", lines[line])) <= room;
             if fits || lines.len() == most {
                 lines[line].push(' ');
@@ -204,7 +207,7 @@ mod tests {
         let table = Table { heading: cells('é'), repeated: 2, rows: vec![cells('1'), cells('2')] };
         let text = table.text();
         let longest = text.lines().map(|line| line.chars().count()).max();
-        // Cells of 98 and 200 characters are cut to those left beside the names.
+        // Cells of 98 and 200 characters are cut to the room left by the names.
         assert_eq!(longest, Some(LONGEST_LINE));
         let columns = |block: &str| block.lines().nth(2).unwrap().split("  ").count();
         let blocks: Vec<_> = text.split("\n\n").collect();
@@ -213,7 +216,7 @@ mod tests {
             blocks.iter().all(|block| block.lines().nth(3).unwrap().starts_with("222  2222  2"))
         );
         assert_eq!(text.matches('…').count(), 6);
-        // One character more than a line breaks.
+        // A table one character wider than a line breaks into blocks.
         let table = |width: usize| {
             let row = vec!["a".repeat(width), "b".repeat(49)];
             Table { heading: row.clone(), repeated: 1, rows: vec![row] }.text()

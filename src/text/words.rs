@@ -1,10 +1,12 @@
-//! Words for choices, as settings files and command lines have them: `slip_left`, `auto`.
+//! Words for choices in settings files and command lines: `slip_left`, `auto`.
 
 use crate::error::Error;
 use crate::text::column::{excerpt, finite};
 
-/// `Display`, `FromStr` and the list `ALL`, as visible as said, of an enum without fields: each variant and its word.
-/// Read are upper and lower case, and spaces or hyphens in place of underscores.
+/// Implements `Display`, `FromStr` and the list `ALL` (with the given visibility) for an enum without fields.
+///
+/// The macro lists each variant and its word. Reading accepts upper and lower case, and spaces or hyphens in
+/// place of underscores.
 macro_rules! words {
     ($all:vis $type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
         impl $type {
@@ -39,7 +41,7 @@ macro_rules! words {
     };
 }
 
-/// Table of words for an enum of which some variants have one number, in brackets behind the word: `reduced(1e-6)`.
+/// Implements words for an enum of which some variants have one number, in brackets: `reduced(1e-6)`.
 macro_rules! words_with_numbers {
     (
         $(#[$doc:meta])*
@@ -82,17 +84,17 @@ macro_rules! words_with_numbers {
     };
 }
 
-/// Converts to lower case, without blanks around, with underscores for spaces and hyphens.
+/// Converts to lower case without surrounding blanks, with underscores for spaces and hyphens.
 pub(crate) fn plain(text: &str) -> String {
     text.trim().to_lowercase().replace([' ', '-'], "_")
 }
 
-/// Error of a word that does not exist.
+/// Error for a word that is not known.
 pub(crate) fn unknown(quantity: &'static str, text: &str, known: &'static [&'static str]) -> Error {
     Error::Word { quantity, text: excerpt(text), known }
 }
 
-/// A word and the number that may stand in brackets behind it: `reduced(1e-6)`.
+/// Splits a word from the number that may follow it in brackets: `reduced(1e-6)`.
 pub(crate) fn with_number(text: &str) -> Option<(String, Option<f64>)> {
     match text.trim().strip_suffix(')') {
         None => Some((plain(text), None)),
@@ -103,7 +105,7 @@ pub(crate) fn with_number(text: &str) -> Option<(String, Option<f64>)> {
     }
 }
 
-/// A number in brackets.
+/// A number that may follow a word in brackets.
 pub(crate) trait Bracketed: Sized {
     fn read(number: f64) -> Option<Self>;
     fn shown(&self) -> String;
@@ -134,8 +136,10 @@ impl Bracketed for usize {
 
 // Forms of values in serde's formats.
 
-/// `Deserialize` through a constructor, so that only values come in that it accepts: a struct of
-/// the fields as they are written, and the type made of them. The type has `serde(try_from)`.
+/// Implements `Deserialize` through a constructor, which checks the values.
+///
+/// It defines a struct of the fields as they are stored, and the conversion to the type, which has
+/// `serde(try_from)`.
 macro_rules! validated {
     ($type:ident as $form:ident {
         $($(#[$attribute:meta])* $field:ident: $kind:ty),+ $(,)?
@@ -159,8 +163,8 @@ macro_rules! validated {
     };
 }
 
-/// A number that need not be finite: in formats that people read, NaN is null and infinities are the
-/// texts "inf" and "-inf".
+/// A number that need not be finite. In human-readable formats NaN is null, and infinities are the texts
+/// "inf" and "-inf".
 #[cfg(feature = "serde")]
 pub(crate) mod number {
     use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
@@ -258,12 +262,12 @@ pub(crate) mod seconds {
     }
 }
 
-// Traits of parts that are made of another part of the same kind.
+// Traits of parts that contain another part of the same kind.
 
-/// Methods that a part implements by calling those of another one: `forward! { place; signatures }`, the place
-/// and the signatures as they would stand in the `impl` block.
+/// Implements methods of a part by calling the same methods of another part.
 ///
-/// `tests/plugin/forwarding` finds any method that a list of signatures has forgotten.
+/// `forward! { place; signatures }` takes the place and the signatures as they would stand in the `impl`
+/// block. `tests/plugin/forwarding` finds any method that a list of signatures omits.
 macro_rules! forward {
     ($to:expr;) => {};
     (
@@ -288,9 +292,9 @@ macro_rules! forward {
     };
 }
 
-// `Debug` for what is too large to be shown whole, or has parts that cannot be shown.
+// `Debug` for values that are too large to be shown in full, or have parts that cannot be shown.
 
-/// A short `Debug`: `short_debug! { Name; self; field: value }`, values made of `self`.
+/// Implements a short `Debug`: `short_debug! { Name; self; field: value }`; values may use `self`.
 macro_rules! short_debug {
     ($name:ident $(<$life:lifetime>)?; $own:ident; $($field:ident: $value:expr),* $(,)?) => {
         impl std::fmt::Debug for $name $(<$life>)? {

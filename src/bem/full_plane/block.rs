@@ -5,7 +5,7 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
+/// Number of frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
 
 /// A series of coefficients between one input and one output.
@@ -17,7 +17,7 @@ pub(super) struct Link {
     pub(super) sign: f64,
 }
 
-/// Scratch of the transforms of all levels.
+/// Workspace of the transforms of all levels.
 #[derive(Default)]
 pub(super) struct Work {
     real: Vec<f64>,
@@ -27,7 +27,7 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// Scratch for the blocks of `level` with `inputs` channels, and for smaller ones.
+    /// Allocates for the blocks of `level` with `inputs` channels, and for smaller ones.
     pub(super) fn grow(&mut self, level: &Level, inputs: usize) {
         let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
         let zero = Complex::default();
@@ -43,12 +43,12 @@ pub(super) struct Level {
     size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Per series, b + 1 frequencies; empty where all coefficients are zero.
+    /// For each series, b + 1 frequencies; empty where all coefficients are zero.
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
 impl Level {
-    /// Blocks of `size`; `series` reach over 2b lags at least or are empty.
+    /// Level with blocks of `size`; each of the `series` has at least 2b lags or is empty.
     pub(super) fn new(
         size: usize,
         series: &[Vec<f64>],
@@ -74,7 +74,7 @@ impl Level {
         level
     }
 
-    /// Transform of `real`, which is overwritten as well.
+    /// Transforms `real`, which is overwritten as well.
     fn transform(
         &self,
         real: &mut [f64],
@@ -82,12 +82,12 @@ impl Level {
         scratch: &mut [Complex<f64>],
     ) {
         let scratch = &mut scratch[..self.forward.get_scratch_len()];
-        // All lengths are the plan's own, so there is nothing that could fail.
+        // All lengths come from the plan, so the transform cannot fail.
         let done = self.forward.process_with_scratch(real, spectrum, scratch);
         debug_assert!(done.is_ok());
     }
 
-    /// Adds what the last b inputs before `now` give to the b outputs from there on; rows of
+    /// Adds the effect of the last b inputs before `now` to the b outputs from `now` on; rows have length
     /// `stride`.
     pub(super) fn apply(
         &self,
@@ -125,7 +125,7 @@ impl Level {
         let scale = 1.0 / (2 * size) as f64;
         let spectra = work.outputs.chunks_exact_mut(bins);
         for (row, spectrum) in outputs.chunks_exact_mut(stride).zip(spectra) {
-            // Real up to rounding, and the inverse transform insists on it.
+            // These values are real up to rounding; the inverse transform requires exactly real values.
             (spectrum[0].im, spectrum[size].im) = (0.0, 0.0);
             let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
             let done = self.inverse.process_with_scratch(spectrum, real, scratch);

@@ -1,4 +1,4 @@
-//! The boundary of the soil: its elements, contact ones and traction-free ones, and pairs of them.
+//! The boundary of the soil: its contact elements, its traction-free elements, and pairs of elements.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use crate::error::{Error, MemoryError, Result, finite, memory, positive, require
 use crate::geometry::{ContactLayout, PLANE, check_order};
 use crate::linalg::DenseFactor;
 
-/// A polygonal boundary of the soil, with the elements on which the structure stands.
+/// A polygonal boundary of the soil, with the contact elements under the structure.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -27,8 +27,10 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// Flat surface z = 0: strips from left to right, `free` traction-free elements on either side,
-    /// as long as the mean element of the strip beside them, and gaps between strips filled.
+    /// Flat surface z = 0 with strips from left to right and free elements around them.
+    ///
+    /// `free` is the number of traction-free elements on either side. They are as long as the mean element of
+    /// the adjacent strip. Gaps between strips are filled with such elements.
     ///
     /// # Errors
     /// [`Error::Size`] for no strips, [`Error::Input`] for strips out of order or too many elements.
@@ -69,13 +71,14 @@ impl Boundary {
         Self::new(segments, &contact)
     }
 
-    /// Any boundary: `contact` are the indices of the elements under the structure, from left to
-    /// right; they must be horizontal with the soil below. All others are free of traction.
+    /// Any boundary; `contact` holds the indices of the elements under the structure, from left to right.
+    ///
+    /// Contact elements must be horizontal with the soil below. All others are free of traction.
     ///
     /// # Errors
-    /// [`Error::Size`] for no elements, [`Error::Index`] for an index out of range,
-    /// [`Error::Input`] for elements without length, one that passes through the midpoint of
-    /// another, or contact elements that are not horizontal or out of order.
+    /// [`Error::Size`] for no elements, [`Error::Index`] for an index out of range, [`Error::Input`] for an
+    /// element without length, an element that passes through the midpoint of another, or contact elements
+    /// that are not horizontal or out of order.
     pub fn new(segments: Vec<Segment>, contact: &[usize]) -> Result<Self> {
         check_segments(&segments)?;
         let mut elements = Vec::with_capacity(contact.len());
@@ -124,8 +127,9 @@ impl Boundary {
         })
     }
 
-    /// Factor of the coefficients `h`, and displacements of all elements by the coefficients `g` of unit tractions on
-    /// the contact elements: 2Q columns of 2E.
+    /// Factor of `h`, and displacements of all elements due to unit tractions on the contact elements.
+    ///
+    /// `g` and `h` are the coefficients. The displacements are 2Q columns of length 2E.
     ///
     /// # Errors
     /// [`Error::Singular`].
@@ -145,7 +149,7 @@ impl Boundary {
         Ok((factor, mobility))
     }
 
-    /// Overwrites `matrix` (2Q × 2Q) with the rows of the contact elements in their `mobility`.
+    /// Overwrites `matrix` (2Q × 2Q) with the rows of the contact elements in `mobility`.
     pub(super) fn compliance(&self, mobility: &[f64], matrix: &mut [f64]) {
         let width = self.places().count();
         for (k, column) in mobility.chunks_exact(self.layout().len()).enumerate() {
@@ -170,8 +174,10 @@ impl Boundary {
 
 // Straight boundary elements.
 
-/// A straight boundary element, with the soil on the right-hand side of the way from `from` to
-/// `to` as seen with x to the right and z **down** (on a flat surface: from left to right).
+/// A straight boundary element.
+///
+/// The soil is on the right-hand side when moving from `from` to `to`, seen with x to the right and z
+/// **down** (on a flat surface: from left to right).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// First end, (x, z), m.
@@ -186,7 +192,7 @@ impl Segment {
         (self.to[0] - self.from[0]).hypot(self.to[1] - self.from[1])
     }
 
-    /// Midpoint (x, z), m: where the boundary equation is collocated.
+    /// Midpoint (x, z), m: the collocation point of the boundary equation.
     pub fn center(&self) -> [f64; 2] {
         [0.5 * (self.from[0] + self.to[0]), 0.5 * (self.from[1] + self.to[1])]
     }
@@ -215,13 +221,13 @@ impl Segment {
 /// Bytes for each pair of elements: eight dense operators of 2 × 2 numbers.
 const BYTES_PER_PAIR: f64 = 256.0;
 
-/// Error for so many elements that the operators between them would not fit into memory.
+/// Error if the operators between so many elements would not fit into memory.
 pub(super) fn check_count(count: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
     memory::check("boundary elements", count, BYTES_PER_PAIR * count * count)
 }
 
-/// Error unless there are elements, all have length, and none passes through a midpoint of another.
+/// Error unless there are elements, all have length, and none passes through the midpoint of another.
 pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     if segments.is_empty() {
         return Err(Error::Size { quantity: "list of boundary elements", found: 0, needed: 1 });
@@ -244,22 +250,25 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     Ok(())
 }
 
-// Pairs of elements that see each other in the same way, each kind once.
+// Pairs of elements with the same relative position; each class is stored once.
 
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
 pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
 
-/// Classes of pairs of midpoint and element that are translations of each other; for horizontal elements
-/// also mirror images.
+/// Classes of pairs of midpoint and element that are translations of each other.
+///
+/// For horizontal elements also mirror images belong to the same class.
 #[derive(Debug, Clone)]
 pub(super) struct PairClasses {
     /// Representative (receiver, source) of each class.
     pub(super) classes: Vec<(usize, usize)>,
-    /// Per class, how its element looks from the midpoint: which of `views`.
+    /// For each class, the index of its view in `views`.
     view_of: Vec<usize>,
-    /// Ends along the element and height: on a circle E of them for E² classes.
+    /// Ends along the element and height, as seen from the midpoint; on a circle there are E views for E²
+    /// classes.
     views: Vec<([f64; 2], f64)>,
-    /// Receiver by receiver: class, and whether the mirror image is meant: xz and zx change sign.
+    /// For each receiver and source: the class, and whether the pair is its mirror image (xz and zx change
+    /// sign).
     pub(super) pairs: Vec<(usize, bool)>,
 }
 
@@ -267,7 +276,7 @@ impl PairClasses {
     pub(super) fn new(segments: &[Segment]) -> Self {
         let far = |s: &Segment| s.from.iter().chain(&s.to).fold(0.0_f64, |m, x| m.max(x.abs()));
         let span = segments.iter().map(far).fold(f64::MIN_POSITIVE, f64::max);
-        // Rounding of the nodes must not split a class: 1e-12 of the boundary is nothing.
+        // Rounding of the nodes must not split a class: 1e-12 of the boundary's size is negligible.
         #[allow(clippy::cast_possible_truncation, reason = "at most 2e12")]
         let key = |length: f64| (length / span * 1e12).round() as i64;
         let mut numbers = HashMap::new();
@@ -303,8 +312,10 @@ impl PairClasses {
         Self { classes, view_of, views, pairs }
     }
 
-    /// Overwrites G and H with what `local` says of each class in the axes (d, n) of the source,
-    /// given its ends along d and its height along n as seen from the receiver's midpoint.
+    /// Overwrites G and H with the blocks of all classes.
+    ///
+    /// `local` returns the block of a class in the axes (d, n) of the source. Its arguments are the source's
+    /// ends along d and its height along n, relative to the receiver's midpoint.
     pub(super) fn fill(
         &self,
         segments: &[Segment],
@@ -343,7 +354,7 @@ impl PairClasses {
     }
 }
 
-/// Ends along the element's direction and height along its normal, as seen from `point`.
+/// Ends along the element's direction and height along its normal, relative to `point`.
 pub(super) fn view(point: [f64; 2], element: &Segment, itself: bool) -> ([f64; 2], f64) {
     let half = 0.5 * element.length();
     if itself {
@@ -353,7 +364,7 @@ pub(super) fn view(point: [f64; 2], element: &Segment, itself: bool) -> ([f64; 2
     let offset = [y[0] - point[0], y[1] - point[1]];
     let along = offset[0] * d[0] + offset[1] * d[1];
     let height = offset[0] * n[0] + offset[1] * n[1];
-    // Points on the element's line are so but for rounding.
+    // Up to rounding, points on the element's line have height zero.
     let size = offset[0].hypot(offset[1]);
     let height = if height.abs() < 1e-13 * size { 0.0 } else { height };
     ([along - half, along + half], height)

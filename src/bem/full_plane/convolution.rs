@@ -1,10 +1,10 @@
 //! Effect of all past displacements and tractions of a boundary at the end of the next step.
 //!
-//! Relaxed blocked convolution, exact to rounding (Hairer, Lubich & Schlichte 1985, SIAM J. Sci.
-//! Stat. Comput. 6, 532–541), as in [`crate::history::RelaxedFftHistory`]: pairs of input and
-//! output within a leaf of 64 steps are summed as they are; after i steps, i a multiple of the
-//! leaf, what the last b inputs give at the next b outputs is one convolution of length 2b by
-//! transforms, b being the leaf times the largest power of two with which b divides i.
+//! Relaxed blocked convolution, exact to rounding (Hairer, Lubich & Schlichte 1985, SIAM J. Sci. Stat.
+//! Comput. 6, 532–541), as in [`crate::history::RelaxedFftHistory`]. Pairs of input and output within a leaf
+//! of 64 steps are summed directly. After i steps, with i a multiple of the leaf, the effect of the last b
+//! inputs on the next b outputs is one convolution of length 2b, computed by transforms. b is the leaf times
+//! the largest power of two for which b divides i.
 
 use super::block::{Level, Link, Work};
 use super::boundary::PairClasses;
@@ -17,36 +17,36 @@ use realfft::RealFftPlanner;
 /// Steps that are summed directly before the smallest block is transformed.
 const LEAF: usize = 64;
 
-/// Longest hint that is followed at once; beyond, memory grows as steps come in.
+/// Largest hint for which memory is allocated at once; above, memory grows with the steps.
 const LONGEST_HINT: usize = 1 << 17;
-/// Bytes that hinted steps may take.
+/// Largest memory for hinted steps, bytes.
 const MOST_HINTED: usize = 1 << 30;
 
-/// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, coefficients once per class of pairs.
+/// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, with coefficients stored once per class of pairs.
 ///
 /// Inputs are 4E numbers per step: u, then t.
 pub(super) struct BoundaryHistory {
     kernel: Box<dyn BoundaryKernel>,
     pairs: PairClasses,
     links: Vec<Link>,
-    /// Per class, matrix and component: coefficients of the lags below [`LEAF`]; empty if zero.
+    /// For each class, matrix and component: coefficients of the lags below [`LEAF`]; empty if zero.
     near: Vec<Vec<f64>>,
     levels: Vec<Level>,
     planner: RealFftPlanner<f64>,
     work: Work,
     /// 4E rows of `capacity`.
     inputs: Vec<f64>,
-    /// 2E rows of `capacity`: outputs as far as known.
+    /// 2E rows of `capacity`: outputs, with the contributions so far.
     outputs: Vec<f64>,
-    /// Steps for which there are rows and levels: the leaf times a power of two.
+    /// Number of steps for which rows and levels are allocated: the leaf times a power of two.
     capacity: usize,
     steps: usize,
-    /// Whether the last input still has to be worked in.
+    /// Whether the contribution of the last input is still missing.
     pending: bool,
 }
 
 impl BoundaryHistory {
-    /// Empty history; `loaded` says which tractions (2E) may differ from zero.
+    /// Empty history; `loaded` marks the tractions (2E) that may differ from zero.
     pub(super) fn new(kernel: Box<dyn BoundaryKernel>, loaded: &[bool]) -> Self {
         let pairs = PairClasses::new(kernel.segments());
         Self {
@@ -69,7 +69,8 @@ impl BoundaryHistory {
         ContactLayout::new(PLANE, self.kernel.segments().len()).len()
     }
 
-    /// Coefficients of all series for the lags below `lags`, that of lag 0 (no history) left out.
+    /// Coefficients of all series for the lags below `lags`, without lag 0, which belongs to the present
+    /// step.
     fn series(&self, lags: usize) -> Result<Vec<Vec<f64>>> {
         let size = self.size();
         let count = size / 2;
@@ -82,7 +83,7 @@ impl BoundaryHistory {
                     for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                         let value = matrix[(i * count + p) * size + j * count + q];
                         let list = &mut series[8 * class + 4 * k + 2 * i + j];
-                        // Many series stay zero for ever, on flat boundaries half of them.
+                        // Many series are zero at all lags, on flat boundaries half of them.
                         if value != 0.0 || !list.is_empty() {
                             list.resize(lag, 0.0);
                             list.push(value);
@@ -97,7 +98,7 @@ impl BoundaryHistory {
         Ok(series)
     }
 
-    /// Makes ready for at least `steps` steps. Nothing is changed on an error.
+    /// Allocates and computes all that `steps` steps need. Nothing is changed on an error.
     fn grow(&mut self, steps: usize) -> Result<()> {
         if steps <= self.capacity {
             return Ok(());
@@ -130,8 +131,9 @@ impl BoundaryHistory {
         Ok(())
     }
 
-    /// Makes ready for `steps` further steps, 131 072 and 1 GiB at most: a larger hint may stand for a
-    /// run without end.
+    /// Allocates for `steps` further steps, up to 131 072 steps and 1 GiB.
+    ///
+    /// The hint is limited because a larger one may stand for a run without end.
     pub(super) fn reserve(&mut self, steps: usize) -> Result<()> {
         // Eight series for each class of pairs, their values and spectra, and inputs and outputs.
         let step = 192 * self.pairs.classes.len() + 24 * self.size();
@@ -139,7 +141,7 @@ impl BoundaryHistory {
         self.grow(self.steps.saturating_add(steps.min(most)))
     }
 
-    /// Works the last input in, so that the next output is complete.
+    /// Adds the contribution of the last input, so that the next output is complete.
     fn settle(&mut self) {
         let (now, stride) = (self.steps, self.capacity);
         let last = now - 1;
@@ -185,8 +187,9 @@ impl BoundaryHistory {
         Ok(())
     }
 
-    /// Accepts the displacements and tractions (2E each) at the end of the step; to be called once
-    /// after each evaluation.
+    /// Accepts the displacements and tractions (2E each) at the end of the step.
+    ///
+    /// Call this once after each evaluation.
     pub(super) fn push(&mut self, displacement: &[f64], traction: &[f64]) {
         let values = displacement.iter().chain(traction);
         for (row, value) in self.inputs.chunks_exact_mut(self.capacity.max(1)).zip(values) {
@@ -196,7 +199,7 @@ impl BoundaryHistory {
         self.pending = true;
     }
 
-    /// Steps accepted.
+    /// Number of steps accepted.
     pub(super) fn steps(&self) -> usize {
         self.steps
     }
@@ -225,7 +228,7 @@ fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
     links
 }
 
-// A full-plane ground between two steps.
+// State of a full-plane ground between two steps.
 
 /// Convolutions and operators for one time step.
 pub(super) struct Prepared {
@@ -235,14 +238,15 @@ pub(super) struct Prepared {
     factor: DenseFactor,
     /// G⁰, where an incident field loads the boundary.
     first: Vec<f64>,
-    /// Displacement of every element per contact traction: 2Q columns of 2E.
+    /// Displacement of every element due to a unit traction on each contact component: 2Q columns of length
+    /// 2E.
     pub(super) mobility: Vec<f64>,
-    /// Displacements at the end of the next step without tractions of that step on the contact.
+    /// Displacements at the end of the next step if the contact tractions of that step are zero.
     pub(super) free: Vec<f64>,
     /// Whether `free` belongs to the next step.
     current: bool,
     pub(super) displacement: Vec<f64>,
-    /// Tractions that the incident field leaves for the scattered one to take away.
+    /// Tractions that cancel the tractions of the incident field, applied by the scattered field.
     scattering: Vec<f64>,
     traction: Vec<f64>,
 }
@@ -276,7 +280,7 @@ impl Prepared {
         })
     }
 
-    /// Makes `free` the one of the next step.
+    /// Computes `free` for the next step.
     pub(super) fn advance(
         &mut self,
         boundary: &Boundary,
@@ -329,7 +333,7 @@ mod tests {
     use crate::Soil;
     use crate::bem::full_plane::{Segment, TimeKernel};
 
-    /// Transforms against the sum as it is, over several sizes of blocks and without a hint.
+    /// Compares transforms with the direct sum, over several sizes of blocks and without a hint.
     #[test]
     fn blocks_equal_the_direct_sum() {
         let soil = Soil::new(1.0, 0.3, 1.0).unwrap();

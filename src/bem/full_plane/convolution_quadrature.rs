@@ -1,18 +1,17 @@
 //! Convolution quadrature of the boundary equation [Lubich 1988].
 //!
-//! With the generating function δ(ζ) of a backward-differentiation formula, the coefficients of
-//! a transformed operator K(s) are those of the power series K(δ(ζ)/Δt) = Σ ωₙ ζⁿ. Early lags come
-//! from Cauchy's integral over |ζ| = λ by an FFT of L points,
+//! With the generating function δ(ζ) of a backward-differentiation formula, the coefficients of a transformed
+//! operator K(s) are the coefficients of the power series K(δ(ζ)/Δt) = Σ ωₙ ζⁿ. Early lags follow from
+//! Cauchy's integral over |ζ| = λ by an FFT of L points,
 //!
 //! ```text
 //! ωₙ = λ^{−n}/L Σ_l K(δ(λ e^{2πil/L})/Δt) e^{−2πiln/L} − Σ_{j≥1} λ^{jL} ω_{n+jL} ,
 //! ```
 //!
-//! where the second sum, the trapezoidal rule's alias, is known: L is chosen so that all lags
-//! beyond it are late ones in the closed form of [`super::laplace_element`]. So λ need not be small
-//! (λ^L = 1/100 here instead of the usual √ε^…), at most two digits are lost to rounding, and the
-//! number of frequencies, L/2 + 1 by symmetry, depends on how long waves cross the boundary and
-//! not on how long the march is.
+//! where the second sum, the alias of the trapezoidal rule, is known: L is chosen so that all later lags are
+//! late lags, with the closed form of [`super::laplace_element`]. So λ need not be small (λ^L = 1/100 here
+//! instead of the usual √ε^…), and rounding loses at most two digits. The number of frequencies, L/2 + 1 by
+//! symmetry, depends on the travel time of waves across the boundary, and not on the number of steps.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -31,13 +30,13 @@ use super::{BoundaryKernel, Segment};
 
 /// The full-plane boundary equation by convolution quadrature.
 ///
-/// Coefficients multiply **point values**: Σ ω_{N−m} f(mΔt) approximates the convolution at NΔt at
-/// the method's order for smooth f that starts smoothly from rest, where a time-domain kernel
-/// takes values as held over whole steps. For n well beyond the waves' travel time, ωₙ is Δt times
-/// the impulse response at nΔt up to the relative order n⁻² (BDF2) or n⁻¹ (BDF1).
+/// Coefficients multiply **point values**. Σ ω_{N−m} f(mΔt) approximates the convolution at NΔt at the
+/// method's order, for smooth f that starts smoothly from rest; a time-domain kernel instead assumes values
+/// constant over each step. For nΔt well above the waves' travel time, ωₙ is Δt times the impulse response at
+/// nΔt up to the relative order n⁻² (BDF2) or n⁻¹ (BDF1).
 ///
-/// Early coefficients are good to about 1e-13 of the largest one; late ones to as many relative
-/// digits, at any lag.
+/// Early coefficients have an error of about 1e-13 of the largest one; late coefficients have this relative
+/// error at any lag.
 ///
 /// ```
 /// use basemat::Soil;
@@ -65,7 +64,7 @@ pub struct ConvolutionQuadrature {
     segments: Vec<Segment>,
     time_step: f64,
     method: CqMethod,
-    /// Different views of an element from a midpoint, and which one each pair (i, j) is.
+    /// Different views of an element from a midpoint, and the index of the view of each pair (i, j).
     views: Vec<View>,
     view_of: Vec<usize>,
     /// Closed form of the late lags of each view, for distances up to ρ c₂ Δt.
@@ -79,11 +78,11 @@ pub struct ConvolutionQuadrature {
 impl ConvolutionQuadrature {
     /// The equation on `segments` with steps of `time_step` seconds.
     ///
-    /// Costs L/2 + 1 evaluations of the Laplace-domain matrices, L about three times the steps
-    /// that an S wave needs across the boundary; pairs that look alike are evaluated once.
+    /// Costs L/2 + 1 evaluations of the Laplace-domain matrices. L is about three times the number of steps
+    /// in which an S wave crosses the boundary. Pairs with the same view are evaluated once.
     ///
     /// # Errors
-    /// [`Error::Input`] for a step or an element's length that is not finite and above zero, or
+    /// [`Error::Input`] for a time step or an element's length that is not finite and above zero, or for
     /// coordinates that are not finite; [`Error::Size`] without elements.
     pub fn new(soil: Soil, segments: &[Segment], time_step: f64, method: CqMethod) -> Result<Self> {
         positive("time step", time_step)?;
@@ -109,17 +108,17 @@ impl ConvolutionQuadrature {
         Ok(kernel)
     }
 
-    /// The formula.
+    /// The backward-differentiation formula.
     pub fn method(&self) -> CqMethod {
         self.method
     }
 
-    /// Step, s.
+    /// Time step, s.
     pub fn time_step(&self) -> f64 {
         self.time_step
     }
 
-    /// Number of lags from Lubich's contour; later ones are in closed form.
+    /// Number of lags from Lubich's contour; later lags have a closed form.
     pub fn contour_lags(&self) -> usize {
         self.lags
     }
@@ -137,7 +136,7 @@ impl ConvolutionQuadrature {
         })
     }
 
-    /// Early lags by Cauchy's integral, alias taken away.
+    /// Early lags by Cauchy's integral, with the alias subtracted.
     fn contour(&self) -> Vec<[f64; 8]> {
         let (lags, count) = (self.lags, self.views.len());
         let points = lags as f64;
@@ -148,7 +147,7 @@ impl ConvolutionQuadrature {
             let zeta = Complex64::from_polar(radius, TAU * l as f64 / points);
             for (view, block) in self.blocks(zeta).enumerate() {
                 for (k, value) in block.iter().enumerate() {
-                    // The inverse transform has the other sign in its exponent.
+                    // The inverse transform has the opposite sign in its exponent.
                     spectra[(8 * view + k) * frequencies + l] = value.conj();
                 }
             }
@@ -163,7 +162,7 @@ impl ConvolutionQuadrature {
             }
             spectrum[0].im = 0.0;
             spectrum[frequencies - 1].im = 0.0;
-            // Lengths are those of the plan.
+            // All lengths come from the plan.
             if inverse.process_with_scratch(spectrum, &mut series, &mut scratch).is_err() {
                 continue;
             }
@@ -208,20 +207,20 @@ impl ConvolutionQuadrature {
 /// λ^L.
 const CONTOUR: f64 = 0.01;
 
-/// Alias terms: λ^{jL}/(jL) beyond is below rounding.
+/// Number of alias terms; λ^{jL}/(jL) of further terms is below rounding.
 const ALIASES: usize = 7;
 
 /// Largest number of steps across the boundary: more would need too much memory.
 const LARGEST_RHO: f64 = 1e5;
 
-/// Different views among all pairs, up to rounding, and which one each pair (row, column) is.
+/// Different views among all pairs, up to rounding, and the index of the view of each pair (row, column).
 fn views(segments: &[Segment]) -> (Vec<View>, Vec<usize>) {
     let extent = segments
         .iter()
         .flat_map(|segment| [segment.from, segment.to])
         .flat_map(|[x, z]| [x - segments[0].from[0], z - segments[0].from[1]])
         .fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    // Offsets that agree to so many units in the last place are equal.
+    // Offsets that agree within 1e-12 of the boundary's extent count as equal.
     let grid = 1e-12 * extent;
     let mut known = HashMap::new();
     let mut views = vec![];
@@ -246,7 +245,7 @@ fn views(segments: &[Segment]) -> (Vec<View>, Vec<usize>) {
     (views, view_of)
 }
 
-/// Writes the blocks of all pairs into matrices whose entries hold `width` numbers.
+/// Writes the blocks of all pairs into matrices with `width` numbers per entry.
 fn scatter<const WIDTH: usize>(
     count: usize,
     view_of: &[usize],

@@ -1,4 +1,4 @@
-//! The paper's soil as a ground.
+//! The soil of Patel & Spyrakos as a ground.
 
 use std::cell::Cell;
 
@@ -12,30 +12,29 @@ use crate::history::RESERVED_STEPS;
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// Makes the coefficients for a boundary and a time step.
+/// Computes the kernel for a boundary and a time step.
 type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send;
 
-/// The soil of Patel & Spyrakos: full-plane boundary elements, the free surface beside the base
-/// discretised.
+/// The soil of Patel & Spyrakos by full-plane boundary elements.
 ///
-/// In every step the displacements of the traction-free elements are eliminated from
-/// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The step
-/// compliance is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
-/// no free surface and is always stable, this ground serves for comparison with the paper and for
-/// boundaries that are not flat.
+/// The free surface on both sides of the base is discretised. In every step the displacements of the
+/// traction-free elements are eliminated from H⁰ u = G⁰ t + history (eqs. 17–18, 21); the contact elements
+/// remain. The step compliance is not symmetric. [`ElasticGround`](crate::bem::ElasticGround) needs no free
+/// surface and is always stable. This ground serves for comparison with the paper and for boundaries that are
+/// not flat.
 ///
-/// Displacements are those at the midpoints of the contact elements. Runs on this ground cannot be
-/// saved as a [`Checkpoint`](crate::coupled::Checkpoint).
+/// Displacements refer to the midpoints of the contact elements. Runs on this ground cannot be saved as a
+/// [`Checkpoint`](crate::coupled::Checkpoint).
 ///
 /// # Stability
 ///
-/// The scheme is not stable for every step: see [the module](super). [`Ground::prepare`], which the
-/// builder of a simulation calls, assesses the discrete operator for this boundary, step and kernel
-/// with the base uplifted and bonded, and ends with [`Error::Unstable`] if perturbations grow by
-/// more than 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of
-/// a thousand factorisations of complex matrices of order 2E, ten times that if modes grow: with
-/// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is computed once per step
-/// size, and [`FullPlaneGround::skip_assessment`] saves it.
+/// The scheme is not stable for every step: see [the module](super). The builder of a simulation calls
+/// [`Ground::prepare`], which assesses the discrete operator for this boundary, step and kernel, with the
+/// base uplifted and with the base bonded. It returns [`Error::Unstable`] if perturbations grow by more than
+/// 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of a thousand
+/// factorisations of complex matrices of order 2E, and ten times that time if modes grow: with the 20
+/// elements of the paper 0.2 s, and up to 2 s (release build). It is computed once per step size.
+/// [`FullPlaneGround::skip_assessment`] skips it.
 ///
 /// ```
 /// use basemat::{Soil, bem::{Ground, full_plane::FullPlaneGround}};
@@ -58,11 +57,11 @@ pub struct FullPlaneGround {
     make_kernel: Box<MakeKernel>,
     incident: Option<Box<dyn IncidentField>>,
     assessment: Assessment,
-    /// Growth per step that is searched for.
+    /// Smallest growth per step that the assessment searches for.
     smallest_growth: f64,
-    /// The assessment, and the time step that it is for.
+    /// The last assessment, and its time step.
     stability: Option<(f64, GroundStability)>,
-    /// Whether the scene moves the ground beside its incident field.
+    /// Whether the scene's motion is not at rest although there is an incident field.
     conflict: Cell<bool>,
     prepared: Option<Prepared>,
 }
@@ -76,20 +75,22 @@ short_debug! {
     prepared: self.prepared.is_some(),
 }
 
-/// Assessment before the march.
+/// Treatment of stability before the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Assessment {
     /// Growth is an error.
     Required,
-    /// Growth is reported.
+    /// Growth is stored in the assessment.
     Reported,
     /// Stability is not assessed.
     Skipped,
 }
 
 impl FullPlaneGround {
-    /// Ground of one strip over `range` (m) of `count` equal elements on a flat surface, with `free`
-    /// traction-free elements of the same length on either side (the paper has 5).
+    /// Ground of one strip of equal elements on a flat surface.
+    ///
+    /// The strip has `count` elements over `range` (m), and `free` traction-free elements of the same length
+    /// on either side (the paper has 5).
     ///
     /// # Errors
     /// As for [`Strip::new`] and [`Boundary::flat`].
@@ -103,8 +104,10 @@ impl FullPlaneGround {
         Ok(Self::new(soil, boundary))
     }
 
-    /// Any boundary. One that is not flat needs [`FullPlaneGround::with_incident_field`] before it
-    /// can be prepared: it scatters the ground motion.
+    /// Ground with any boundary.
+    ///
+    /// If the boundary is not flat, call [`FullPlaneGround::with_incident_field`] first: the boundary
+    /// scatters the ground motion.
     pub fn new(soil: Soil, boundary: Boundary) -> Self {
         let make_kernel = Box::new(|segments: &[Segment], soil, time_step| {
             Ok(Box::new(TimeKernel::new(soil, segments, time_step)?) as Box<dyn BoundaryKernel>)
@@ -123,9 +126,11 @@ impl FullPlaneGround {
         }
     }
 
-    /// Replaces the coefficients of [`TimeKernel`]: `make` is called with the elements, the soil
-    /// and the time step once that is known. The soil being homogeneous, coefficients may depend on
-    /// where two elements are to each other only: one pair of each kind is asked for.
+    /// Replaces the coefficients of [`TimeKernel`].
+    ///
+    /// `make` is called with the elements, the soil and the time step when the step is known. The soil is
+    /// homogeneous, so coefficients may depend only on the relative position of two elements. They are
+    /// computed for one pair of each kind.
     #[must_use]
     pub fn with_kernel(
         mut self,
@@ -136,22 +141,23 @@ impl FullPlaneGround {
         self
     }
 
-    /// Marches even if perturbations grow; how fast is in [`FullPlaneGround::stability`] all the same.
+    /// Permits runs in which perturbations grow; [`FullPlaneGround::stability`] still holds the growth.
     #[must_use]
     pub fn allow_growth(mut self) -> Self {
         self.assessment = Assessment::Reported;
         self
     }
 
-    /// Leaves out the assessment of stability, where its cost counts and its result is known.
+    /// Skips the assessment of stability, if its cost matters and its result is known.
     #[must_use]
     pub fn skip_assessment(mut self) -> Self {
         self.assessment = Assessment::Skipped;
         self
     }
 
-    /// Looks for growth beyond 1/`steps` per step instead of 1e-4: what grows slower than that
-    /// grows less than e-fold in so many steps. Counts as 2 below, and as 10⁷ above these limits.
+    /// Searches for growth beyond 1/`steps` per step instead of 1e-4.
+    ///
+    /// Slower growth is less than e-fold in so many steps. `steps` is limited to the range 2 to 10⁷.
     #[must_use]
     pub fn with_expected_steps(mut self, steps: usize) -> Self {
         self.smallest_growth = 1.0 / steps.clamp(2, 10_000_000) as f64;
@@ -159,8 +165,9 @@ impl FullPlaneGround {
         self
     }
 
-    /// Stability as [`Ground::prepare`] would find it for steps of `time_step` seconds: growth is no error
-    /// here. Preparing for the same step then does not assess again.
+    /// Assesses stability for steps of `time_step` seconds; growth is not an error here.
+    ///
+    /// [`Ground::prepare`] for the same step then does not assess again.
     ///
     /// ```
     /// use basemat::{Error, Soil, bem::{Ground, full_plane::FullPlaneGround}};
@@ -178,14 +185,15 @@ impl FullPlaneGround {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Stability::assess`](super::Stability::assess) and of the kernel.
+    /// The errors of [`Stability::assess`](super::Stability::assess) and of the kernel.
     pub fn assess(&mut self, time_step: f64) -> Result<&GroundStability> {
         let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
         self.assess_kernel(kernel.as_ref(), time_step)
     }
 
-    /// Growth of the march that the last assessment found, see [`Ground::prepare`]; `None` before
-    /// it, and where it was skipped. From a simulation by way of
+    /// Growth found by the last assessment, see [`Ground::prepare`].
+    ///
+    /// `None` before the assessment, and if it was skipped. From a simulation, use
     /// [`Simulation::ground`](crate::Simulation::ground).
     pub fn stability(&self) -> Option<&GroundStability> {
         self.stability.as_ref().map(|(_, found)| found)
@@ -203,8 +211,8 @@ impl FullPlaneGround {
         Ok(&self.stability.insert((time_step, found)).1)
     }
 
-    /// Adds waves from below, which the boundary scatters (eq. 21). They take the place of the
-    /// scene's ground motion, which must then be at rest.
+    /// Adds waves from below, which the boundary scatters (eq. 21). They replace the scene's ground motion,
+    /// which must then be at rest.
     #[must_use]
     pub fn with_incident_field(mut self, field: impl IncidentField + 'static) -> Self {
         self.incident = Some(Box::new(field));
@@ -221,8 +229,9 @@ impl FullPlaneGround {
         &self.boundary
     }
 
-    /// Displacements (2E, m; x first, then z down) of all elements at the end of the last step,
-    /// against the incident field; empty before [`Ground::prepare`].
+    /// Displacements of all elements at the end of the last step (2E, m; x first, then z down).
+    ///
+    /// They are relative to the incident field, and empty before [`Ground::prepare`].
     pub fn displacement(&self) -> &[f64] {
         self.prepared.as_ref().map_or(&[], |prepared| &prepared.displacement)
     }
@@ -233,7 +242,7 @@ impl Ground for FullPlaneGround {
         self.boundary.contact_elements()
     }
 
-    /// Assesses the march first, see [`FullPlaneGround`]; a ground that grows is not prepared.
+    /// Assesses stability first, see [`FullPlaneGround`]; a ground with growth is not prepared.
     fn prepare(&mut self, time_step: f64) -> Result<()> {
         self.prepared = None;
         if self.incident.is_none() && !self.boundary.is_flat() {
@@ -300,15 +309,17 @@ impl Ground for FullPlaneGround {
 
     fn commit(&mut self, traction: &[f64]) {
         if let Some(prepared) = &mut self.prepared {
-            // After a failure here, the next history fails in the same way.
+            // If this fails, the next history fails in the same way.
             if prepared.advance(&self.boundary, self.incident.as_deref()).is_ok() {
                 prepared.commit(&self.boundary, traction);
             }
         }
     }
 
-    /// Overwrites `matrix` with the static compliance: on a flat boundary that of the half-plane, whose free surface
-    /// has no end; otherwise from the static limit of the same boundary equation (not symmetric).
+    /// Overwrites `matrix` with the static compliance.
+    ///
+    /// A flat boundary has the compliance of the half-plane, whose free surface is infinite. Another boundary
+    /// has the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
         let size = ContactLayout::new(PLANE, elements.len()).square();
@@ -320,8 +331,9 @@ impl Ground for FullPlaneGround {
         static_compliance(self.soil, &self.boundary, datum, matrix)
     }
 
-    /// The incident field at the midpoints, if there is one; the scene's own motion otherwise.
-    /// Both at once are an error: the values are not finite, and the next history is an error.
+    /// The incident field at the midpoints if there is one; otherwise the scene's motion.
+    ///
+    /// Both together are an error: the values are then not finite, and the next history returns an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
         let [down, along] = ContactLayout::new(PLANE, contact.len()).split_mut(displacement);

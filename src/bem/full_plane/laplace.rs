@@ -9,8 +9,8 @@
 //! * 2πρ rψ' = −z₂K₁(z₂)/c₂² − 2πρ χ
 //! * 2πρ rχ' = −4πρ χ − z₂K₁(z₂)/c₂² + z₁K₁(z₁)/c₁²
 //!
-//! Near the load the poles 1/z² of K₁/z, and 2/z² of K₂ = K₀ + 2K₁/z, cancel between both waves:
-//! there they are left out beforehand.
+//! Near the load the poles 1/z² of K₁/z, and 2/z² of K₂ = K₀ + 2K₁/z, cancel between both waves. There they
+//! are omitted from the start.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -119,7 +119,7 @@ impl LaplacePlane {
 // |---|---|
 // | z | argument, Re z > 0 |
 // | q | (z/2)² |
-// | κ | K₁(z)/z − 1/z²: what is left of K₁/z once its pole is taken away |
+// | κ | K₁(z)/z − 1/z²: K₁/z without its pole |
 //
 // With ψ the digamma function [Abramowitz & Stegun 1964, 9.6.10–9.6.13],
 //
@@ -129,13 +129,13 @@ impl LaplacePlane {
 /// Complex number of double precision.
 pub(super) type Complex64 = Complex<f64>;
 
-/// Largest |z| at which the series has all digits: it loses the factor I₀/|K₀|, below 20.
+/// Largest |z| at which the series has all digits; it loses the factor I₀/|K₀|, below 20.
 pub(super) const SERIES_REACH: f64 = 2.0;
 
 /// Real part beyond which K is below 1e-30 and counts as zero.
 const NOTHING: f64 = 70.0;
 
-/// Terms of the series: (q^k/k!²) below 1e-17 at |z| = 2.
+/// Number of terms of the series: (q^k/k!²) is below 1e-17 at |z| = 2.
 const TERMS: usize = 14;
 
 /// Euler's constant.
@@ -146,13 +146,13 @@ const EULER: f64 = 0.577_215_664_901_532_9;
 pub(super) struct Modified {
     /// K₀(z).
     pub(super) zeroth: Complex64,
-    /// K₁(z)/z, or κ where that was asked for.
+    /// K₁(z)/z, or κ if `regular` was set.
     pub(super) quotient: Complex64,
     /// z K₁(z).
     pub(super) product: Complex64,
 }
 
-/// K₀ and K₁ of `z`; with `regular`, |z| ≤ [`SERIES_REACH`] and κ stands for K₁/z.
+/// K₀ and K₁ of `z`; with `regular`, κ instead of K₁/z, for |z| ≤ [`SERIES_REACH`].
 pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
     if z.norm() <= SERIES_REACH {
         let [zeroth, kappa] = series(z, false);
@@ -167,12 +167,12 @@ pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
         let (zeroth, first) = (found.values[0], found.values[1]);
         return Modified { zeroth, quotient: first / z, product: first * z };
     }
-    // Only arguments that are not finite come here: they must not pass for numbers.
+    // Only arguments that are not finite reach this point; the result must not be finite either.
     let nan = Complex64::new(f64::NAN, f64::NAN);
     Modified { zeroth: nan, quotient: nan, product: nan }
 }
 
-/// K₀ and κ at `z`, or with `mean` their means over the way from 0 to `z`.
+/// K₀ and κ at `z`; with `mean`, their means over the line from 0 to `z`.
 pub(super) fn series(z: Complex64, mean: bool) -> [Complex64; 2] {
     let half = 0.5 * z;
     let (log, q) = (half.ln(), half * half);
@@ -230,8 +230,9 @@ fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7
     ]
 }
 
-/// Static displacements of the contact elements per unit traction on them, 2Q × 2Q in the order
-/// of contact vectors; all other elements free.
+/// Static displacements of the contact elements per unit traction on them.
+///
+/// A 2Q × 2Q matrix in the order of contact vectors; all other elements are free.
 pub(super) fn static_compliance(
     soil: Soil,
     boundary: &Boundary,
@@ -280,7 +281,7 @@ mod tests {
         assert_eq!(rows, 112);
     }
 
-    /// GOAL: the regular part of K₁/z at the seam, and near 0 its leading terms.
+    /// GOAL: the regular part of K₁/z at the joint of both branches; near 0, its leading terms.
     #[test]
     fn regular_part_is_what_the_pole_leaves() {
         let z = Complex64::new(1.2, -1.5);
@@ -317,7 +318,7 @@ mod static_limit_tests {
     use super::*;
     use crate::bem::full_plane::step_integrals::{Medium, step_integrals};
 
-    /// Response to a load that was switched on long ago, but for its growth in time.
+    /// Response to a load that was switched on long ago, without its growth in time.
     #[test]
     fn a_held_load_tends_to_the_static_limit() {
         let soil = Soil::new(1.0, 0.2, 1.0).unwrap();

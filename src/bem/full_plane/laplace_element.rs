@@ -1,25 +1,25 @@
 //! Laplace-domain integrals over a straight element, seen from a collocation point.
 //!
-//! On the element x(ξ) = ξ t + d m from the point, a ≤ ξ ≤ b: the integrands are analytic but for
-//! ξ = ±i d, and decay or oscillate like e^{−s r/c}. Pieces are halved until a Gauss rule has all
-//! digits. Over the point's own element only the logarithm remains (tractions are odd and
-//! vanish on a straight line): its power series is integrated exactly.
+//! The element is x(ξ) = ξ t + d m from the point, a ≤ ξ ≤ b. The integrands are analytic except at ξ = ±i d,
+//! and decay or oscillate like e^{−s r/c}. Pieces are halved until a Gauss rule has all digits. Over the
+//! point's own element only the logarithm remains, because tractions are odd and vanish on a straight line.
+//! The power series of the logarithm is integrated exactly.
 
 use super::laplace::{Complex64, LaplacePlane, SERIES_REACH, series};
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
-/// An element from a collocation point at the origin.
+/// An element relative to a collocation point at the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct View {
     /// Ends of the element, (x, z), m.
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
-    /// Whether the point is this element's own midpoint.
+    /// Whether the point is the midpoint of this element.
     pub(super) own: bool,
 }
 
-/// Coefficients of one view: `g` xx, xz, zx, zz and `h` in the same order, h without free term.
+/// Coefficients of one view: `g` xx, xz, zx, zz, then `h` in the same order, without the free term.
 pub(super) type Block = [Complex64; 8];
 
 /// A straight element in its own coordinates.
@@ -28,7 +28,7 @@ pub(super) struct Line {
     /// ξ of both ends.
     pub(super) low: f64,
     pub(super) high: f64,
-    /// Unit vector along it, and outer normal (x, z).
+    /// Unit vector along the line, and outward normal, (x, z).
     pub(super) along: [f64; 2],
     pub(super) normal: [f64; 2],
     /// Offset of the line from the point along the normal.
@@ -70,7 +70,7 @@ pub(super) fn integrate(plane: &LaplacePlane, view: &View) -> Block {
     } else {
         add_pieces(line.low, line.high, line.aside, plane, |xi, weight| {
             let (u, t) = plane.kernels(line.offset(xi), line.normal);
-            // The load acts at the collocation point: h is the transpose of its traction.
+            // The load acts at the collocation point: the block of h is the transpose of the traction.
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 block[2 * i + j] += u[i][j] * weight;
                 block[4 + 2 * i + j] += t[j][i] * weight;
@@ -80,7 +80,7 @@ pub(super) fn integrate(plane: &LaplacePlane, view: &View) -> Block {
     block
 }
 
-/// Twice the half element: the logarithm by its series, the rest by pieces.
+/// Integrates over both halves of the point's own element: the logarithm by its series, the rest by pieces.
 fn add_own(plane: &LaplacePlane, line: &Line, block: &mut Block) {
     let end = line.high;
     let near = end.min(SERIES_REACH / plane.shear.norm());
@@ -101,7 +101,7 @@ fn add_own(plane: &LaplacePlane, line: &Line, block: &mut Block) {
     }
 }
 
-/// Calls `add` with points and weights of a rule for the kernels on [`low`, `high`].
+/// Calls `add` with the points and weights of a rule for the kernels on [`low`, `high`].
 fn add_pieces(
     low: f64,
     high: f64,
@@ -129,24 +129,25 @@ fn add_pieces(
                 waiting.push((low, low + half));
                 waiting.push((low + half, high));
             }
-            // The point lies on the element but is not its own: an integral that does not exist.
+            // The point lies on the element but is not its midpoint: this integral does not exist.
             None => {}
         }
     }
 }
 
-/// Exponents beyond which nothing is added.
+/// Exponents above which contributions are negligible.
 const NOTHING: f64 = 50.0;
 
-/// The reach that makes [`gauss::rule_for`] choose a rule which also integrates e^{qx} on [−1, 1]:
-/// the error of n points is about π q^{2n}/(4ⁿ (2n)!) [Davis & Rabinowitz 1984, § 2.7].
+/// The reach for which [`gauss::rule_for`] selects a rule that also integrates e^{qx} on [−1, 1].
+///
+/// The error of n points is about π q^{2n}/(4ⁿ (2n)!) [Davis & Rabinowitz 1984, § 2.7].
 fn exponential_reach(q: f64) -> f64 {
     let mut error = std::f64::consts::PI;
     for n in 1..=16_u32 {
         let even = f64::from(2 * n);
         error *= q * q / (4.0 * even * (even - 1.0));
         if error < 1e-15 {
-            // Largest reach with which the rule chosen has n points or more.
+            // Largest reach for which the selected rule has at least n points.
             return (16.118 / f64::from(n)).cosh();
         }
     }
@@ -198,13 +199,13 @@ impl CqMethod {
     }
 }
 
-/// Terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
+/// Number of terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
 pub(super) const TERMS: usize = 26;
 
 /// A_k R^{−2k} of one view, in the order of [`Block`].
 pub(super) type LogTerms = [[f64; 8]; TERMS];
 
-/// Coefficients of s^{2k} ln s; lengths in units of `unit`, R = r/c₂ scaled alike in time.
+/// Coefficients of s^{2k} ln s; lengths in units of `unit`, and times in units of `unit`/c₂.
 ///
 /// With I₀ and I₁/z of the factors ln s in K₀ → −I₀ and K₁/z → I₁/z, ψ = Σ p_k (s r)^{2k} and
 /// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and similar terms are polynomials on the element.
@@ -251,7 +252,7 @@ pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
     terms
 }
 
-/// `p_k` and `q_k` with time in units of 1/c₂ per length: (s r/c₂)^{2k}.
+/// `p_k` and `q_k` for powers of s r/c₂: (s r/c₂)^{2k}.
 fn radial_terms(soil: Soil) -> ([f64; TERMS], [f64; TERMS]) {
     let ratio = soil.speed_ratio_squared();
     let slow = soil.shear_wave_speed();
@@ -305,7 +306,7 @@ pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; TERMS] {
     weights
 }
 
-/// First lag from which the closed form has all digits for distances up to ρ c₂ Δt.
+/// First lag at which the closed form has all digits, for distances up to ρ c₂ Δt.
 pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
     let mut lag = 8 * TERMS;
     while !is_late(method, lag, rho) {
@@ -314,7 +315,7 @@ pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
     lag
 }
 
-/// Logarithm of what may be neglected.
+/// Minus the logarithm of a negligible contribution.
 const NEGLIGIBLE: f64 = 37.0;
 
 fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
@@ -333,7 +334,7 @@ fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
             n * x.ln() - 0.5 * rho * (x * x - 1.0)
         }
     };
-    // Last term of the series against the first: the largest A_k is below 1/(4^k k!²).
+    // Last term of the series relative to the first: the largest A_k is below 1/(4^k k!²).
     let weights = weights(method, lag, rho);
     let factor: f64 = (1..TERMS).map(|k| 0.25 / (k * k) as f64).product();
     front > NEGLIGIBLE && (weights[TERMS - 1] * factor).abs() < 1e-17 * weights[0].abs()

@@ -2,23 +2,23 @@
 //!
 //! # Boundary equation
 //!
-//! Collocation at the midpoints of E straight elements, values constant over each, gives for the
+//! Collocation at the midpoints of E straight elements, with values constant over each element, gives for
 //! step N
 //!
 //! ```text
 //! Σ_{m≤N} H^{N−m} u^m = Σ_{m≤N} G^{N−m} t^m ,   H⁰ with the free term ½ on its diagonal,
 //! ```
 //!
-//! with displacements u and tractions t on the soil. Vectors have 2E entries: first the E
-//! x-components (to the right), then the E z-components (**down**). What makes G and H out of the
-//! fundamental solution, in time or by convolution quadrature, is a [`BoundaryKernel`].
+//! with displacements u and tractions t on the soil. Vectors have 2E entries: first the E x-components (to
+//! the right), then the E z-components (**down**). A [`BoundaryKernel`] computes G and H from the fundamental
+//! solution, in time or by convolution quadrature.
 //!
-//! # What may grow
+//! # Growth of perturbations
 //!
-//! Marched in time, the equation is not stable for every step. [`Stability`] assesses this before the run:
-//! growth per step of the fastest perturbation of twenty elements of a flat surface, ν = 1/3, all
-//! free of traction or all bonded (displacement prescribed), and the passivity figure (0 or more:
-//! passive), over β = c₁Δt/l:
+//! In time, the equation is not stable for every step. [`Stability`] assesses it before the run. The table
+//! shows the growth per step of the fastest perturbation of twenty elements of a flat surface, ν = 1/3, all
+//! free of traction or all bonded (displacement prescribed), and the passivity figure (0 or more: passive),
+//! over β = c₁Δt/l:
 //!
 //! | | β = 0.1 | 0.25 | 0.5 | 1 | 2 | 5 |
 //! |---|---|---|---|---|---|---|
@@ -31,8 +31,8 @@
 //! | BDF1, free and bonded | none | none | none | none | none | none |
 //! | passivity | −2.4e-2 | −2.3e-3 | −2.5e-3 | −2.4e-3 | −2.2e-3 | −1.8e-3 |
 //!
-//! β alone does not decide. Ten elements with five free ones on either side, time kernel, uplifted
-//! (and bonded, where that grows):
+//! β alone does not decide stability. Ten elements with five free ones on either side, time kernel, uplifted
+//! (growth of the bonded base in brackets):
 //!
 //! | β | ν = 0 | ν = 1/4 | ν = 1/3 |
 //! |---|---|---|---|
@@ -41,19 +41,18 @@
 //! | 2 | 1.0e-1 | 4.6e-2 | none |
 //! | 5 | 1.7e-2 | none | none |
 //!
-//! A longer surface grows where a shorter one does not: six free elements are bounded with BDF2 at
-//! β = 0.1 and with the time kernel at β = 1/2, twenty are not; and at ν = 1/4 and β = 1 the ten
-//! elements of this table grow by 0.02 per step with twenty free ones on either side. A narrow
-//! trench with square corners grows with the time kernel for every β from 0.25 to 5, with
-//! convolution quadrature for none.
+//! A longer surface may grow where a shorter one does not. Six free elements are bounded with BDF2 at β = 0.1
+//! and with the time kernel at β = 1/2; twenty are not. At ν = 1/4 and β = 1, the ten elements of this table
+//! grow by 0.02 per step with twenty free elements on either side. A narrow trench with square corners grows
+//! with the time kernel for every β from 0.25 to 5, and with convolution quadrature for none of them.
 //!
-//! # What the truncated surface leaves
+//! # Error of the truncated surface
 //!
-//! Direct impedances of a strip are those of its mesh from the first free element on, or without.
-//! The coupling of sliding and rocking comes from the free surface and from H alone: with 5, 20
-//! and 80 elements beside a strip of 8 it is wrong by 0.32, 0.23 and 0.13, falling with about the
-//! root of the surface's length, as surface waves do not decay on their way. So long a surface can
-//! be marched with convolution quadrature.
+//! The direct impedances of a strip have the error of its mesh, with or without free elements.
+//! The coupling of sliding and rocking comes only from the free surface and from H. With 5, 20
+//! and 80 elements beside a strip of 8 elements, its error is 0.32, 0.23 and 0.13. The error falls with about the
+//! root of the surface's length, because surface waves do not decay along it. Convolution quadrature
+//! permits so long a surface.
 
 mod block;
 mod boundary;
@@ -79,60 +78,63 @@ use crate::error::{Result, not_negative};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// The coefficients G^n and H^n of a boundary equation marched in time.
+/// The coefficients G^n and H^n of a boundary equation in time.
 #[auto_impl::auto_impl(Box)]
 pub trait BoundaryKernel: Send + Sync {
     /// The elements.
     fn segments(&self) -> &[Segment];
 
-    /// Overwrites `g` and `h` (each 2E × 2E, row-major: m/Pa, and pure numbers) with the
-    /// coefficients of `lag`: the response at the end of a step to values held during the step that
-    /// ended `lag` steps before. `h` of lag 0 includes the free term ½.
+    /// Overwrites `g` and `h` with the coefficients of `lag` (each 2E × 2E, row-major: m/Pa, and pure
+    /// numbers).
+    ///
+    /// The coefficients are the response at the end of a step to values that were constant during an earlier
+    /// step, which ended `lag` steps before. `h` of lag 0 includes the free term ½.
     ///
     /// # Errors
-    /// For slices of the wrong length.
+    /// [`crate::Error::Size`] for slices of the wrong length.
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
 
-    /// Overwrites `g` and `h` (each 2E × 2E complex numbers, row-major, real and imaginary part by
-    /// turns) with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`, |ζ| ≤ 1 and ζ ≠ 1, if they are
-    /// known as transforms at some s, and returns that s (1/s, real and imaginary part). The
-    /// default has none.
+    /// Overwrites `g` and `h` with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`, if they are known.
+    ///
+    /// `g` and `h` are 2E × 2E complex numbers each, row-major, real and imaginary part alternating; |ζ| ≤ 1
+    /// and ζ ≠ 1. The series must be known as transforms at some s; the method then returns this s (1/s, real
+    /// and imaginary part). The default returns `None`.
     ///
     /// # Errors
-    /// For slices of the wrong length.
+    /// [`crate::Error::Size`] for slices of the wrong length.
     fn symbol(&self, _zeta: [f64; 2], _g: &mut [f64], _h: &mut [f64]) -> Result<Option<[f64; 2]>> {
         Ok(None)
     }
 }
 
-/// Boundary condition of an element: the quantity that is prescribed there.
+/// Boundary condition of an element: the prescribed quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryCondition {
-    /// The traction is known (zero on a free surface), the displacement is sought.
+    /// The traction is known (zero on a free surface); the displacement is computed.
     TractionFree,
-    /// The displacement is known (contact that sticks), the traction is sought.
+    /// The displacement is known (contact that sticks); the traction is computed.
     PrescribedDisplacement,
 }
 
-// Waves that come from below, at depth.
+// Waves from below, at depth.
 
 /// Motion and stress of the half-plane without trench, canyon or foundation, at any depth.
 ///
-/// Components are (x, z) with z **down**; the flat surface z = 0 is free of traction in it.
+/// Components are (x, z) with **z down**; the flat surface z = 0 is free of traction.
 #[auto_impl::auto_impl(Box)]
 pub trait IncidentField: Send {
     /// Displacement `[x, z]` (m) at the point (x, z), m, and `time`, s; zero at and before t = 0.
     fn displacement(&self, point: [f64; 2], time: f64) -> [f64; 2];
 
-    /// Stress `[xx, zz, xz]` (Pa, tension positive) there.
+    /// Stress `[xx, zz, xz]` at the same point and time, Pa, tension positive.
     fn stress(&self, point: [f64; 2], time: f64) -> [f64; 3];
 }
 
 /// Vertically incident S and P waves and their reflections from the flat surface.
 ///
-/// Built from the motion s of the surface: u(z,t) = ½[s(t−t₀+z/c) + s(t−t₀−z/c)], with c = c₂ for
-/// the horizontal and c₁ for the vertical component. The surface moves t₀ later than its record
-/// says, so that nothing moves at t = 0 down to the depth c₂t₀.
+/// They follow from the motion s of the surface: u(z,t) = ½[s(t−t₀+z/c) + s(t−t₀−z/c)], with c = c₂ for the
+/// horizontal and c₁ for the vertical component. The surface moves t₀ later than its record, so that down to
+/// the depth c₂t₀ nothing moves at t = 0.
 ///
 /// ```
 /// use basemat::Soil;
@@ -140,7 +142,7 @@ pub trait IncidentField: Send {
 /// use basemat::motion::RickerDisplacement;
 /// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
 /// let pulse = RickerDisplacement::new(0.1, 0.2, 1.0)?;
-/// // Down to 20 m the wave is on its way for 0.1 s.
+/// // At a depth of 20 m the wave arrives 0.1 s before it reaches the surface.
 /// let waves = VerticalWaves::new(soil, pulse, 20.0)?;
 /// let surface = waves.displacement([3.0, 0.0], 1.1);
 /// assert!((surface[0] - 0.1).abs() < 1e-8);
@@ -165,7 +167,7 @@ impl VerticalWaves {
         Ok(Self { soil, surface: Box::new(surface), delay })
     }
 
-    /// Delay of the surface behind its record, s.
+    /// Delay of the surface relative to its record, s.
     pub fn delay(&self) -> f64 {
         self.delay
     }
@@ -183,7 +185,7 @@ impl IncidentField for VerticalWaves {
             let s = |t: f64| self.surface.displacement(0.0, t)[k];
             0.5 * (s(now + lag) + s(now - lag))
         };
-        // The record is up, z is down.
+        // The record is positive up, z is positive down.
         [at(0), -at(1)]
     }
 

@@ -1,10 +1,10 @@
-//! Whether a boundary equation can march: growth factors and passivity, before the run.
+//! Stability of a boundary equation in time: growth factors and passivity, before the run.
 //!
-//! With degrees of freedom x (displacements of traction-free elements, tractions of those with prescribed
-//! displacement), the march Σ F^{N−m} xᵐ = known has the symbol F(ζ) = Σ Fⁿ ζⁿ, columns of H and −G.
-//! Perturbations grow if and only if det F has a zero in |ζ| < 1, by the factor 1/|ζ| per step for
-//! the smallest one. Zeros are counted by the argument principle on circles (F has no poles
-//! there, since its coefficients do not grow) and the smallest modulus is bisected.
+//! The degrees of freedom x are displacements of traction-free elements, and tractions of elements with
+//! prescribed displacement. The equation Σ F^{N−m} xᵐ = known has the symbol F(ζ) = Σ Fⁿ ζⁿ, with columns of
+//! H and −G. Perturbations grow if and only if det F has a zero in |ζ| < 1. The smallest zero gives the
+//! growth factor 1/|ζ| per step. Zeros are counted by the argument principle on circles (F has no poles
+//! there, since its coefficients do not grow), and the smallest modulus is found by bisection.
 
 use std::fmt;
 
@@ -16,55 +16,61 @@ use crate::error::{Error, Result, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
-/// Growth that can be searched for.
+/// Error unless this growth can be searched for.
 pub(super) fn check_growth(smallest: f64) -> Result<()> {
     let fits = (1e-7..=0.5).contains(&smallest);
     require("growth looked for", smallest, fits, "between 1e-7 and 0.5 per step").map(drop)
 }
 
-/// Assessment of a boundary equation that is to be marched.
+/// Assessment of the stability of a boundary equation in time.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Stability {
-    /// Factor minus one by which the worst perturbation grows in a step, if any grows faster than
-    /// [`Stability::smallest_growth`]; else 0. To one percent where several modes grow alike.
-    pub growth_per_step: f64,
-    /// Turn of the growing perturbation in a step, rad, from 0 (monotonic) to π (alternating).
-    pub turn_per_step: f64,
-    /// Number of modes that grow.
-    pub growing_modes: usize,
-    /// Growth that was searched for: slower growth is not seen.
-    pub smallest_growth: f64,
-    /// Smallest eigenvalue of the Hermitian part of (1−ζ) L C(ζ) over |ζ| = 1, over the largest
-    /// magnitude of any: C the compliance of the elements with prescribed displacement (the others
-    /// traction-free), L their lengths. If negative, some motion draws energy from the soil, as
-    /// Σ t·Δu sees it. `None` without such elements, or where H is singular on the circle.
+    /// Growth factor of the worst perturbation per step, minus one; 0 if nothing grows.
     ///
-    /// If modes grow in the traction-free problem, C is not the transform of a causal march, and
-    /// the figure says little.
+    /// Growth slower than [`Stability::smallest_growth`] counts as 0. The error is one percent if several
+    /// modes grow alike.
+    pub growth_per_step: f64,
+    /// Phase change of the growing perturbation per step, rad, from 0 (monotonic) to π (alternating).
+    pub turn_per_step: f64,
+    /// Number of growing modes.
+    pub growing_modes: usize,
+    /// Smallest growth that was searched for; slower growth is not found.
+    pub smallest_growth: f64,
+    /// Smallest eigenvalue of the Hermitian part of (1−ζ) L C(ζ) over |ζ| = 1, relative.
+    ///
+    /// It is relative to the largest magnitude of any eigenvalue. C is the compliance of the elements with
+    /// prescribed displacement (the others are traction-free), L the matrix of their lengths. If the figure
+    /// is negative, some motion draws energy from the soil, measured by Σ t·Δu. `None` without such elements,
+    /// or where H is singular on the circle.
+    ///
+    /// If modes grow in the traction-free problem, C is not the transform of a causal response, and the
+    /// figure means little.
     pub passivity: Option<f64>,
-    /// Smallest eigenvalue of the Hermitian part of s L C, relative to the largest magnitude of any, at the transform's
-    /// s = δ(ζ)/Δt, for kernels that give it.
+    /// Smallest eigenvalue of the Hermitian part of s L C, relative to the largest magnitude of any
+    /// eigenvalue.
+    ///
+    /// s = δ(ζ)/Δt is the Laplace variable of the kernel. `None` for kernels that do not return s.
     pub passivity_of_rate: Option<f64>,
-    /// Angle of ζ where [`Stability::passivity`] is worst, rad.
+    /// Angle of ζ at the worst [`Stability::passivity`], rad.
     pub passivity_angle: Option<f64>,
-    /// Lags that were summed as they are; later ones by interpolation in 1/n.
+    /// Number of lags that were summed directly; later lags are interpolated in 1/n.
     pub summed_lags: usize,
-    /// Largest departure of checked late coefficients from that interpolation, relative.
+    /// Largest relative error of the interpolation at late lags that were checked.
     pub tail_error: f64,
 }
 
 impl Stability {
     /// Assesses `kernel` with one condition for each of its elements.
     ///
-    /// `smallest_growth` is the growth per step that is searched for, best the inverse of the
-    /// number of steps to be marched: what grows slower than that grows less than e-fold.
+    /// `smallest_growth` is the smallest growth per step to search for. The inverse of the number of steps is
+    /// a good choice: slower growth is then less than e-fold.
     ///
-    /// Assumed, and for the late lags checked by [`Stability::tail_error`]: coefficients tend to
-    /// smooth functions of 1/n once the waves have passed, as those of an elastic plane do.
-    /// Structures coupled to the elements are not part of the assessment.
+    /// The method assumes that coefficients become smooth functions of 1/n once the waves have passed, as in
+    /// an elastic plane; [`Stability::tail_error`] checks this for the late lags. Structures coupled to the
+    /// elements are not part of the assessment.
     ///
     /// ```
     /// use basemat::bem::full_plane::{
@@ -87,9 +93,8 @@ impl Stability {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] unless there is one condition per element, [`Error::Input`] for a growth
-    /// not between 1e-7 and 1/2, [`Error::Singular`] if the operator of the first lag is, and
-    /// errors of the kernel.
+    /// [`Error::Size`] unless there is one condition per element, [`Error::Input`] for a growth outside 1e-7
+    /// to 1/2, [`Error::Singular`] if the operator of the first lag is singular, and errors of the kernel.
     pub fn assess(
         kernel: &dyn BoundaryKernel,
         conditions: &[BoundaryCondition],
@@ -99,7 +104,7 @@ impl Stability {
         Self::of(&Symbol::new(kernel, conditions)?, smallest_growth)
     }
 
-    /// Stability of a symbol that is known.
+    /// Stability of a given symbol.
     pub(super) fn of(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
         let found = smallest_zero(symbol, smallest_growth)?;
         let passivity = passivity(symbol)?;
@@ -116,12 +121,12 @@ impl Stability {
         })
     }
 
-    /// Whether nothing grows faster than [`Stability::smallest_growth`].
+    /// Whether no mode grows faster than [`Stability::smallest_growth`].
     pub fn is_bounded(&self) -> bool {
         self.growing_modes == 0
     }
 
-    /// Returns nothing if the march is bounded.
+    /// Returns `Ok` if no perturbation grows.
     ///
     /// # Errors
     /// [`Error::Unstable`] if perturbations grow.
@@ -157,27 +162,26 @@ impl fmt::Display for Stability {
     }
 }
 
-// Stability of a full-plane ground, found before it marches.
+// Stability of a full-plane ground, assessed before the run.
 
-/// Assessment of a boundary with contact elements, in the two states between which contact moves:
-/// all of it open, all of it held.
+/// Stability of a boundary in the two limit states of its contact: all open, and all bonded.
 ///
-/// A base that is open in part, and the structure that stands on it, are not assessed; a structure
-/// steadies what it holds.
+/// A partly open base, and the structure on it, are not assessed. A structure stabilises the elements in
+/// contact with it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct GroundStability {
-    /// All elements free of traction, as under a base that has lifted off.
+    /// All elements free of traction, as under an uplifted base.
     pub uplifted: Stability,
-    /// Displacements of the contact elements prescribed, as under a base that sticks. This one has
-    /// the passivity figures.
+    /// Displacements of the contact elements prescribed, as under a base that sticks. This state has the
+    /// passivity figures.
     pub bonded: Stability,
 }
 
 impl GroundStability {
-    /// Assesses `kernel` on `boundary`, looking for growth beyond `smallest_growth` per step.
+    /// Assesses `kernel` on `boundary` for growth beyond `smallest_growth` per step.
     pub(super) fn assess(
         kernel: &dyn BoundaryKernel,
         boundary: &Boundary,
@@ -194,7 +198,7 @@ impl GroundStability {
         Ok(Self { uplifted, bonded })
     }
 
-    /// The state that grows faster; the uplifted one if neither grows.
+    /// The state that grows faster; the uplifted state if neither grows.
     pub fn worst(&self) -> &Stability {
         if self.bonded.growth_per_step > self.uplifted.growth_per_step {
             &self.bonded
@@ -203,12 +207,12 @@ impl GroundStability {
         }
     }
 
-    /// Whether neither state grows faster than the growth that was searched for.
+    /// Whether neither state grows faster than the smallest growth searched for.
     pub fn is_bounded(&self) -> bool {
         self.uplifted.is_bounded() && self.bonded.is_bounded()
     }
 
-    /// Returns nothing if the march is bounded in both states.
+    /// Returns `Ok` if no perturbation grows in either state.
     ///
     /// # Errors
     /// [`crate::Error::Unstable`] with the faster growth.
@@ -223,9 +227,9 @@ impl fmt::Display for GroundStability {
     }
 }
 
-// Boundary-value problems in time: tractions or displacements given on any polygon.
+// Boundary-value problems in time: tractions or displacements prescribed on any polygon.
 
-/// Quantity that is given for a component of an element.
+/// Quantity that is prescribed for a component of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Given {
     /// The traction, Pa: constant over the step.
@@ -234,7 +238,7 @@ pub enum Given {
     Displacement,
 }
 
-/// Marches a boundary equation with tractions or displacements given, component by component.
+/// Solves a boundary equation in time with prescribed tractions or displacements.
 ///
 /// Vectors have 2E entries, x-components first, then z (down), as in [the module](super).
 ///
@@ -254,9 +258,9 @@ pub enum Given {
 pub struct BoundaryMarch {
     history: BoundaryHistory,
     given: Vec<Given>,
-    /// Columns of H⁰ for unknown displacements, of −G⁰ for unknown tractions, these in `unit`.
+    /// Columns of H⁰ for unknown displacements, and of −G⁰ for unknown tractions, which are in `unit`.
     factor: DenseFactor,
-    /// Columns of G⁰ for given tractions, of −H⁰ for given displacements.
+    /// Columns of G⁰ for prescribed tractions, and of −H⁰ for prescribed displacements.
     known: Vec<f64>,
     /// Pa per m.
     unit: f64,
@@ -268,11 +272,11 @@ pub struct BoundaryMarch {
 short_debug! { BoundaryMarch; self; components: self.given.len() }
 
 impl BoundaryMarch {
-    /// March at rest. `given` has 2E entries.
+    /// Boundary at rest; `given` has 2E entries.
     ///
     /// # Errors
-    /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values
-    /// do not determine the rest, and what the kernel says.
+    /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values do not
+    /// determine the others, and errors of the kernel.
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
         let size = ContactLayout::new(PLANE, kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
@@ -302,18 +306,18 @@ impl BoundaryMarch {
         })
     }
 
-    /// Hints that about `steps` steps will follow.
+    /// Allocates for about `steps` further steps.
     ///
     /// # Errors
-    /// Those of the kernel.
+    /// The errors of the kernel.
     pub fn reserve(&mut self, steps: usize) -> Result<()> {
         self.history.reserve(steps)
     }
 
-    /// Makes one step with the given values: tractions during it, displacements at its end.
+    /// Makes one step with the given values: tractions during the step, displacements at its end.
     ///
     /// # Errors
-    /// [`Error::Size`] for the wrong number of values, and what the kernel says.
+    /// [`Error::Size`] for the wrong number of values, and errors of the kernel.
     pub fn step(&mut self, values: &[f64]) -> Result<()> {
         same_length("boundary values", values.len(), self.given.len())?;
         self.history.evaluate(&mut self.rhs)?;
@@ -329,7 +333,7 @@ impl BoundaryMarch {
         Ok(())
     }
 
-    /// Steps done.
+    /// Number of steps done.
     pub fn steps(&self) -> usize {
         self.history.steps()
     }

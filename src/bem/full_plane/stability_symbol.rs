@@ -1,14 +1,14 @@
-//! The symbols Σ Gⁿζⁿ and Σ Hⁿζⁿ of any kernel: early lags summed, late ones interpolated in 1/n.
+//! The symbols Σ Gⁿζⁿ and Σ Hⁿζⁿ of any kernel: early lags are summed, late lags interpolated in 1/n.
 //!
-//! n·(Gⁿ, Hⁿ) of an elastic plane is analytic in x = N/n for n beyond the waves' travel time; its
+//! n·(Gⁿ, Hⁿ) of an elastic plane is analytic in x = N/n for nΔt beyond the waves' travel time. Its
 //! polynomial through Chebyshev points of 0 < x < 1 is summed in closed form,
 //!
 //! ```text
 //! Σ_{n≥N} ζⁿ (N/n)^p = 1/Γ(p) ∫₀^∞ y^{p−1} e^{−y} ζ^N / (1 − ζ e^{−y/N}) dy ,
 //! ```
 //!
-//! the integral by the trapezoidal rule in ln y, which converges exponentially: for |ζ| ≤ 1 the
-//! pole y = N ln ζ stays a quarter turn or more away.
+//! with the integral by the trapezoidal rule in ln y, which converges exponentially: for |ζ| ≤ 1 the pole y =
+//! N ln ζ stays at least a quarter turn away.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -23,23 +23,23 @@ use crate::linalg::{DenseFactor, largest};
 
 use super::{BoundaryCondition, BoundaryKernel};
 
-/// Powers p = 1 … POWERS of N/n.
+/// Number of powers p = 1 … POWERS of N/n.
 const POWERS: usize = 10;
 
-/// Early lags tried, first and last.
+/// Smallest and largest number of early lags.
 const FIRST: usize = 64;
 const LAST: usize = 4096;
 
-/// The interpolation is good enough once checked lags agree to this.
+/// Largest error of the interpolation at the lags checked.
 const TAIL_TOLERANCE: f64 = 1e-9;
 
 /// Symbols of G and H, and the operator that they form.
 pub(super) struct Symbol<'a> {
     kernel: &'a dyn BoundaryKernel,
     prescribed: Vec<bool>,
-    /// Size of tractions that makes columns of G as large as those of H.
+    /// Scale of tractions for which the columns of G are as large as the columns of H.
     scale: f64,
-    /// Entries of G and H side by side (each 2E × 2E) that share a series: places and signs.
+    /// Entries of G and H together (each 2E × 2E) that have the same series: their places and signs.
     classes: Vec<Vec<(usize, f64)>>,
     /// Early lags of each class, one lag after the other.
     early: Vec<f64>,
@@ -95,7 +95,7 @@ impl<'a> Symbol<'a> {
         Ok(symbol)
     }
 
-    /// Reads the early lags of all classes; false if a class turns out to be of several series.
+    /// Reads the early lags of all classes; false if the entries of a class have different series.
     fn read_early(&mut self) -> Result<bool> {
         let mut all = vec![0.0; self.stride()];
         self.early.clear();
@@ -112,7 +112,7 @@ impl<'a> Symbol<'a> {
         Ok(true)
     }
 
-    /// Takes other conditions in place of those it was made with: coefficients remain.
+    /// Replaces the boundary conditions; the coefficients stay.
     pub(super) fn prescribe(&mut self, conditions: &[BoundaryCondition]) -> Result<()> {
         let count = self.kernel.segments().len();
         same_length("boundary conditions", conditions.len(), count)?;
@@ -155,7 +155,7 @@ impl<'a> Symbol<'a> {
         self.kernel.coefficients(lag, g, h)
     }
 
-    /// n·(Gⁿ, Hⁿ), G scaled.
+    /// n·(Gⁿ, Hⁿ), with G scaled.
     fn scaled(&self, lag: usize) -> Result<Vec<f64>> {
         let stride = self.stride();
         let mut values = vec![0.0; stride];
@@ -169,7 +169,7 @@ impl<'a> Symbol<'a> {
         Ok(values)
     }
 
-    /// Interpolates n·(Gⁿ, Hⁿ) as a polynomial in N/n and checks it between its points.
+    /// Interpolates n·(Gⁿ, Hⁿ) by a polynomial in N/n and checks it between its points.
     fn fit_tail(&mut self) -> Result<()> {
         let first = self.lags as f64;
         let point = |k: f64| 0.5 + 0.5 * (PI * (k + 0.5) / POWERS as f64).cos();
@@ -214,16 +214,16 @@ impl<'a> Symbol<'a> {
                 error = error.max((found - wanted).abs());
             }
         }
-        // A kernel without late lags has nothing to interpolate.
+        // A kernel without late lags needs no interpolation.
         self.tail_error = if largest > 0.0 { error / largest } else { 0.0 };
-        // Back to (Gⁿ, Hⁿ) = Σ c_p (N/n)^p /N, and G as it is.
+        // Converts back to (Gⁿ, Hⁿ) = Σ c_p (N/n)^p /N, with G unscaled.
         for (index, value) in self.late.iter_mut().enumerate() {
             *value /= if index % stride < stride / 2 { first * self.scale } else { first };
         }
         Ok(())
     }
 
-    /// Adds the contribution of late lags to `sum`, one per class.
+    /// Adds the contribution of late lags to `sum`, which has one number per class.
     fn add_late(&self, zeta: Complex64, sum: &mut [Complex64]) {
         let tails = tail_sums(zeta, self.lags as f64);
         for (tail, late) in tails.iter().zip(self.late.chunks_exact(self.classes.len())) {
@@ -233,8 +233,9 @@ impl<'a> Symbol<'a> {
         }
     }
 
-    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ; returns the
-    /// transform's s if the kernel gives it.
+    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ.
+    ///
+    /// Returns the Laplace variable s if the kernel knows it.
     pub(super) fn at(
         &self,
         zeta: Complex64,
@@ -266,7 +267,7 @@ impl<'a> Symbol<'a> {
         Ok(None)
     }
 
-    /// The operator F from the symbols of G and H, columns as the degrees of freedom.
+    /// The operator F from the symbols of G and H, with columns in the order of the degrees of freedom.
     pub(super) fn operator(&self, sum: &[Complex64], operator: &mut Vec<Complex64>) {
         let order = self.order();
         let (g, h) = sum.split_at(order * order);
@@ -290,7 +291,7 @@ impl<'a> Symbol<'a> {
         let tails: Vec<_> = zetas.iter().map(|zeta| tail_sums(*zeta, self.lags as f64)).collect();
         let mut operators = vec![vec![Complex64::default(); order * order]; frequencies];
         for (index, class) in self.classes.iter().enumerate() {
-            // Where the class is in the operator: G for unknown tractions, H for displacements.
+            // Place of the class in the operator: in G for unknown tractions, in H for unknown displacements.
             let entries = class.iter().filter_map(|(place, sign)| {
                 let (of_h, place) = (*place >= order * order, place % (order * order));
                 let prescribed = self.prescribed[place % order];
@@ -305,11 +306,11 @@ impl<'a> Symbol<'a> {
             series.fill(0.0);
             let mut power = 1.0;
             for (n, value) in early().enumerate() {
-                // Lags beyond one turn fold onto earlier ones.
+                // Lags beyond one turn are added to earlier lags.
                 series[n % points] += power * value;
                 power *= radius;
             }
-            // Lengths are those of the plan.
+            // All lengths come from the plan.
             if forward.process_with_scratch(&mut series, &mut spectrum, &mut scratch).is_err() {
                 continue;
             }
@@ -319,7 +320,7 @@ impl<'a> Symbol<'a> {
                     .enumerate()
                     .map(|(p, tail)| tail * self.late[p * count + index])
                     .sum();
-                // The transform's exponent has the other sign.
+                // The exponent of the transform has the opposite sign.
                 let value = spectrum[k].conj() + late;
                 for (place, factor) in &entries {
                     operator[*place] = value * factor;
@@ -330,8 +331,9 @@ impl<'a> Symbol<'a> {
     }
 }
 
-/// Places that have the same first value and the same coefficients of late lags, up to sign: on a
-/// flat surface of equal elements there are few.
+/// Groups places with the same first value and the same late coefficients, up to sign.
+///
+/// On a flat surface of equal elements there are few groups.
 fn classes(first: &[f64], late: &[f64]) -> Vec<Vec<(usize, f64)>> {
     let stride = first.len();
     let mut known = HashMap::new();
@@ -339,7 +341,7 @@ fn classes(first: &[f64], late: &[f64]) -> Vec<Vec<(usize, f64)>> {
     for (place, head) in first.iter().enumerate() {
         let values = || std::iter::once(*head).chain(late[place..].iter().step_by(stride).copied());
         let sign = values().find(|value| *value != 0.0).map_or(1.0, f64::signum);
-        // Zeros of both signs are one.
+        // Positive and negative zero are the same value.
         let key: Vec<u64> = values().map(|value| (sign * value + 0.0).to_bits()).collect();
         match known.entry(key) {
             Entry::Occupied(entry) => {
@@ -376,7 +378,7 @@ fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; POWERS] {
 mod tests {
     use super::*;
 
-    /// GOAL: the closed sum against adding up, where |ζ| < 1, and on the circle against Abel's
+    /// GOAL: the closed sum against direct summation where |ζ| < 1, and on the circle against Abel's
     /// summation by parts, exact to (1−ζ)^{−1} N^{−2} terms there.
     #[test]
     fn tails_are_sums() {

@@ -7,26 +7,26 @@ use crate::error::{Error, Result};
 use crate::linalg::{DenseFactor, hermitian_range};
 use realfft::num_complex::Complex64;
 
-/// Points of a whole circle to begin with.
+/// Initial number of points on the whole circle.
 const POINTS: usize = 1024;
 
-/// Largest turn of the determinant between neighbours, rad, before more points are put between.
+/// Largest phase change of the determinant between neighbours, rad; above, more points are inserted.
 const TURN: f64 = 0.7;
 
-/// Halvings of the distance of neighbours.
+/// Largest number of halvings of the distance between neighbours.
 const HALVINGS: u32 = 24;
 
-/// Halvings of ln |ζ| in the search of the smallest zero, at most.
+/// Largest number of halvings of ln |ζ| in the search for the smallest zero.
 const BISECTIONS: usize = 30;
 
-/// Half width of the bracket over its middle below which the secant method is tried, and that
-/// with which the search ends all the same.
+/// Half width of the bracket over its middle: below `COARSE` the secant method is tried, below `FINE` the
+/// search ends.
 const COARSE: f64 = 0.25;
 const FINE: f64 = 0.01;
 
 /// Zeros inside a circle: their number, and the smallest.
 pub(super) struct Zeros {
-    /// Zeros inside.
+    /// Number of zeros inside.
     pub(super) count: usize,
     /// Smallest zero inside.
     pub(super) zero: Option<Complex64>,
@@ -40,7 +40,7 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
         sum: vec![],
         operator: vec![],
     };
-    // At ζ = 0 the operator is that of lag 0.
+    // At ζ = 0 the operator equals the operator of lag 0.
     search.log_determinant(Complex64::default())?;
     let (count, mut seed) = search.zeros_inside(1.0 / (1.0 + smallest_growth))?;
     if count == 0 {
@@ -55,7 +55,8 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
         } else {
             high = middle;
         }
-        // The secant method begins on the inner circle where the determinant turns fastest.
+        // The secant method starts on the inner circle, at the angle where the phase of the determinant
+        // changes fastest.
         let width = (high - low) / (low + high).abs();
         if width < COARSE
             && let Some(zero) = search.secant(seed)
@@ -67,7 +68,7 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
             break;
         }
     }
-    // Several zeros of nearly one size, or a multiple one: the bracket's middle.
+    // Several zeros of nearly the same modulus, or a multiple zero: return the bracket's middle.
     let size = (0.5 * (low + high)).exp();
     Ok(Zeros { count, zero: Some(Complex64::from_polar(size, seed.arg())) })
 }
@@ -90,10 +91,10 @@ impl Search<'_> {
         log_determinant(&mut self.factor, &self.operator, self.symbol.order())
     }
 
-    /// Zeros inside |ζ| < `radius`, and the point of the circle where det F turns fastest: next
-    /// to the nearest zero.
+    /// Number of zeros in |ζ| < `radius`, and the point of the circle nearest to a zero.
     ///
-    /// F is real on the real axis, so that half the circle is enough.
+    /// At this point the phase of det F changes fastest. F is real on the real axis, so half the circle is
+    /// enough.
     fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
         let operators = self.symbol.operators_on(radius, POINTS);
         let (factor, order) = (&mut self.factor, self.symbol.order());
@@ -112,7 +113,8 @@ impl Search<'_> {
         Ok((count, Complex64::from_polar(radius, fastest.1)))
     }
 
-    /// Turn of the determinant between two angles; halves the way until it is unmistakable.
+    /// Phase change of the determinant between two angles; halves the interval until the change is
+    /// unambiguous.
     fn turn(
         &mut self,
         radius: f64,
@@ -142,7 +144,7 @@ impl Search<'_> {
         let reference = self.log_determinant(before).ok()?;
         let mut value_before = Complex64::new(1.0, 0.0);
         for _ in 0..40 {
-            // A pivot that vanishes: `now` is the zero.
+            // If a pivot is zero, `now` is the zero of the determinant.
             let Ok(log) = self.log_determinant(now) else { return Some(now) };
             let value = (log - reference).exp();
             let change = (now - before) * value / (value - value_before);
@@ -161,7 +163,7 @@ impl Search<'_> {
         None
     }
 
-    /// Whether `zero` is one and no other is smaller by a thousandth.
+    /// Whether `zero` is a zero, and no other is smaller by more than a thousandth.
     fn is_smallest(&mut self, zero: Complex64) -> Result<bool> {
         let margin = 1e-3 * (1.0 - zero.norm());
         Ok(self.zeros_inside(zero.norm() - margin)?.0 == 0)
@@ -181,21 +183,21 @@ fn log_determinant(
     }
 }
 
-/// An angle brought to (−π, π].
+/// Reduces an angle to (−π, π].
 fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 
-// Passivity figure of a boundary equation: can the discrete soil create energy?
+// Passivity figure of a boundary equation: whether the discrete soil can create energy.
 //
-// Tractions t and displacements u of the contact elements obey u = C(ζ) t with the rest of the
-// boundary traction-free. Over a whole history, Σ t·L·Δu = (1/2π) ∫ tᴴ Herm[(1−ζ) L C(ζ)] t dθ on
-// |ζ| = 1 (Parseval): it is never negative if that Hermitian part has no negative eigenvalue.
+// Tractions t and displacements u of the contact elements satisfy u = C(ζ) t if the rest of the boundary is
+// traction-free. Over a whole history, Σ t·L·Δu = (1/2π) ∫ tᴴ Herm[(1−ζ) L C(ζ)] t dθ on |ζ| = 1 (Parseval).
+// This sum is never negative if the Hermitian part has no negative eigenvalue.
 
-/// Angles on the half circle.
+/// Number of angles on the half circle.
 const ANGLES: usize = 192;
 
-/// Golden-section steps around the worst angle.
+/// Number of golden-section steps around the worst angle.
 const REFINEMENTS: usize = 16;
 
 /// Smallest eigenvalues, each relative to the largest magnitude on the circle.
@@ -204,14 +206,14 @@ pub(super) struct Passivity {
     pub(super) work: f64,
     /// Smallest eigenvalue of s L C.
     pub(super) rate: Option<f64>,
-    /// Angle of the worst of (1−ζ) L C.
+    /// Angle of the smallest eigenvalue of (1−ζ) L C.
     pub(super) angle: f64,
 }
 
-/// Ranges of eigenvalues at one ζ: of the work and of the rate.
+/// Ranges of eigenvalues at one ζ: of (1−ζ) L C and of s L C.
 type Ranges = ([f64; 2], Option<[f64; 2]>);
 
-/// Figures for the elements with prescribed displacement; nothing if there are none.
+/// Passivity figures for the elements with prescribed displacement; `None` without such elements.
 pub(super) fn passivity(symbol: &Symbol) -> Result<Option<Passivity>> {
     let contact: Vec<_> =
         (0..symbol.order()).filter(|component| symbol.prescribed()[*component]).collect();
@@ -239,7 +241,7 @@ pub(super) fn passivity(symbol: &Symbol) -> Result<Option<Passivity>> {
             widen(&mut rate, range);
         }
     }
-    // Golden section around the worst angle (the minimum of the samples is kept anyway).
+    // Golden section around the worst angle (the minimum of the samples is kept in any case).
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let width = PI / ANGLES as f64;
     let (mut low, mut high) = ((angle - width).max(1e-9), (angle + width).min(PI));
@@ -263,7 +265,7 @@ pub(super) fn passivity(symbol: &Symbol) -> Result<Option<Passivity>> {
     }))
 }
 
-/// Smallest eigenvalue and largest magnitude so far.
+/// Updates the smallest eigenvalue and the largest magnitude.
 fn widen(extremes: &mut [f64; 2], range: [f64; 2]) {
     extremes[0] = extremes[0].min(range[0]);
     extremes[1] = extremes[1].max(range[0].abs()).max(range[1].abs());
@@ -277,7 +279,7 @@ struct Compliance<'a> {
 }
 
 impl Compliance<'_> {
-    /// Ranges of the eigenvalues at ζ = e^{iθ}; nothing where H is singular.
+    /// Ranges of the eigenvalues at ζ = e^{iθ}; `None` where H is singular.
     fn ranges(&mut self, angle: f64) -> Result<Option<Ranges>> {
         let zeta = Complex64::from_polar(1.0, angle);
         let s = self.symbol.at(zeta, &mut self.sum)?;

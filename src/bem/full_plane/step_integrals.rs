@@ -1,9 +1,9 @@
 //! Closed-form integrals of the full-plane solution over a straight element, for a load H(t).
 //!
-//! The field point is y = x + s d + h n with the element's direction d and outward normal n; the
-//! load acts at x. On the element h is constant and s runs from one end to the other, so that every
-//! integral is the difference of a primitive at the two ends. With the functions of
-//! [`crate::fundamental::FullPlane`] the solution is, up to 1/2πρ and μ/2πρ,
+//! The field point is y = x + s d + h n with the element's direction d and outward normal n; the load acts at
+//! x. On the element h is constant and s runs from one end to the other. Every integral is therefore the
+//! difference of a primitive at the two ends. With the functions of [`crate::fundamental::FullPlane`] the
+//! solution is, up to 1/2πρ and μ/2πρ,
 //!
 //! * `u_ij` = ½(−D + L₁ + L₂) `δ_ij` + D `e_i` `e_j`
 //! * r `t_ij` = (2D − Q₂)(`δ_ij` `r_n` + `e_i` `n_j`) + 2D `n_i` `e_j`
@@ -21,7 +21,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Displacements and tractions integrated over an element, in its own axes.
+/// Displacements and tractions integrated over an element, in its axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Integrals {
     /// dd, dn = nd, nn; in units of 1/2πρ.
@@ -55,7 +55,7 @@ pub(super) struct Medium {
 /// Front of a wave at one end of the element.
 #[derive(Clone, Copy)]
 struct Front {
-    /// Whether the wave has passed the point of the element's line that is nearest to the load.
+    /// Whether the wave has passed the point of the element's line nearest to the load.
     present: bool,
     /// Whether the wave has passed this end.
     covered: bool,
@@ -94,7 +94,7 @@ fn arctangent_defect(y: f64) -> f64 {
         return (y - y.atan()) / (y * y * y);
     }
     let square = y * y;
-    // Σ (−y²)^k/(2k+3); 26 terms leave 1e-17 at ½.
+    // Σ (−y²)^k/(2k+3); the error of 26 terms is 1e-17 at ½.
     (0..26).rev().fold(0.0, |sum, k| 1.0 / f64::from(2 * k + 3) - square * sum)
 }
 
@@ -106,7 +106,7 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
         return [0.0; 2];
     }
     if !q.present {
-        // Only here may A be a quarter turn that nothing takes away; h is not small then.
+        // Only here may A be a quarter turn that does not cancel; h is not small then.
         let pole = square * p.angle / height;
         return [pole, (pole + s * d) / (2.0 * height)];
     }
@@ -135,7 +135,7 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
     [square * (x - cubic), half]
 }
 
-/// `self` with its sign turned if the other number is negative.
+/// Changes the sign of `self` if the other number is negative.
 trait CopySignOf {
     fn copysign_of(self, sign: f64) -> f64;
 }
@@ -207,7 +207,7 @@ fn primitive(medium: &Medium, s: f64, h: f64, time: f64) -> Integrals {
 
 /// Integrals over s from `ends[0]` to `ends[1]` at signed height `h`, `time` after the load began.
 ///
-/// A principal value where the load lies on the element (h = 0).
+/// They are principal values where the load lies on the element (h = 0).
 pub(super) fn step_integrals(medium: &Medium, ends: [f64; 2], h: f64, time: f64) -> Integrals {
     let mut out = primitive(medium, ends[1], h, time);
     out.add(-1.0, &primitive(medium, ends[0], h, time));
@@ -229,7 +229,7 @@ mod tests {
         for k in 0..pieces {
             let (a, b) = (f64::from(k) / f64::from(pieces), f64::from(k + 1) / f64::from(pieces));
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-                // s = low + (high − low) sin²θ takes both singularities away.
+                // The substitution s = low + (high − low) sin²θ removes both singularities.
                 let theta = FRAC_PI_2 * (a + 0.5 * (b - a) * (1.0 + node));
                 let s = low + (high - low) * theta.sin().powi(2);
                 let slope = (high - low) * (2.0 * theta).sin();

@@ -1,4 +1,4 @@
-//! Coefficients in time: the formulation of the paper, with exact integrals.
+//! Coefficients in time by the formulation of the paper, with exact integrals.
 
 use super::boundary::{PairClasses, check_segments};
 use super::step_integrals::{Integrals, Medium, step_integrals};
@@ -10,11 +10,11 @@ use crate::linalg::gauss;
 use crate::linalg::gauss::Rule;
 use crate::soil::Soil;
 
-/// Boundary coefficients of Patel & Spyrakos (eqs. 2–4): displacements and tractions constant over
-/// element and step, collocation at midpoints and step ends.
+/// Boundary coefficients of Patel & Spyrakos (eqs. 2–4) in the time domain.
 ///
-/// Integrals over element and step are exact: differences in time of closed forms for a load H(t),
-/// and Gauss rules where no wave front is inside, so that late coefficients keep their digits.
+/// Displacements and tractions are constant over element and step; the equation is collocated at midpoints
+/// and step ends. Integrals over element and step are exact. They are differences in time of closed forms for
+/// a load H(t), or Gauss rules where no wave front is inside, so that late coefficients keep their digits.
 ///
 /// The scheme is not stable for every step: see [the module](super).
 ///
@@ -26,7 +26,7 @@ use crate::soil::Soil;
 /// let kernel = TimeKernel::new(soil, &[element], 1.0e-4)?;
 /// let (mut g, mut h) = ([0.0; 4], [0.0; 4]);
 /// kernel.coefficients(0, &mut g, &mut h)?;
-/// // Before waves reach its ends, an element moves by t/(2 ρ c) either side of the plane.
+/// // Before waves reach its ends, an element moves by t/(2 ρ c) on either side of the plane.
 /// let plane_wave = 1.0e-4 / (2.0 * 2000.0 * soil.pressure_wave_speed());
 /// assert!((g[3] / plane_wave - 1.0).abs() < 1e-12);
 /// assert_eq!(h, [0.5, 0.0, 0.0, 0.5]);
@@ -47,8 +47,9 @@ impl TimeKernel {
     /// Kernel for a soil, elements and steps of `time_step` seconds.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for an element
-    /// without length, one that passes through the midpoint of another, or a bad time step.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for an
+    /// element without length, an element that passes through the midpoint of another, or an invalid time
+    /// step.
     pub fn new(soil: Soil, segments: &[Segment], time_step: f64) -> Result<Self> {
         check_segments(segments)?;
         positive("time step", time_step)?;
@@ -62,9 +63,10 @@ impl TimeKernel {
         Ok(Self { segments: segments.to_vec(), pairs, soil, medium, time_step, subelements: None })
     }
 
-    /// Replaces exact integrals in space by midpoint rules over `count` sub-elements (the
-    /// paper takes five and does not name the rule); sub-elements next to the load remain exact.
-    /// For comparison only: it is slower and less accurate.
+    /// Replaces exact integrals in space by midpoint rules over `count` sub-elements.
+    ///
+    /// The paper takes five sub-elements and does not name the rule. Sub-elements next to the load remain
+    /// exact. Use this for comparison only: it is slower and less accurate.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for 0.
@@ -72,8 +74,9 @@ impl TimeKernel {
         self.with_gauss_subelements(count, 1)
     }
 
-    /// Replaces exact integrals in space by Gauss rules of `points` points in each sub-element, one (the midpoint) to
-    /// eight.
+    /// Replaces exact integrals in space by Gauss rules with `points` points in each of `count` sub-elements.
+    ///
+    /// `points` is from one (the midpoint) to eight.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for no sub-elements, or a number of points outside 1 to 8.
@@ -90,7 +93,7 @@ impl TimeKernel {
         self.soil
     }
 
-    /// Seconds per step.
+    /// Time step, s.
     pub fn time_step(&self) -> f64 {
         self.time_step
     }
@@ -123,7 +126,7 @@ impl TimeKernel {
         [count, points]: [usize; 2],
     ) -> Integrals {
         let length = (ends[1] - ends[0]) / count as f64;
-        // Places and weights on a sub-element from −½ to ½.
+        // Positions and weights on a sub-element from −½ to ½.
         let rule: Vec<[f64; 2]> = if points == 1 {
             vec![[0.0, 1.0]]
         } else {
@@ -181,26 +184,25 @@ impl BoundaryKernel for TimeKernel {
             let local = self.local(ends, height, lag);
             let [dd, dn, nn] = local.displacement.map(|u| u * scales[0]);
             let t = local.traction.map(|row| row.map(|t| t * scales[1]));
-            // The load of the boundary equation belongs to the row.
+            // The index of the boundary equation's load is the row.
             [[[dd, dn], [dn, nn]], [[t[0][0], t[1][0]], [t[0][1], t[1][1]]]]
         });
         Ok(())
     }
 }
 
-// Integrals over an element and a step where no wave front is inside: Gauss rules, nothing cancels.
+// Integrals over an element and a step without a wave front inside: Gauss rules, without cancellation.
 //
-// Differences in time of the closed forms lose digits as time goes on, since displacements grow
-// like log t while coefficients fall like 1/t. Where the fronts are elsewhere, the response to an
-// impulse is smooth in space and time. With t in place of the unit steps of
-// [`super::step_integrals`] and both waves past,
+// Differences in time of the closed forms lose digits at late times, because displacements grow like log t
+// while coefficients fall like 1/t. Without a front inside, the response to an impulse is smooth in space and
+// time. With t in place of the unit steps of [`super::step_integrals`] and after both waves have passed,
 //
 // * D/r² = Σ ± 1/(c R (T+R)²), L = Σ 1/(c R), Q/r² = −1/(c R³)
 // * (8D + 2(Q₁−Q₂))/r⁴ = −2 Σ ± (3R+T)/(c R³ (T+R)³)
 //
-// which is free of r: the element under the load is no exception.
+// These do not contain r, so the element under the load is no special case.
 
-/// Places of the wave fronts relative to the element.
+/// Waves that have passed the element.
 #[derive(Clone, Copy, PartialEq)]
 enum Passed {
     None,
@@ -208,7 +210,7 @@ enum Passed {
     Both,
 }
 
-/// Answer to an impulse at (`s`, `h`).
+/// Response to an impulse at (`s`, `h`).
 fn impulse(medium: &Medium, s: f64, h: f64, time: f64, both: bool) -> Integrals {
     let [c1, c2] = medium.speeds;
     let square = s * s + h * h;
@@ -244,7 +246,7 @@ fn impulse(medium: &Medium, s: f64, h: f64, time: f64, both: bool) -> Integrals 
     }
 }
 
-/// Rules in space and time, if the rectangle is far enough from every front.
+/// Rules in space and time; `None` if the rectangle is too near to a front.
 fn rules(
     medium: &Medium,
     ends: [f64; 2],
@@ -278,14 +280,15 @@ fn rules(
         space = space.min(gauss::reach([0.0, h], ends[0], ends[1]));
     }
     if passed == Passed::None {
-        // Any rule will do for zero.
+        // Any rule integrates zero.
         return Some((passed, [gauss::largest(); 2]));
     }
     Some((passed, [gauss::rule_for(space)?, gauss::rule_for(time)?]))
 }
 
-/// Integrals over the element for an impulse spread over the times from `begin` to `end`; `None`
-/// where a front is inside or near.
+/// Integrals over the element for an impulse spread over the times from `begin` to `end`.
+///
+/// `None` if a front is inside or near.
 pub(super) fn smooth_integrals(
     medium: &Medium,
     ends: [f64; 2],

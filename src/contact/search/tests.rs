@@ -23,7 +23,7 @@ use basemat_problems::random::Random;
 
 const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 
-/// Parameters of a problem's law.
+/// Parameters of the law of a problem.
 #[derive(Debug, Clone, Copy)]
 struct Parameters {
     friction: f64,
@@ -64,8 +64,9 @@ impl Problem {
         }
     }
 
-    /// Distance of a change of traction from Signorini's and Coulomb's conditions, written down
-    /// anew: tractions relative to the largest traction, lengths to the largest jump.
+    /// Violation of Signorini's and Coulomb's conditions by a change of traction, coded independently.
+    ///
+    /// Tractions are relative to the largest traction, lengths to the largest jump.
     fn violation(&self, traction: &[f64]) -> f64 {
         let count = self.start.len();
         let mut jump = self.free_jump.clone();
@@ -138,7 +139,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     (operators.delassus.to_vec(), assembled.base.areas().to_vec())
 }
 
-/// A W with A W symmetric and positive definite, of any condition and any coupling.
+/// A random W with A W symmetric and positive definite, with any condition number and coupling.
 fn invented(count: usize, random: &mut Random) -> Vec<f64> {
     let size = 2 * count;
     let root: Vec<f64> = (0..size * size).map(|_| random.within(-1.0, 1.0)).collect();
@@ -199,7 +200,7 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
     Problem { parameters, laws, delassus, free_jump, static_traction, start, modes }
 }
 
-/// The next free jump: what the elements have, moved as random tractions would.
+/// The next free jump: the present one, changed as random tractions would change it.
 fn push(problem: &mut Problem, random: &mut Random) {
     let count = problem.start.len();
     let pressure = problem.static_traction[..count].iter().sum::<f64>() / count as f64;
@@ -257,9 +258,9 @@ struct Tally {
     /// Problems with several solutions.
     several: usize,
     several_with_strength: usize,
-    /// Problems that have no solution.
+    /// Number of problems without a solution.
     none: usize,
-    /// Problems that have one which the search did not find.
+    /// Number of problems with a solution that the search did not find.
     failed: usize,
     failed_with_strength: usize,
     worst: f64,
@@ -281,7 +282,7 @@ impl Tally {
         self.worst = self.worst.max(other.worst);
     }
 
-    /// Solves one problem in all ways; returns the modes and states to go on from.
+    /// Solves one problem by all methods; returns the modes and states for the next step.
     fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
         let count = problem.start.len();
         let input = problem.input();
@@ -329,7 +330,7 @@ impl Tally {
     }
 }
 
-/// Sequences of steps, each from where the last one ended.
+/// Sequences of steps, each from the end of the previous step.
 fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
     let mut random = Random(seed);
     let mut tallies: Vec<Tally> = FRICTION.iter().map(|_| Tally::default()).collect();
@@ -353,7 +354,7 @@ fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
 
 #[test]
 fn search_finds_what_brute_force_finds() {
-    // CONTACT_PROBLEMS=5 makes it a hundred thousand problems.
+    // CONTACT_PROBLEMS=5 runs a hundred thousand problems.
     let more = std::env::var("CONTACT_PROBLEMS").ok().and_then(|text| text.parse().ok());
     let more: usize = more.unwrap_or(1);
     let sequences = [(1, 100), (2, 300), (3, 400), (4, 160), (5, 40), (6, 10)];
@@ -364,16 +365,16 @@ fn search_finds_what_brute_force_finds() {
         {
             println!("{count} elements, friction {friction}: {tally:?}");
             total.add(&tally);
-            // Brittle adhesion makes the law non-monotone: no method is sure to find a solution.
+            // Brittle adhesion makes the law non-monotone: no method finds a solution with certainty.
             assert_eq!((tally.failed, tally.none), (0, 0), "{count}, friction {friction}");
             assert!(tally.worst < 1e-12, "{count} elements, friction {friction}: {tally:?}");
-            // At the coefficients below one drawn here the solution is unique.
+            // The solution is unique for friction coefficients below one.
             assert!(tally.several == 0 || friction >= 1.0, "{count}, friction {friction}");
         }
     }
     println!("{total:?}");
     assert!(total.problems > 15_000 && total.failed_with_strength <= 3 * more, "{total:?}");
-    // The active set alone does nearly all of it, the path alone all without adhesion.
+    // The active set alone solves nearly all problems; the path alone solves all problems without adhesion.
     assert!(total.alone[0] > total.problems * 9 / 10, "{total:?}");
     assert!(total.alone[2] + 10 * more > total.problems, "{total:?}");
 }

@@ -11,10 +11,10 @@ use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 
 /// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
 ///
-/// Quadrilaterals get their material, and lines their meaning, from the names of physical groups.
-/// An element belongs to all of its groups; one in none has the name "". A quadrilateral must have one
-/// group with a material. Points and lines that are not asked for are passed over; triangles and nodes outside the
-/// plane z = 0 are an error. Clockwise quadrilaterals are turned round. Elements of the second order
+/// The names of physical groups define the material of quadrilaterals and the meaning of lines. An element
+/// belongs to all of its groups; an element in no group has the name "". A quadrilateral must have exactly one
+/// group with a material. Points, and lines that the caller does not use, are ignored. Triangles and nodes
+/// outside the plane z = 0 are an error. Clockwise quadrilaterals are reversed. Elements of the second order
 /// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
 ///
 /// ```
@@ -46,7 +46,7 @@ pub struct GmshMesh {
     lines: Vec<Cell>,
 }
 
-/// An element: the names of its groups, its nodes as indices, its tag and where it stands in the file.
+/// An element: the names of its groups, the indices of its nodes, its tag and its line in the file.
 #[derive(Debug, Clone, PartialEq)]
 struct Cell {
     groups: Vec<String>,
@@ -55,7 +55,7 @@ struct Cell {
     line: usize,
 }
 
-/// Distance from the plane z = 0 that is rounding, relative to the size of the mesh.
+/// Distance from the plane z = 0 that counts as rounding, relative to the size of the mesh.
 const FLAT: f64 = 1e-9;
 
 impl GmshMesh {
@@ -76,7 +76,7 @@ impl GmshMesh {
         }
     }
 
-    /// Reads the same from any source of bytes; `name` is what errors call it.
+    /// Reads the same from any source of bytes; errors use `name` for the source.
     ///
     /// # Errors
     /// [`Error::MeshFile`] with the line and the reason.
@@ -92,7 +92,7 @@ impl GmshMesh {
                 used.insert(*place, tag);
             }
         }
-        // In the order of the file, whatever the tags.
+        // Nodes are numbered in the order of the file, independently of their tags.
         let index: BTreeMap<u64, usize> =
             used.values().enumerate().map(|(k, &tag)| (tag, k)).collect();
         let points = || used.keys().map(|&place| &raw.coordinates[place]);
@@ -108,7 +108,7 @@ impl GmshMesh {
         let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
         let mut corners = BTreeSet::new();
         for cell in &raw.cells {
-            // Lines of the geometry that no quadrilateral touches mean nothing here.
+            // Lines of the geometry that touch no quadrilateral are ignored.
             let places: Option<Vec<usize>> =
                 cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
             let Some(mut nodes) = places else { continue };
@@ -145,12 +145,13 @@ impl GmshMesh {
         names(&self.lines)
     }
 
-    /// The quadrilaterals, each with the material of its group; more elements can be added. Nodes
-    /// keep their indices.
+    /// The quadrilaterals, each with the material of its group; more elements can be added.
+    ///
+    /// Nodes keep their indices.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] for a quadrilateral without a material here or with two of them, a material
-    /// without a group, and quadrilaterals without area or with a reflex corner, with their line.
+    /// [`Error::MeshFile`] for a quadrilateral without a material or with two materials, a material without a
+    /// group, and quadrilaterals without area or with a reflex corner, with their line.
     pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
         self.mesh_of(materials, QuadFormulation::default())
     }
@@ -220,8 +221,8 @@ impl GmshMesh {
     /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] if there is no such group, or its lines have a gap:
-    /// [`GmshMesh::foundations`] gives what is between gaps.
+    /// [`Error::MeshFile`] if there is no such group, or its lines have a gap; [`GmshMesh::foundations`]
+    /// returns the pieces between gaps.
     pub fn line(&self, name: &str) -> Result<Vec<usize>> {
         let mut pieces = self.foundations(name)?;
         match (pieces.pop(), pieces.len()) {
@@ -236,9 +237,10 @@ impl GmshMesh {
         }
     }
 
-    /// Nodes of the lines of group `name`, from left to right, for each piece that hangs together,
-    /// from left to right: the contact nodes of separate footings, for [`FemModel::on_foundations`].
-    /// Footings with names of their own are a [`line`](GmshMesh::line) each.
+    /// Nodes of the lines of group `name`, for each connected piece, from left to right.
+    ///
+    /// These are the contact nodes of separate footings, for [`FemModel::on_foundations`]. If footings have
+    /// their own names, read each by [`line`](GmshMesh::line).
     ///
     /// [`FemModel::on_foundations`]: crate::structure::FemModel::on_foundations
     ///
@@ -279,7 +281,7 @@ impl GmshMesh {
         Error::MeshFile { file: self.file.clone(), line: 0, reason }
     }
 
-    /// Corners first, then the nodes between them, as Gmsh has them and [`Quad8`].
+    /// Reverses clockwise nodes. Corners come first, then the nodes between them, in Gmsh as in [`Quad8`].
     fn turn_counter_clockwise(&self, nodes: &mut [usize]) {
         let place = |k: usize| self.nodes[nodes[k]];
         let [a, b, c, d] = [place(0), place(1), place(2), place(3)];

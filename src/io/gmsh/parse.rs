@@ -8,18 +8,19 @@ use crate::error::MeshFileError;
 use crate::text::bounded_line::Lines;
 use crate::text::column::{excerpt, finite};
 
-/// Number and fault of a line that cannot be read.
+/// The result of reading; the error holds the number of the line and its fault.
 type Reason<T> = Result<T, (usize, MeshFileError)>;
 
-/// A point, and where it stands in the file.
+/// A point, and its line in the file.
 #[derive(Debug)]
 pub(super) struct Point {
     pub(super) values: [f64; 3],
     pub(super) line: usize,
 }
 
-/// An element of the file, a line of 2 or 3 nodes or a quadrilateral of 4 or 8, by their tags, and
-/// where it stands.
+/// An element of the file by its tags, with its line.
+///
+/// A line has 2 or 3 nodes, a quadrilateral 4 or 8.
 #[derive(Debug)]
 pub(super) struct RawCell {
     /// Dimension and tag of its entity.
@@ -29,7 +30,7 @@ pub(super) struct RawCell {
     pub(super) line: usize,
 }
 
-/// The parts of a file that matter here.
+/// The parts of a file that are used.
 #[derive(Debug, Default)]
 pub(super) struct Raw {
     pub(super) coordinates: Vec<Point>,
@@ -48,12 +49,13 @@ impl RawCell {
 }
 
 impl Raw {
-    /// Names of the physical groups of `cell`, sorted; a group without a name is called by its number, and the name
-    /// of a cell without a group is empty.
+    /// Names of the physical groups of `cell`, sorted; for a group without a name, its number.
+    ///
+    /// A cell without a group has one empty name.
     pub(super) fn groups(&self, cell: &RawCell) -> Vec<String> {
         let tags = self.groups.get(&cell.entity).map_or(&[][..], Vec::as_slice);
         let name = |tag: &i64| {
-            // A minus sign says that the entity's direction is reversed in its group.
+            // A minus sign means that the entity's direction is reversed in its group.
             let key = (cell.entity.0, tag.saturating_abs());
             self.names.get(&key).cloned().unwrap_or_else(|| key.1.to_string())
         };
@@ -124,7 +126,7 @@ fn physical_names(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     Ok(())
 }
 
-/// The parts into which a mesh was cut: entities of their own, with the groups of their parents.
+/// The parts of a partitioned mesh: separate entities, with the groups of their parents.
 fn partitioned_entities(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     let _: u64 = fields.next("number of partitions")?;
     let ghosts: u64 = fields.next("number of ghost entities")?;
@@ -151,7 +153,7 @@ fn entities(fields: &mut Words<impl Read>, raw: &mut Raw, partitioned: bool) -> 
                     let _: i64 = fields.next("partition")?;
                 }
             }
-            // A point has its coordinates, the others the corners of a box, which may be infinite.
+            // A point has its coordinates; other entities have the corners of a box, which may be infinite.
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 let _: f64 = fields.next("coordinate of an entity")?;
             }
@@ -208,7 +210,7 @@ fn nodes(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     fields.agree("nodes", raw.coordinates.len(), announced)
 }
 
-/// Numbers of blocks and of what is in them; then come the smallest and the largest tag.
+/// Numbers of blocks and of entries in them; the smallest and the largest tag follow in the file.
 fn counts(fields: &mut Words<impl Read>, what: &'static str) -> Reason<(u64, u64)> {
     let counts = (fields.next("number of blocks")?, fields.next(what)?);
     for tag in ["smallest tag", "largest tag"] {
@@ -217,7 +219,7 @@ fn counts(fields: &mut Words<impl Read>, what: &'static str) -> Reason<(u64, u64
     Ok(counts)
 }
 
-/// Number of nodes of an element of this type of Gmsh's.
+/// Number of nodes of an element of this Gmsh type.
 fn size_of(kind: u32) -> Result<usize, MeshFileError> {
     let what = match kind {
         15 => return Ok(1),
@@ -255,7 +257,7 @@ fn elements(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     fields.agree("elements", found, announced)
 }
 
-/// The fields of a text, one after the other, with the line that they stand in.
+/// The fields of a text in order, with their line numbers.
 struct Words<R: Read> {
     source: Lines<R>,
     text: String,
@@ -286,7 +288,7 @@ impl<R: Read> Words<R> {
         Ok(true)
     }
 
-    /// The next field as it is, or none at the end.
+    /// The next field unchanged; `None` at the end.
     fn field(&mut self) -> Reason<Option<&str>> {
         loop {
             let rest = &self.text[self.at..];
@@ -303,7 +305,7 @@ impl<R: Read> Words<R> {
         }
     }
 
-    /// The next field, understood by `parse`.
+    /// The next field, converted by `parse`.
     fn field_as<T>(&mut self, what: &'static str, parse: impl Fn(&str) -> Option<T>) -> Reason<T> {
         let Some(field) = self.field()? else {
             return Err((self.line, MeshFileError::Missing { what: what.to_owned() }));
@@ -320,7 +322,7 @@ impl<R: Read> Words<R> {
         self.field_as("finite number", finite)
     }
 
-    /// Refuses another number of things than was announced.
+    /// Error if the number of items differs from the number announced.
     fn agree(&self, what: &'static str, found: usize, announced: u64) -> Reason<()> {
         if u64::try_from(found) == Ok(announced) {
             return Ok(());
@@ -344,7 +346,7 @@ impl<R: Read> Words<R> {
         }
     }
 
-    /// Name of the section that begins next, or none at the end.
+    /// Name of the section that begins next; `None` at the end.
     fn section(&mut self) -> Reason<Option<String>> {
         let Some(field) = self.field()? else { return Ok(None) };
         if let Some(name) = field.strip_prefix('$') {
@@ -354,7 +356,7 @@ impl<R: Read> Words<R> {
         Err(self.refuse(MeshFileError::NotA { what: "beginning of a section", text }))
     }
 
-    /// The end of `section`.
+    /// Reads the end of `section`.
     fn end(&mut self, section: &str) -> Reason<()> {
         let end = self.field()?.map(|field| field.strip_prefix("$End") == Some(section));
         if end == Some(true) {

@@ -47,7 +47,7 @@ fn bonds_break_where_brute_force_says_they_may() {
                 let glued = |e: usize| problem.start.state_variables_of(e) == [1.0];
                 let keeps_all =
                     |modes: &[Mode]| (0..count).all(|e| !glued(e) || modes[e] == Mode::Stick);
-                // No bond breaks where all of them may hold, unless friction has a choice itself.
+                // No bond breaks where all of them may hold, unless friction alone allows several solutions.
                 let may_hold = all.iter().any(|(modes, _)| keeps_all(modes));
                 let is_unique = problem.parameters.friction < 1.0;
                 assert!(keeps_all(&modes) || !may_hold || !is_unique, "{modes:?} {all:?}");
