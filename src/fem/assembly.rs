@@ -115,7 +115,7 @@ impl Numbering {
         self.numbers.get(node)?[direction as usize]
     }
 
-    /// Replaces `indices` by those of the degrees of freedom of `element`, in the order of its matrices.
+    /// Overwrites `indices` with the indices of the degrees of freedom of `element`, in the order of its matrices.
     pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
         indices.clear();
         for &node in element.nodes() {

@@ -1,4 +1,4 @@
-//! A moving picture of structure and base: an SVG with SMIL animation, played by browsers.
+//! Animation of structure and base: an SVG with SMIL, which browsers play.
 
 use std::fmt::Write;
 
@@ -13,29 +13,32 @@ use plotters::style::RGBColor;
 
 const WIDTH: f64 = 940.0;
 const HEIGHT: f64 = 640.0;
-/// The structure is drawn inside this box: left, top, right, bottom.
+/// Box of the structure, pixels: left, top, right, bottom.
 const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
 /// x of the left end of key, scale and clock, pixels.
 const ASIDE: f64 = 725.0;
-/// Frames at most: more make files that browsers cannot play smoothly.
+/// Largest number of frames: browsers cannot play larger files smoothly.
 const MOST_FRAMES: usize = 600;
-/// Changes of the clock.
+/// Largest number of changes of the clock.
 const MOST_TIMES: usize = 150;
 
-/// The structure in motion, displacements relative to the ground and times `magnification`, with
-/// the surface of the soil, the contact mode of every element below it, a clock, and a bar for the
-/// scale of lengths and of displacements. One second of the run takes `slowness` seconds.
+/// The structure in motion with the contact modes of its base, as an animation.
 ///
-/// In plan it is seen from the front, the right and above, all lengths along the axes at one scale; its elements lie
-/// below it, and once more in a small plan at the side, with x to the right.
+/// Displacements are relative to the ground and multiplied by `magnification`. The picture contains the
+/// surface of the soil, the contact mode of every element below it, a clock, and a bar with the scales of
+/// lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
-/// Frames of contact are shown if they were kept as often as those of motion.
+/// In plan the view is from the front, the right and above, with one scale for all lengths along the axes.
+/// The elements are drawn below the structure, and again in a small plan at the side, with x to the right.
+///
+/// Frames of contact are shown if there are as many as frames of motion.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of motion were kept
-/// ([`crate::results::Recorder::motion`]); [`Error::Input`](crate::Error::Input) unless magnification and slowness are
-/// positive, or for more than 600 frames; [`Error::Index`](crate::Error::Index) if `shape` belongs to another
-/// structure, [`Error::Scene`](crate::Error::Scene) if to one of another dimension.
+/// ([`crate::results::Recorder::motion`]); [`Error::Input`](crate::Error::Input) unless magnification and
+/// slowness are positive, or for more than 600 frames; [`Error::Index`](crate::Error::Index) if `shape`
+/// belongs to another structure, [`Error::Scene`](crate::Error::Scene) if it belongs to a structure of
+/// another dimension.
 pub fn animation(
     title: &str,
     shape: &DeformedShape,
@@ -91,7 +94,7 @@ struct Screen {
 }
 
 impl Screen {
-    /// Screen for these places, and others that are to be seen.
+    /// Screen that contains these places and the `others`.
     fn of(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
         let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
         all.extend(others);
@@ -110,7 +113,7 @@ impl Screen {
         ]
     }
 
-    /// Outlines of the cells as an SVG path: the same commands for every frame.
+    /// Outlines of the cells as an SVG path, with the same commands for every frame.
     fn path(&self, shape: &DeformedShape, places: &[[f64; 2]]) -> String {
         let mut path = String::new();
         for cell in shape.cells() {
@@ -140,7 +143,7 @@ impl Screen {
         )
     }
 
-    /// A bar, and how many metres it is of the structure and of its displacements.
+    /// A bar with its length in metres, for the structure and for its displacements.
     fn bar(&self, magnification: f64) -> String {
         let length = round_below(150.0 / self.scale);
         let (end, y) = (ASIDE + self.scale * length, 300.0);
@@ -162,7 +165,7 @@ impl Screen {
     }
 }
 
-/// 1, 2 or 5 times a power of ten.
+/// Rounds down to 1, 2 or 5 times a power of ten.
 fn round_below(most: f64) -> f64 {
     let power = 10.0_f64.powf(most.log10().floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= most);
@@ -179,7 +182,7 @@ fn metres(length: f64) -> String {
 }
 
 fn head(title: &str) -> String {
-    // Sizes of fonts are those of SVG here, plotters' are 1.24 times as large.
+    // Font sizes here are SVG sizes; sizes in plotters are 1.24 times as large.
     let title = fitted(title, 25, WIDTH - 40.0);
     let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     format!(
@@ -240,13 +243,13 @@ fn base(time_series: &TimeSeries, screen: &Screen, frames: usize, duration: &str
 
 /// The surface around a base in plan.
 struct Floor {
-    /// Ends along x and y, m.
+    /// Ends of the base along x and y, m.
     ends: [[f64; 2]; 2],
-    /// Soil that is drawn around it, m.
+    /// Width of the soil drawn around the base, m.
     margin: f64,
 }
 
-/// The plan at the side: left, top, right, bottom.
+/// Box of the plan at the side, pixels: left, top, right, bottom.
 const SIDE: [f64; 4] = [ASIDE, 440.0, 915.0, 585.0];
 
 impl Floor {
@@ -257,14 +260,14 @@ impl Floor {
         Self { ends: [along, across], margin: 0.15 * side }
     }
 
-    /// Corners (x, height, y), so far outside.
+    /// Corners (x, height, y) at a distance `margin` outside the base.
     fn corners(&self, margin: f64) -> [[f64; 3]; 4] {
         let [[left, right], [front, back]] =
             self.ends.map(|[low, high]| [low - margin, high + margin]);
         [[left, front], [right, front], [right, back], [left, back]].map(|[x, y]| [x, 0.0, y])
     }
 
-    /// Soil, axes, and the elements, coloured by their modes, below the structure and at the side.
+    /// Draws soil, axes, and the elements, coloured by their modes, below the structure and at the side.
     fn draw(
         &self,
         time_series: &TimeSeries,
@@ -333,7 +336,7 @@ fn polygon(corners: &[[f64; 2]]) -> String {
     format!("M{}Z", points.join("L"))
 }
 
-/// An attribute with a value for each of as many equal parts of the time, where it changes.
+/// Animates an attribute with values for equal parts of the time; only changes are written.
 fn changes(attribute: &str, values: &[String], duration: &str) -> String {
     let new = |k: &usize| *k == 0 || values[*k] != values[*k - 1];
     let at: Vec<usize> = (0..values.len()).filter(new).collect();
@@ -351,7 +354,7 @@ fn changes(attribute: &str, values: &[String], duration: &str) -> String {
     )
 }
 
-/// The running time: a bar, and one text after the other, for SMIL cannot count.
+/// The running time: a bar, and a sequence of texts, because SMIL cannot count.
 fn clock(times: &[f64], duration: &str) -> String {
     let (begin, end) = (times[0], times[times.len() - 1]);
     let (first, last) = (format!("{begin:.2} s"), format!("{end:.2} s"));
@@ -369,14 +372,14 @@ fn clock(times: &[f64], duration: &str) -> String {
         left + length + 10.0,
         y + 9.0
     );
-    // The last frame has no duration: what is shown begins at the others.
+    // The last frame has no duration, so texts begin at the other frames.
     let every = (times.len() - 1).div_ceil(MOST_TIMES);
     let shown: Vec<f64> = times[..times.len() - 1].iter().copied().step_by(every).collect();
     let share = |time: f64| ((time - begin) / (end - begin)).clamp(0.0, 1.0);
     for (k, &time) in shown.iter().enumerate() {
         let from = share(time);
         let until = shown.get(k + 1).map_or(1.0, |&next| share(next));
-        // Visible from the first instant on, or from its own.
+        // Visible from the start, or from the text's own time.
         let (still, states, moments) = if k == 0 {
             ("visible", "visible;hidden", format!("0;{until:.5}"))
         } else {

@@ -11,12 +11,12 @@ use super::drawing::{Area, Drawing, Stroke, fitted, width};
 pub(super) const LABEL: (&str, u32) = ("sans-serif", 15);
 const DESCRIPTION: (&str, u32) = ("sans-serif", 17);
 
-/// Pixels around the plotting area: left with marks and description, right with half a mark.
+/// Space around the plotting area, pixels: left with marks and description, right with half a mark.
 pub(super) const LEFT: u32 = 104;
 pub(super) const RIGHT: u32 = 38;
 pub(super) const ABOVE: u32 = 10;
 pub(super) const BELOW: u32 = 62;
-/// Pixels for a mark, along x and y.
+/// Space for a mark along x and y, pixels.
 const MARK: [f64; 2] = [82.0, 40.0];
 
 /// Linear axis with marks at given places.
@@ -45,7 +45,7 @@ impl Ranged for Coordinate {
 pub(super) type Chart<'a, 'b> =
     ChartContext<'a, SVGBackend<'b>, Cartesian2d<Coordinate, Coordinate>>;
 
-/// Magnitudes beyond this are not drawn: the chart's own arithmetic would overflow.
+/// Largest magnitude that is drawn: above it the arithmetic of the chart would overflow.
 const LARGEST: f64 = 1e60;
 
 /// Whether a chart can show a value.
@@ -55,7 +55,7 @@ pub(super) fn drawable(value: f64) -> bool {
 
 /// Range from the lowest to the highest value that can be drawn, with a margin; never empty.
 ///
-/// Spans below 1e-9 of the values, or 1/`LARGEST`, count as none.
+/// Spans below 1e-9 of the values, or below 1/`LARGEST`, count as zero.
 pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for value in values.filter(|value| drawable(*value)) {
@@ -74,7 +74,7 @@ pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
 #[derive(Debug, Clone, PartialEq)]
 enum Scale {
     Linear,
-    /// The chart is drawn in the values' logarithms (base 10).
+    /// The chart is drawn in logarithms of the values (base 10).
     Logarithmic(Range<f64>),
     Marked(Vec<(f64, String)>),
 }
@@ -104,7 +104,7 @@ impl Axis {
         Self { range, description: description.into(), scale: Scale::Marked(marks) }
     }
 
-    /// Marks that do not touch each other on an axis of this length (pixels), and the description.
+    /// Marks that do not overlap on an axis of this length (pixels), and the description.
     fn layout(&self, pixels: f64, vertical: bool) -> (Vec<(f64, String)>, String) {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some tens")]
         let count = ((pixels / MARK[usize::from(vertical)]) as usize).clamp(2, 14);
@@ -132,7 +132,7 @@ impl Axis {
     }
 }
 
-/// Name of the mark that is nearest to a value.
+/// Name of the mark nearest to a value.
 fn name(marks: &[(f64, String)], value: f64) -> String {
     let away = |mark: &&(f64, String)| (mark.0 - value).abs();
     let nearest = marks.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
@@ -177,7 +177,7 @@ pub(super) fn chart<'a, 'b>(
     Ok(chart)
 }
 
-/// A curve in pieces, broken where values cannot be drawn.
+/// A curve in pieces, interrupted where values cannot be drawn.
 pub(super) fn draw_curve(
     chart: &mut Chart<'_, '_>,
     points: &[(f64, f64)],
@@ -199,18 +199,18 @@ pub(super) fn draw_curve(
     Ok(())
 }
 
-/// Most letters of a mark: what needs more is written as a difference.
+/// Largest number of letters of a mark; if more are needed, marks are written as differences.
 const LETTERS: usize = 9;
 
-/// Marks of an axis: place and name.
+/// Marks of an axis: places and names.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ticks {
     pub(super) marks: Vec<(f64, String)>,
-    /// Offset to be added to the names, where it is not zero.
+    /// Offset to be added to the names; `None` if it is zero.
     pub(super) offset: Option<String>,
 }
 
-/// 1, 2 or 5 times a power of ten, the next at or above `least`.
+/// The next number at or above `least` that is 1, 2 or 5 times a power of ten.
 pub(super) fn nice(least: f64) -> f64 {
     let power = 10.0_f64.powf(least.log10().floor());
     // Rounding must not skip a step.
@@ -218,13 +218,13 @@ pub(super) fn nice(least: f64) -> f64 {
     steps.into_iter().find(|step| *step >= (1.0 - 1e-9) * least).unwrap_or(10.0 * power)
 }
 
-/// Multiples of a nice step in a range, about `count` or fewer.
+/// Multiples of a rounded step in a range, about `count` or fewer.
 fn multiples(range: &Range<f64>, count: usize) -> (f64, Vec<f64>) {
     let step = nice((range.end - range.start) / count.max(1) as f64);
     let (first, last) = ((range.start / step - 1e-6).ceil(), (range.end / step + 1e-6).floor());
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "count and less")]
     let number = (last - first).clamp(0.0, 2.0 * count as f64) as usize;
-    // Zero without its sign.
+    // Adding zero removes a negative sign of zero.
     (step, (0..=number).map(|k| (first + k as f64) * step + 0.0).collect())
 }
 
@@ -247,15 +247,15 @@ fn exponent(value: f64) -> i32 {
     exponent
 }
 
-/// Multiple of `step`, with the digits that distinguish it from its neighbours.
+/// A multiple of `step` with the digits that distinguish it from its neighbours.
 fn number(value: f64, step: f64) -> String {
-    // Multiples that miss zero by rounding.
+    // Multiples that are not zero only because of rounding.
     if value.abs() < 1e-3 * step {
         return "0".to_owned();
     }
     let digits = |number: i32| usize::try_from(number).unwrap_or(0);
     let plain = format!("{value:.*}", digits(-exponent(step)));
-    // As powers of ten what is far from one.
+    // Numbers far from one are written with powers of ten.
     if value.abs() < 1e6 && (step >= 1e-4 || value.abs() >= 1.0) {
         return plain;
     }

@@ -11,14 +11,16 @@ use crate::results::{ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Columns of the map, as many as it has pixels at most.
+/// Largest number of columns of the map, about one per pixel.
 const COLUMNS: usize = 1000;
 
-/// The mode of every contact element over time; where frames share a column, the rarest mode shows.
-/// Wide gaps between foundations are drawn short.
+/// Map of the contact mode of every element over time.
 ///
-/// An element in a mode of slip that bears no pressure is shown as touching without pressure: with
-/// infinite friction this is what lies between stick and open, and nothing slides.
+/// Where several frames share a column, the rarest mode is shown. Wide gaps between foundations are drawn
+/// short.
+///
+/// An element in a mode of slip without pressure is shown as touching without pressure. With infinite
+/// friction this is the state between stick and open, and nothing slides.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of contact were kept
@@ -64,14 +66,15 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     })
 }
 
-/// Value of an element, as drawn.
+/// Value of an element to be drawn.
 type Value = fn(&ElementEnvelope) -> f64;
 
-/// Largest, static and least pressure along the base, in steps as the elements have them; wide gaps
-/// between foundations are drawn short. In plan, the largest pressure under each element.
+/// Largest, static and least pressure along the base, constant in each element.
+///
+/// Wide gaps between foundations are drawn short. In plan, the largest pressure under each element.
 ///
 /// # Errors
-/// Those of drawing, for values beyond all bounds.
+/// Errors of drawing, for extremely large values.
 pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     if run.in_plan {
         return largest_pressures(title, run);
@@ -86,7 +89,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     let steps = |value: Value| {
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
         for e in envelope {
-            // A gap between two strips is a gap of the curve.
+            // A gap between two strips is a gap in the curve.
             let left = base.place(e.element.left);
             if points.last().is_some_and(|last| left - last.0 > 1e-6 * e.element.length()) {
                 points.push((f64::NAN, f64::NAN));
@@ -110,33 +113,33 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     })
 }
 
-// The base as an axis: foundations far from each other are drawn with a short gap between them.
+// The base as an axis: wide gaps between foundations are drawn short.
 
-/// Widest gap that is drawn to scale, over the length of all foundations.
+/// Widest gap drawn to scale, over the length of all foundations.
 const WIDEST: f64 = 0.1;
-/// Marks of the whole axis.
+/// Number of marks of the whole axis.
 const MARKS: usize = 11;
 
-/// A foundation: elements that touch each other.
+/// A foundation: adjacent elements without gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     left: f64,
     right: f64,
-    /// Place at which the left end is drawn, m.
+    /// Drawn position of the left end, m.
     start: f64,
 }
 
-/// A gap that is drawn shorter than it is.
+/// A gap that is drawn shorter than its true width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Break {
-    /// Ends as drawn, m.
+    /// Drawn positions of the ends, m.
     pub(super) from: f64,
     pub(super) to: f64,
     /// True width, m.
     pub(super) width: f64,
 }
 
-/// Foundations side by side.
+/// Foundations next to each other.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BaseAxis {
     pieces: Vec<Piece>,
@@ -173,9 +176,9 @@ impl BaseAxis {
         Self { pieces, breaks }
     }
 
-    /// Place at which a point of the base is drawn, m.
+    /// Drawn position of a point of the base, m.
     pub(super) fn place(&self, x: f64) -> f64 {
-        // Between two foundations nothing is drawn: the last that begins before it counts.
+        // Between two foundations nothing is drawn; the position refers to the foundation on the left.
         let piece = self.pieces.iter().rev().find(|p| p.left <= x).or(self.pieces.first());
         piece.map_or(x, |piece| piece.start + x - piece.left)
     }
@@ -197,7 +200,7 @@ impl BaseAxis {
             let count = ((share * MARKS as f64).round() as usize).max(2);
             let ticks = linear(&(piece.left..piece.right), count);
             if ticks.offset.is_some() {
-                // Numbers too long for an axis: about where it is.
+                // Numbers too long for an axis: one mark with the approximate place.
                 marks.push((piece.start, short(piece.left)));
                 continue;
             }
@@ -209,8 +212,9 @@ impl BaseAxis {
     }
 }
 
-/// Writes into every break what was left out, where there is room for it; `at` is the middle of the
-/// text for the middle of the break.
+/// Writes the omitted width into every break that has room for it.
+///
+/// `at` returns the middle of the text for the middle of the break.
 pub(super) fn label_breaks(
     chart: &mut Chart<'_, '_>,
     base: &BaseAxis,
@@ -240,7 +244,7 @@ mod tests {
         let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
         let elements = elements.map(|(left, right)| ContactElement { left, right });
         let base = BaseAxis::of(elements.into_iter());
-        // 17.5 m of foundations: 32 m become 1.75, half a metre stays.
+        // 17.5 m of foundations: the gap of 32 m becomes 1.75 m; the gap of 0.5 m keeps its width.
         assert_eq!(base.breaks, [Break { from: 8.0, to: 9.75, width: 32.0 }]);
         for (x, place) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {
             assert!((base.place(x) - place).abs() < 1e-12, "{x}");

@@ -11,15 +11,16 @@ use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-/// Directions in which a structure is seen.
+/// Directions of view of a structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum View {
-    /// View along y: x to the right, up.
+    /// View along y: x to the right, height up.
     AlongY,
-    /// Against x: y to the right, up.
+    /// View against x: y to the right, height up.
     AlongX,
-    /// View from the front, the right and above: x falls and y rises to the right by 30 degrees, all at one scale
-    /// (isometric).
+    /// Isometric view from the front, the right and above.
+    ///
+    /// Towards the right, x falls and y rises by 30 degrees, all at one scale.
     Slanted,
 }
 
@@ -33,7 +34,7 @@ impl View {
         }
     }
 
-    /// All points.
+    /// Places in the picture of all points.
     pub(super) fn all(self, places: &[[f64; 3]]) -> Vec<[f64; 2]> {
         places.iter().map(|place| self.of(*place)).collect()
     }
@@ -43,13 +44,13 @@ impl View {
 const COS: f64 = 0.866_025_403_784_438_6;
 const SIN: f64 = 0.5;
 
-/// Error for a shape of the plane on a ground in plan, or the other way round.
+/// Error if only one of shape and ground is in plan.
 pub(super) fn check_dimension(shape: &DeformedShape, time_series: &TimeSeries) -> Result<()> {
     let needed = "must be one in plan on a ground in plan, and one of the plane else";
     require_part("deformed shape", shape.in_plan() == time_series.in_plan(), needed)
 }
 
-/// Places of the points (x, height, y), m: displacements relative to the free field, magnified.
+/// Places of the points (x, height, y), m, with magnified displacements relative to the free field.
 pub(super) fn places(
     shape: &DeformedShape,
     frame: &MotionFrame<'_>,
@@ -72,16 +73,16 @@ fn at_rest(point: &ShapePoint) -> [f64; 3] {
     [x, height, point.away]
 }
 
-/// The soil below its surface, which is y = 0, and the surface itself.
+/// Colours of the soil below its surface y = 0, and of the surface.
 pub(super) const SOIL: RGBColor = RGBColor(238, 229, 214);
 pub(super) const SURFACE: RGBColor = RGBColor(125, 98, 62);
 
-/// Least and largest coordinate along each axis.
+/// Smallest and largest coordinate along each axis.
 pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| span(places.iter().map(|place| place[axis])))
 }
 
-/// Outlines of a deformed shape's cells at these places, end to end, broken by NaN.
+/// Outlines of a deformed shape's cells at these places in one list, separated by NaN.
 fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for cell in shape.cells() {
@@ -95,14 +96,16 @@ fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
     points
 }
 
-/// The structure at rest and at the kept instants nearest to `times` (s), displacements relative to
-/// the ground and times `magnification`, at one scale in both directions. In plan it is seen along y at the left and
-/// against x at the right.
+/// The structure at rest and at some instants.
+///
+/// The kept frames nearest to `times` (s) are drawn. Displacements are relative to the ground and multiplied
+/// by `magnification`, with one scale in both directions. In plan there are two views, along y on the left
+/// and against x on the right.
 ///
 /// # Errors
-/// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]), [`Error::Size`]
-/// without times, [`Error::Input`] unless times are finite and the magnification positive,
-/// [`Error::Index`] if `shape` belongs to another structure, [`Error::Scene`] if to one of another dimension.
+/// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]), [`Error::Size`] without
+/// times, [`Error::Input`] unless times are finite and the magnification positive, [`Error::Index`] if
+/// `shape` belongs to another structure, [`Error::Scene`] if it belongs to a structure of another dimension.
 pub fn deformed_shapes(
     title: &str,
     shape: &DeformedShape,
@@ -157,7 +160,7 @@ pub fn deformed_shapes(
         let one = elevation(View::AlongY, sheet.room());
         return sheet.picture(|area| draw(area, &one));
     }
-    // Both at one scale: of the wider of the two.
+    // Both views use the scale of the wider one.
     let [all, height] = sheet.room();
     let room = [0.5 * (all - f64::from(LEFT + RIGHT)), height];
     let mut both = [View::AlongY, View::AlongX].map(|view| elevation(view, room));
@@ -180,7 +183,7 @@ pub fn deformed_shapes(
 /// A view, ranges of its axes, and the places of all points in it at every instant.
 type Elevation = (View, [Range<f64>; 2], Vec<Vec<[f64; 2]>>);
 
-/// Ranges of both axes at one scale, in a room of [width, height] pixels.
+/// Ranges of both axes at one scale, in an area of [width, height] pixels.
 fn ranges(bounds: [[f64; 2]; 2], room: [f64; 2]) -> [Range<f64>; 2] {
     let pixel = |k: usize| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / room[k];
     let scale = pixel(0).max(pixel(1));

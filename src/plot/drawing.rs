@@ -6,7 +6,7 @@ use plotters::prelude::*;
 /// Area on which a chart is drawn.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
-/// Whatever goes wrong while drawing into memory.
+/// Result of drawing into memory, with any error.
 pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;
 
 /// Colours of curves, in their order.
@@ -20,7 +20,7 @@ pub(super) const COLORS: [RGBColor; 7] = [
     RGBColor(23, 190, 207),
 ];
 
-/// Corners of a sign, pixels from its middle.
+/// Corners of a marker, pixels from its middle.
 type Marker = &'static [(i32, i32)];
 
 /// A square, a triangle, a diamond, a triangle upside down, an hourglass.
@@ -32,7 +32,7 @@ const MARKERS: [Marker; 5] = [
     &[(-5, -5), (5, -5), (-5, 5), (5, 5)],
 ];
 
-/// Signs along a curve.
+/// Number of markers along a curve.
 const SIGNS: usize = 9;
 
 /// Colour and marker of a curve.
@@ -40,7 +40,8 @@ const SIGNS: usize = 9;
 pub(super) struct Stroke {
     pub(super) color: RGBColor,
     pub(super) marker: Option<Marker>,
-    /// Distance of the first marker over that of markers, different for each curve so that markers seldom meet.
+    /// Distance of the first marker over the distance between markers; differs between curves so that markers
+    /// rarely overlap.
     phase: f64,
 }
 
@@ -49,14 +50,14 @@ impl Stroke {
         Self { color, marker: None, phase: 0.0 }
     }
 
-    /// Style of the curve number `k`: the first seven without markers; all alike after 42.
+    /// Style of curve number `k`: the first seven have no markers; styles repeat after 42.
     pub(super) fn nth(k: usize) -> Self {
         let marker = (k / COLORS.len()).checked_sub(1).map(|round| MARKERS[round % MARKERS.len()]);
         let phase = (0.1 + 0.618 * (k % 100) as f64).fract();
         Self { color: COLORS[k % COLORS.len()], marker, phase }
     }
 
-    /// Points of a curve of `count` that have a marker.
+    /// Points of a curve of `count` points that have a marker.
     pub(super) fn marked(self, count: usize) -> impl Iterator<Item = usize> {
         let place = move |k: usize| {
             let share = (k as f64 + self.phase) / SIGNS as f64;
@@ -68,12 +69,12 @@ impl Stroke {
     }
 }
 
-// Width of text, and cuts where there is no room for it.
+// Width of text, and cutting of text that is too long.
 //
-// Whoever shows the SVG chooses the font: widths are estimates for a wide one (DejaVu Sans, not
-// condensed), so that others fit as well.
+// The program that shows the SVG chooses the font. Widths are estimates for a wide font (DejaVu Sans, not
+// condensed), so that other fonts fit as well.
 
-/// plotters divides sizes of fonts by this.
+/// Factor by which plotters divides font sizes.
 const FONT_SCALE: f64 = 1.24;
 
 /// Width of a letter over the font's size.
@@ -82,7 +83,7 @@ fn letter(c: char) -> f64 {
         'i' | 'j' | 'l' | 'I' | '|' | '!' | '.' | ',' | ':' | ';' | '\'' | ' ' => 0.37,
         'm' | 'w' | 'M' | 'W' | '%' | '@' | '—' | '…' | 'Æ' | 'Œ' | 'Ω' => 1.01,
         '0'..='9' | 'a'..='z' => 0.64,
-        // Hangul, Kana, Chinese, signs and pictures are square.
+        // Hangul, Kana, Chinese characters, symbols and pictures are square.
         '\u{1100}'..='\u{115f}' | '\u{2e80}'.. => 1.1,
         _ => 0.82,
     }
@@ -112,15 +113,15 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-// The key to a chart's colours, in a strip of its own at the right: it hides nothing.
+// The key to a chart's colours, in a separate strip at the right, where it hides nothing.
 
 const FONT: (&str, u32) = ("sans-serif", 15);
-/// Names wider than this go on in a second line, and are cut after a third.
+/// Widest line of a name, pixels, and largest number of its lines; the rest is cut.
 const WIDEST: f64 = 230.0;
 const LINES: usize = 3;
-/// Names beyond these are counted only.
+/// Largest number of names shown; further names are only counted.
 const ENTRIES: usize = 42;
-/// Pixels beside the names, for a line of text, and between two names.
+/// Pixels beside the names, per line of text, and between two names.
 const SIDE: u32 = 52;
 const LINE: i32 = 18;
 const GAP: i32 = 6;
@@ -139,7 +140,7 @@ pub(super) struct Key(Vec<(Vec<String>, Sample)>);
 impl Key {
     pub(super) fn of<'n>(entries: impl IntoIterator<Item = (&'n str, Sample)>) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();
-        // One line of a text is no better than the text itself.
+        // A line "and 1 more" would need as much room as the name itself.
         let shown = if entries.len() > ENTRIES + 1 { ENTRIES } else { entries.len() };
         let split = |name: &str| lines(name, FONT.1, WIDEST, LINES);
         let mut list: Vec<_> =
@@ -172,7 +173,7 @@ impl Key {
         text + GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
     }
 
-    /// Draws it from the top of the strip.
+    /// Draws the key from the top of the strip.
     pub(super) fn draw(&self, strip: &Area<'_>) -> Drawing<()> {
         let mut y = 18;
         for (name, sample) in &self.0 {
@@ -216,7 +217,7 @@ mod tests {
         assert_eq!(three.len(), 3);
         assert!(three[2].ends_with('…') && !three[1].ends_with('…'));
         assert!(three.iter().all(|line| width(line, 15) <= 80.0));
-        // A word too long for a line is broken, and what follows is not lost.
+        // A word too long for a line is broken, and the text after it is not lost.
         let broken = lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
         assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
     }

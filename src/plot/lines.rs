@@ -1,4 +1,4 @@
-//! Curves over time or period: quantities, energy, spectra, the response of a site; error against run time.
+//! Curves over time or period: quantities, energy, spectra, site response, and error against run time.
 
 use super::axes::{Axis, chart, draw_curve, drawable, range_of};
 use super::drawing::{Area, COLORS, Drawing, Key, Sample, Stroke};
@@ -11,9 +11,9 @@ use crate::site::{EquivalentLinear, LayerResponse};
 use crate::text::column::{of_body, printed};
 use plotters::prelude::*;
 
-/// Stretches of a curve that are drawn by their extremes, as many as there are pixels at most.
+/// Largest number of stretches of a curve that are drawn by their extremes, about one per pixel.
 const BUCKETS: usize = 1500;
-/// Demands above this are drawn here.
+/// Largest demand drawn; larger demands are drawn at this value.
 const MOST_DEMAND: f64 = 4.0;
 /// Colour of the line at a demand of one.
 const LIMIT: RGBColor = RGBColor(120, 120, 120);
@@ -23,12 +23,13 @@ const LIMIT: RGBColor = RGBColor(120, 120, 120);
 pub struct Curve {
     /// Name in the legend.
     pub name: String,
-    /// Points; the curve is broken where one is not finite.
+    /// Points; the curve is interrupted where a coordinate is not finite.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Curves in one chart, with the descriptions of the axes, units included. The first seven differ
-/// by colour, further ones by markers as well.
+/// Curves in one chart; `x` and `y` describe the axes, units included.
+///
+/// The first seven curves differ by colour, further curves also by markers.
 ///
 /// # Errors
 /// [`Error::Size`] without a point.
@@ -36,7 +37,7 @@ pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
     with_limit(title, x, y, curves, None)
 }
 
-/// Curves, and a level line at one of that name.
+/// Curves, and a horizontal line at one with the name `limit`.
 fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&str>) -> Result<Svg> {
     let all = || curves.iter().flat_map(|curve| &curve.points);
     at_least("points of a chart", all().count(), 1)?;
@@ -65,9 +66,9 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
 
 /// Chart of one quantity of one or more runs over time, in kN, mm, mrad or per cent.
 ///
-/// Factors of safety are drawn as their inverse, demand over capacity: a curve from zero that shows
-/// at one what was reached, where the factor itself would leave every chart. Of a bonded base it
-/// can be larger; values above four are drawn at four, and the axis says so.
+/// Factors of safety are drawn as their inverse, demand over capacity. This curve starts at zero and reaches
+/// one at the limit, while the factor itself would leave every chart. On a bonded base the demand can be
+/// larger; values above four are drawn at four, and the axis states this.
 ///
 /// # Errors
 /// As for [`curves`]; [`Error::Scene`] for runs in the plane and in plan together, whose units differ.
@@ -103,8 +104,9 @@ pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity
     with_limit(title, "time, s", &y, &list, limit)
 }
 
-/// A probe of one or more runs over time, in its unit, or the one that engineers read for it (see
-/// [`Probe::in_unit`](crate::coupled::Probe::in_unit)).
+/// A probe of one or more runs over time, in its unit or the unit that engineers use for it.
+///
+/// See [`Probe::in_unit`](crate::coupled::Probe::in_unit).
 ///
 /// # Errors
 /// [`Error::Name`] if a run has no such probe, [`Error::Scene`] if the runs have it in different
@@ -131,7 +133,7 @@ fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
-/// This curve by the extremes of its stretches, peaks and gaps kept.
+/// Reduces a curve to the extremes of its stretches; peaks and gaps are kept.
 fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     if points.len() <= 4 * BUCKETS {
         return points.to_vec();
@@ -152,13 +154,14 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     kept
 }
 
-/// The terms of the energy balance over time, those that stay below a thousandth of the largest left
-/// out.
+/// The terms of the energy balance over time.
+///
+/// Terms that stay below a thousandth of the largest are left out.
 ///
 /// # Errors
-/// Those of [`curves`].
+/// The errors of [`curves`].
 pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
-    // The input, then what it has become.
+    // The input first, then its parts.
     let terms = |energy_balance: &EnergyBalance| {
         [vec![("input", energy_balance.input)], energy_balance.parts()].concat()
     };
@@ -183,10 +186,10 @@ pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
 /// Periods that can be drawn, s.
 const PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Pseudo-acceleration (m/s²) over the period, which is drawn in logarithms.
+/// Response spectra: pseudo-acceleration (m/s²) over the period, with a logarithmic period axis.
 ///
 /// # Errors
-/// [`Error::Size`] without an ordinate, [`Error::Input`] for a period that is not from 10⁻⁶ to 10⁶ s.
+/// [`Error::Size`] without an ordinate, [`Error::Input`] for a period outside 10⁻⁶ to 10⁶ s.
 pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<Svg> {
     let axes = axes_of_spectra(spectra)?;
     Sheet::new(title, Key::of_curves(spectra.iter().map(|(name, _)| *name)))
@@ -207,14 +210,14 @@ fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]>
         }
     }
     at_least("ordinates of a spectrum", all().count(), 1)?;
-    // A single period has no width, and nothing at all no height.
+    // A single period has no width, and a zero spectrum no height.
     let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
     let top = if top > 1e-60 { 1.08 * top } else { 1.0 };
     let y = Axis::linear(0.0..top, "pseudo-acceleration, m/s²");
     Ok([Axis::logarithmic(periods, "period, s"), y])
 }
 
-/// Draws the spectra, by colours in their order.
+/// Draws the spectra, with colours in their order.
 fn draw_spectra(
     area: &Area<'_>,
     [x, y]: &[Axis; 2],
@@ -230,11 +233,12 @@ fn draw_spectra(
 
 // Equivalent-linear response of a site.
 
-/// A quantity of a layer with the shear wave speed there.
+/// A quantity of a layer, from its response and its shear wave speed.
 type Value = fn(&LayerResponse, f64) -> f64;
 
-/// Shear wave speeds and strains over depth, which goes down from y = 0, and response spectra beside them: those of the
-/// surface and of the rock, say.
+/// Shear wave speeds and strains over depth, and response spectra beside them.
+///
+/// Depth goes down from y = 0. Spectra are, for example, those at the surface and at the rock.
 ///
 /// # Errors
 /// As for [`spectra`](spectra()).
@@ -251,7 +255,7 @@ pub fn site_response(
         ("largest strain", |own, _| 100.0 * own.largest_strain),
         ("effective strain", |own, _| 100.0 * own.effective_strain),
     ];
-    // Spectra take the first colours.
+    // Spectra use the first colours.
     let strokes = [COLORS[5], COLORS[4], COLORS[3], COLORS[6]].map(Stroke::plain);
     let steps = |value: Value| -> Vec<(f64, f64)> {
         let layers = response.layers.iter().zip(response.profile.layers());
@@ -290,11 +294,12 @@ pub fn site_response(
 
 // Error against run time.
 
-/// Estimated error of each setting over its run time, both drawn in logarithms: smaller steps,
-/// more elements, and both. A setting without an error or a run time is left out.
+/// Estimated error of each setting over its run time, both on logarithmic axes.
+///
+/// Curves are smaller steps, more elements, and both. A setting without an error or a run time is left out.
 ///
 /// # Errors
-/// [`Error::Size`] if no setting has both.
+/// [`Error::Size`] if no setting has both an error and a run time.
 pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
     let Some(first) = refinement.settings.first() else {
         return Err(Error::Size { quantity: "settings of a refinement", found: 0, needed: 1 });
@@ -314,7 +319,7 @@ pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
     ];
     let range = |of: fn(&(f64, f64)) -> f64| {
         let all = || curves.iter().flat_map(|(_, points)| points).map(of);
-        // A tenth of a decade around, so that nothing lies on the frame.
+        // A margin of a tenth of a decade, so that no point lies on the frame.
         let (low, high) =
             (all().fold(f64::INFINITY, f64::min), all().fold(-f64::INFINITY, f64::max));
         (low <= high).then(|| 10.0_f64.powf(low - 0.1)..10.0_f64.powf(high + 0.1))

@@ -1,8 +1,8 @@
 //! Pictures of a run, as SVG (feature `plot`) and PNG (feature `png`).
 //!
-//! Every function gives back an [`Svg`], to save, or to put into a page of HTML; with the feature
-//! `png` also as a bitmap (`Svg::save_png`). What needs frames
-//! of contact or motion says so; the [`crate::results::Recorder`] keeps them if asked to.
+//! Every function returns an [`Svg`], to be saved or put into an HTML page; with the feature `png` also as a
+//! bitmap (`Svg::save_png`). Functions that need frames of contact or motion document this; the
+//! [`crate::results::Recorder`] keeps frames on request.
 //!
 //! | picture | function |
 //! |---|---|
@@ -10,7 +10,7 @@
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, least and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
-//! | where the energy went | [`energy`] |
+//! | terms of the energy balance over time | [`energy`] |
 //! | response spectra | [`spectra`] |
 //! | wave speeds and strains of a site over depth, and spectra | [`site_response`] |
 //! | error against run time | [`refinement`](refinement()) |

@@ -12,29 +12,31 @@ use crate::interface::ContactState;
 use crate::results::{Run, TimeSeries};
 use plotters::prelude::*;
 
-/// Classes of pressure, about.
+/// Approximate number of classes of pressure.
 const CLASSES: f64 = 6.0;
 /// Colours of the least and the largest pressure.
 const PALE: [f64; 3] = [250.0, 240.0, 222.0];
 const DARK: [f64; 3] = [150.0, 20.0, 30.0];
-/// Frame around the base, relative to its larger side.
+/// Width of the frame around the base, relative to its larger side.
 const MARGIN: f64 = 0.06;
 /// Length of an arrow and of its head, relative to the shorter side of a cell.
 const ARROW: [f64; 2] = [0.36, 0.15];
 
-/// A cell as drawn: its sides along x and y, its colour, and where it slides.
+/// A cell to be drawn: its sides along x and y, its colour, and the direction in which it slides.
 struct Cell {
     sides: [[f64; 2]; 2],
     color: RGBColor,
     slides: Option<[f64; 2]>,
 }
 
-/// Pressure under each element of a base in plan in the frame nearest to `time` (s), open elements, and the direction
-/// in which sliding ones move over the soil.
+/// Pressures and sliding directions of a base in plan, in the frame nearest to `time` (s).
+///
+/// Elements are coloured by pressure, open elements are marked, and arrows show how sliding elements move
+/// over the soil.
 ///
 /// # Errors
-/// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground is not one
-/// in plan; [`Error::Input`] for a time that is not finite.
+/// [`Error::Scene`] if no frames of contact were kept ([`crate::results::Recorder::contact`]) or the ground
+/// is not in plan; [`Error::Input`] for a time that is not finite.
 pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<Svg> {
     finite("time of a picture", time)?;
     let apart = |frame: &crate::results::ContactFrame<'_>| (frame.time - time).abs();
@@ -88,27 +90,27 @@ pub(super) fn largest_pressures(title: &str, run: &Run) -> Result<Svg> {
     draw(title, &cells, &classes.key())
 }
 
-/// Error for a base of the plane.
+/// Error for a base in the plane.
 fn check(in_plan: bool) -> Result<()> {
     let needed = "a ground of three directions: `mode_map` draws the base in the plane";
     require_part("contact in plan", in_plan, needed)
 }
 
-/// Classes of pressure from zero on, Pa.
+/// Classes of pressure from zero upwards, Pa.
 struct Classes {
     step: f64,
     count: f64,
 }
 
 impl Classes {
-    /// Classes up to that of the largest pressure.
+    /// Classes up to the class of the largest pressure.
     fn to(largest: f64) -> Self {
         let largest = if drawable(largest) && largest > 0.0 { largest } else { 1.0 };
         let step = nice(largest / CLASSES);
         Self { step, count: (largest / step).ceil().max(1.0) }
     }
 
-    /// The colour of a pressure; tension has that of none.
+    /// The colour of a pressure; tension has the colour of zero pressure.
     fn color(&self, pressure: f64) -> RGBColor {
         let class = (pressure / self.step).floor().clamp(0.0, self.count - 1.0);
         let ratio = if class.is_nan() { 0.0 } else { class / (self.count - 1.0).max(1.0) };
@@ -131,7 +133,7 @@ impl Classes {
     }
 }
 
-/// Cells on axes of one scale.
+/// Draws cells with one scale on both axes.
 fn draw(title: &str, cells: &[Cell], key: &[(String, Sample)]) -> Result<Svg> {
     let sheet = Sheet::new(title, Key::of(key.iter().map(|(name, sample)| (&name[..], *sample))));
     let ends = [0, 1].map(|axis| far_ends(cells.iter().map(|cell| cell.sides[axis])));

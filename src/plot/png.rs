@@ -1,4 +1,4 @@
-//! Pictures as bitmaps, for reports whose editors take no SVG (feature `png`).
+//! Pictures as bitmaps, for report editors that do not read SVG (feature `png`).
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -15,14 +15,14 @@ const MOST_PIXELS: f64 = 1e8;
 const NOT_DRAWN: Error =
     Error::Scene { quantity: "bitmap", needed: "a picture that can be drawn as one" };
 
-/// The only font there is: the same picture on every machine.
+/// The only font, so that the picture is the same on every machine.
 fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let load = || {
         let mut fonts = fontdb::Database::new();
         let font: &'static [u8] = dejavu::sans_condensed::regular();
         fonts.load_font_source(fontdb::Source::Binary(Arc::new(font)));
-        // Its name in the file; there is no wider one to be mistaken for.
+        // The family name in the file; no wider font is loaded that could be confused with it.
         fonts.set_sans_serif_family("DejaVu Sans");
         Arc::new(fonts)
     };
@@ -30,11 +30,13 @@ fn fonts() -> Arc<fontdb::Database> {
 }
 
 impl Svg {
-    /// The picture as a bitmap in PNG format, `scale` pixels per unit of the SVG: 1 for screens, 3
-    /// for print. Letters are those of DejaVu Sans Condensed, which is shipped. An animation shows its start.
+    /// The picture as a bitmap in PNG format, with `scale` pixels per unit of the SVG.
+    ///
+    /// Use a scale of 1 for screens and 3 for print. The font is DejaVu Sans Condensed, which is part of the
+    /// crate. An animation shows its start.
     ///
     /// # Errors
-    /// [`Error::Input`] for a scale that is not positive or asks for more than 100 million pixels.
+    /// [`Error::Input`] for a scale that is not positive, or a bitmap of more than 100 million pixels.
     pub fn png(&self, scale: f64) -> Result<Vec<u8>> {
         let options = Options { fontdb: fonts(), ..Options::default() };
         let tree = Tree::from_str(self.as_str(), &options).map_err(|_| NOT_DRAWN)?;
@@ -52,7 +54,7 @@ impl Svg {
         bitmap.encode_png().map_err(|_| NOT_DRAWN)
     }
 
-    /// Writes the bitmap that [`Svg::png`] gives to a file; its folder is made if it is not there.
+    /// Writes the bitmap of [`Svg::png`] to a file; its folder is made if it does not exist.
     ///
     /// # Errors
     /// As for [`Svg::png`]; [`Error::Write`] if the file cannot be written.
@@ -73,7 +75,7 @@ mod tests {
         Pixmap::decode_png(&svg.png(scale).unwrap()).unwrap()
     }
 
-    /// Pixels that are darker than half.
+    /// Number of pixels darker than half.
     fn dark(bitmap: &Pixmap) -> usize {
         bitmap.pixels().iter().filter(|pixel| pixel.red() < 128).count()
     }

@@ -1,16 +1,16 @@
-//! States of elements, as pictures show them.
+//! States of elements in pictures.
 
 use crate::interface::{ContactState, Mode};
 use crate::results::ContactFrame;
 use plotters::style::RGBColor;
 
-/// State of an element, as drawn; where several share a column the greater shows.
+/// State of an element in a picture; where several share a column, the larger is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shown {
     Stick,
     Open,
-    /// Touching without a pressure: what "slip" is with infinite friction, the one state between
-    /// stick and open.
+    /// Touching without pressure: with infinite friction this is the meaning of slip, the state between stick
+    /// and open.
     Weightless,
     SlipLeft,
     SlipRight,
@@ -22,7 +22,7 @@ impl Shown {
     pub(super) const ALL: [Self; 6] =
         [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Slip, Self::Open, Self::Weightless];
 
-    /// Mode and tractions of an element, of a base whose largest pressure is `scale`.
+    /// State from mode and tractions of an element; `scale` is the largest pressure of the base.
     pub(super) fn of(mode: Mode, state: &ContactState, scale: f64) -> Self {
         match mode.elastic() {
             Mode::Open => Self::Open,
@@ -56,8 +56,9 @@ impl Shown {
     }
 }
 
-/// State of every element in every frame, and the states that the key shows: the modes of the plane or those in plan
-/// always, touching without pressure where it occurs.
+/// State of every element in every frame, and the states in the key.
+///
+/// The key always has the modes of the plane or of plan, and touching without pressure only where it occurs.
 pub(super) fn shown(frames: &[ContactFrame<'_>], in_plan: bool) -> (Vec<Vec<Shown>>, Vec<Shown>) {
     let pressures = frames.iter().flat_map(|frame| frame.states).map(|state| state.pressure.abs());
     let scale = pressures.fold(0.0, f64::max);

@@ -10,10 +10,10 @@ use super::drawing::{Area, Drawing, Key, lines};
 use crate::error::{Error, Result};
 use crate::text::file::write_file;
 
-/// Size of the pictures, pixels; they are higher where title or key need it.
+/// Size of the pictures, pixels; they are higher if title or key need it.
 const SIZE: (u32, u32) = (1100, 560);
 const TITLE: (&str, u32) = ("sans-serif", 22);
-/// Lines of a title; the rest is cut. Pixels for one, and above and below them.
+/// Largest number of title lines; pixels per line, and above and below them.
 const TITLE_LINES: usize = 2;
 const TITLE_LINE: u32 = 26;
 const TITLE_ROOM: u32 = 16;
@@ -23,7 +23,7 @@ const TITLE_ROOM: u32 = 16;
 pub struct Svg(String);
 
 impl Svg {
-    /// Signs that XML 1.0 does not allow (its section 2.2) become replacement signs.
+    /// Replaces characters that XML 1.0 does not allow (its section 2.2) by replacement characters.
     pub(super) fn new(text: String) -> Self {
         let unknown = |c| matches!(c, '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}');
         Self(if text.contains(unknown) { text.replace(unknown, "\u{fffd}") } else { text })
@@ -34,17 +34,19 @@ impl Svg {
         &self.0
     }
 
-    /// Writes it to a file; its folder is made if it is not there. The text is SVG whatever the
-    /// file's name: programs expect `.svg`. For bitmaps there is `Svg::save_png` (feature `png`).
+    /// Writes the picture to a file; its folder is made if it does not exist.
+    ///
+    /// The text is SVG for any file name; programs expect `.svg`. For bitmaps use `Svg::save_png` (feature
+    /// `png`).
     ///
     /// # Errors
-    /// [`Error::Write`] if that fails.
+    /// [`Error::Write`] if the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         write_file(path.as_ref(), &self.0)
     }
 }
 
-/// Title and key with the room between them.
+/// Title and key, with the room between them.
 pub(super) struct Sheet {
     title: Vec<String>,
     key: Key,
@@ -73,7 +75,7 @@ impl Sheet {
         ]
     }
 
-    /// Draws title, key and what `chart` draws beside it on a white sheet.
+    /// Draws title, key and the result of `chart` on a white sheet.
     pub(super) fn picture(&self, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Result<Svg> {
         let mut text = String::new();
         {

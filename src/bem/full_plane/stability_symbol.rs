@@ -235,7 +235,7 @@ impl<'a> Symbol<'a> {
 
     /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ.
     ///
-    /// Returns the Laplace variable s if the kernel knows it.
+    /// Returns the Laplace variable s if the kernel has one.
     pub(super) fn at(
         &self,
         zeta: Complex64,

@@ -200,7 +200,7 @@ impl BoundaryKernel for TimeKernel {
 // * D/r² = Σ ± 1/(c R (T+R)²), L = Σ 1/(c R), Q/r² = −1/(c R³)
 // * (8D + 2(Q₁−Q₂))/r⁴ = −2 Σ ± (3R+T)/(c R³ (T+R)³)
 //
-// These do not contain r, so the element under the load is no special case.
+// These do not contain r, so the element under the load needs no special treatment.
 
 /// Waves that have passed the element.
 #[derive(Clone, Copy, PartialEq)]

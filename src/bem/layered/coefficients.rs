@@ -1,20 +1,21 @@
 //! Convolution weights of a layered ground by Runge–Kutta convolution quadrature.
 //!
-//! The mobility Y(s) = s F(s) is discretised with the traction held constant over all stages of a step
-//! and the stage velocities averaged with the weights b,
+//! The mobility Y(s) = s F(s) is discretised with the traction constant over all stages of a step, and the
+//! stage velocities averaged with the weights b:
 //!
 //! (1−z) Ĝ(z) = Δt bᵀ Y(Δ(z)/Δt) 1 = Σ wⱼ λⱼ F(λⱼ/Δt),   Ĝ(z) = Σ Gⁿ zⁿ⁻¹
 //!
-//! so that the work of the tractions, Σ τⁿ·(sⁿ − sⁿ⁻¹), is never negative if Herm Y ≥ 0 for Re s > 0
-//! (Banjai & Lubich 2019): for every time step, mesh, profile and passive damping law. Coefficients come by fast
-//! Fourier transform from a circle |z| = r of L points, rᴸ = ε: aliases are ε, and errors of F grow
-//! by r⁻ⁿ (Lubich 1988).
+//! The work of the tractions, Σ τⁿ·(sⁿ − sⁿ⁻¹), is then never negative if Herm Y ≥ 0 for Re s > 0 (Banjai &
+//! Lubich 2019), for every time step, mesh, profile and passive damping law. The weights follow by fast
+//! Fourier transform from a circle |z| = r of L points with rᴸ = ε: aliases have the size ε, and errors of F
+//! grow like r⁻ⁿ (Lubich 1988).
 //!
-//! Panels of the circle are sampled only where they look resolved with the surface compliance at a few wavenumbers for
-//! the mobility, which costs a hundredth: waves that go straight down have the reflections, and their resonances
-//! are where the mobility has branch points (those at other wavenumbers are smooth in the integral).
+//! A panel of the circle is sampled only if a test predicts that it is resolved. The test replaces the
+//! mobility by the surface compliance at a few wavenumbers, at a hundredth of the cost. This works because
+//! the reflections and resonances of waves that travel vertically are at the branch points of the mobility
+//! (resonances at other wavenumbers are smooth in the integral).
 //!
-//! Lags N+1 … 2N always come from L = 4N, N a power of two: the bits of a lag depend on nothing else.
+//! Lags N+1 … 2N always use L = 4N, N a power of two, so that the bits of a lag depend on nothing else.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -30,26 +31,29 @@ use crate::history::{KINDS as STRIP_KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Lags of the first block.
+/// Number of lags of the first block.
 pub(crate) const FIRST: usize = 128;
-/// Blocks that there can be: lags up to 2³¹.
+/// Largest number of blocks: lags up to 2³¹.
 pub(crate) const BLOCKS: usize = 25;
-/// Points of the circle per N of lags N+1 … 2N; 2N of the first block.
+/// Number of points of the circle per N, for lags N+1 … 2N; the first block has 2N points.
 const POINTS_PER_LAG: usize = 4;
-/// Tolerance of the integrals over that of coefficients: their errors are no reason to halve panels.
+/// Tolerance of the integrals over the tolerance of the weights, so that integration errors do not halve
+/// panels.
 const FINER: f64 = 0.03;
-/// Tolerance over its own with which a panel must look resolved before it is sampled: half of those at the limit are.
+/// Multiple of the tolerance to which a panel must be predicted as resolved before it is sampled.
+///
+/// Half of the panels at this limit are resolved.
 pub(super) const DOUBT: f64 = 100.0;
 
-/// Coefficients of neighbouring lags, all classes.
+/// Weights of consecutive lags, for all classes.
 #[derive(Debug)]
 pub(crate) struct Block {
-    /// Class by class, kind by kind: lag by lag.
+    /// One list of lags for each class and kind, class by class.
     pub(crate) values: Vec<Vec<f64>>,
 }
 
 impl Block {
-    /// Number of the block that holds lag `lag` ≥ 1, and the lag's place in it.
+    /// Number of the block that contains `lag` ≥ 1, and the position of the lag in it.
     pub(crate) fn place(lag: usize) -> (usize, usize) {
         let index = lag - 1;
         if index < FIRST {
@@ -64,7 +68,7 @@ impl Block {
         FIRST << number.saturating_sub(1)
     }
 
-    /// Circle on which block `number` is transformed, for a relative accuracy of F.
+    /// Circle for the transform of block `number`, for a relative accuracy of F.
     pub(crate) fn circle(number: usize, tolerance: f64) -> Circle {
         let length = POINTS_PER_LAG * Self::lags(number) / if number == 0 { 2 } else { 1 };
         Circle::new(length, tolerance)
@@ -75,18 +79,18 @@ impl Block {
         FIRST << number
     }
 
-    /// Coefficients of one class from `place` to the block's end.
+    /// Weights of one class from position `place` to the block's end.
     pub(crate) fn from<const KINDS: usize>(&self, class: usize, place: usize) -> [&[f64]; KINDS] {
         std::array::from_fn(|kind| &self.values[class * KINDS + kind][place..])
     }
 }
 
-/// Samples of a block, as reported to its observer.
+/// Progress of a block's samples, reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
     watch: &'w mut Watch<'a>,
-    /// Expected numbers of samples up to the blocks before and up to the end of this block.
+    /// Expected numbers of samples before this block and up to its end.
     expected: Range<usize>,
-    /// Samples made of this block so far.
+    /// Number of samples of this block made so far.
     done: usize,
 }
 
@@ -95,19 +99,19 @@ impl<'w, 'a> Samples<'w, 'a> {
         Self { watch, expected, done: 0 }
     }
 
-    /// Reports so many more samples to the observer.
+    /// Reports `more` further samples to the observer.
     fn reach(&mut self, more: usize) -> Result<()> {
         let done = self.expected.start + self.done + more;
         self.watch.reach(done.min(self.expected.end))
     }
 
-    /// Tells that all are done, as many as there were.
+    /// Reports the block as complete, for any number of samples made.
     pub(crate) fn end(self) -> Result<()> {
         self.watch.reach(self.expected.end)
     }
 }
 
-/// All that coefficients depend on.
+/// All data on which the weights depend.
 #[derive(Debug)]
 pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> {
     pub(crate) profile: SoilProfile,
@@ -117,7 +121,7 @@ pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> 
     pub(crate) time_step: f64,
     /// Relative accuracy of F.
     pub(crate) tolerance: f64,
-    /// Panels of each eigenvalue.
+    /// Panels for each eigenvalue.
     pub(crate) panels: Vec<Panels>,
 }
 
@@ -135,7 +139,9 @@ impl Quadrature {
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
-    /// Quadrature of these integrals; `own` has, per class, the classes of its two elements on themselves.
+    /// Quadrature of the given integrals.
+    ///
+    /// `own` has, for each class, the classes of the pairs of its two elements with themselves.
     pub(crate) fn of(
         profile: SoilProfile,
         integrals: I,
@@ -148,7 +154,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Self { profile, integrals, classes, stages, time_step, tolerance, panels }
     }
 
-    /// Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z) for all classes, at z given by ln |z| and its angle.
+    /// Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z) for all classes, at the z with the given ln |z| and angle.
     pub(crate) fn mobility(
         &self,
         place: [f64; 2],
@@ -163,7 +169,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(())
     }
 
-    /// Eigenvalues and weights at z, given by ln |z| and its angle.
+    /// Eigenvalues and weights at the z with the given ln |z| and angle.
     pub(crate) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
         let [z, rest] = on_circle(logarithm, angle);
         self.stages.nodes(z, rest)
@@ -191,7 +197,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         node.lambda.scale(1.0 / self.time_step)
     }
 
-    /// The coefficients of block `number`, computed on `threads` threads.
+    /// The weights of block `number`, computed on `threads` threads.
     pub(crate) fn block(
         &self,
         number: usize,
@@ -203,7 +209,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let circle = Block::circle(number, self.tolerance);
         let Circle { length, logarithm } = circle;
         let spectra = self.spectra(circle, threads, &mut samples)?;
-        // 1/(1−z): of the mobility, the transform of Gⁿ.
+        // Factor 1/(1−z) from the mobility to the transform of Gⁿ.
         let over: Vec<_> = (0..circle.points())
             .map(|point| on_circle(logarithm, circle.angle(point))[1].inverse())
             .collect();
@@ -215,11 +221,11 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let mut values = Vec::with_capacity(self.classes * KINDS);
         for row in spectra.chunks_exact(circle.points()) {
             for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
-                // The transform has the other sign.
+                // The transform has the opposite sign in its exponent.
                 *input = (*value * *over).conj().inner();
             }
             samples.reach(0)?;
-            // The ends of the circle are real.
+            // The values at both ends of the half circle are real.
             [input[0].im, input[length / 2].im] = [0.0; 2];
             transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
                 |_| Error::Singular { matrix: "spectrum of convolution weights", order: length },
@@ -231,7 +237,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(Block { values })
     }
 
-    /// The mobility on the upper half of a circle: point by point for one class and component after the other.
+    /// The mobility on the upper half of a circle: all points of one class and component, then the next.
     pub(super) fn spectra(
         &self,
         circle: Circle,
@@ -246,7 +252,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             needed: "few enough for the memory of the machine",
         })?;
         for function in 1..=functions {
-            // The system may take its time to find the memory.
+            // The allocation may take time.
             samples.reach(0)?;
             spectra.resize(count * function, Complex::default());
         }
@@ -270,7 +276,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(spectra)
     }
 
-    /// Whether a panel looks resolved to so many times the tolerance.
+    /// Returns a test whether a panel is predicted as resolved to a multiple of the tolerance.
     pub(super) fn looks(
         &self,
         node: usize,
@@ -291,7 +297,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(move |times| Polynomials::through::<OUTLOOK>(&values, &own, times * tolerance).is_some())
     }
 
-    /// Samples those of the panels at `places` that have not been met before and look resolved.
+    /// Samples those panels at `places` that are new and predicted as resolved.
     fn sample(
         &self,
         node: usize,
@@ -339,7 +345,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             let mut work = I::Workspace::default();
             let mut scratch = vec![[Complex::default(); KINDS]; self.classes];
             while !stopped.load(Ordering::Relaxed) {
-                // A thread that panicked leaves a queue that is still good.
+                // If a thread panics, its queue stays valid.
                 let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
                 let Some((number, (place, sums))) = next else { break };
                 let own = self.nodes(*place).nth(node);
@@ -350,8 +356,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             }
             Ok(())
         };
-        // Threads of their own and not a pool: a pool's worker that waits takes up other work, which
-        // may wait for these very coefficients.
+        // Separate threads instead of a pool: a waiting worker of a pool may start other work, which may wait
+        // for these weights.
         let mut failed: Vec<(usize, Error)> = std::thread::scope(|scope| {
             let others: Vec<_> =
                 (1..threads).map(|_| scope.spawn(|| work(&mut |_| Ok(())))).collect();
@@ -359,7 +365,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             stopped.store(own.is_some(), Ordering::Relaxed);
             let joined = others.into_iter().map(|thread| match thread.join() {
                 Ok(outcome) => outcome.err(),
-                // A law of the user's may panic: not in silence.
+                // A user's damping law may panic; the panic is passed on.
                 Err(panic) => std::panic::resume_unwind(panic),
             });
             let others = joined.collect::<Vec<_>>().into_iter().flatten();

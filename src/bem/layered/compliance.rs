@@ -1,18 +1,18 @@
-//! SurfaceCompliance compliance of a layered ground in the wavenumber domain.
+//! Surface compliance of a layered ground in the wavenumber domain.
 //!
 //! Pressure p cos kx and shear τ sin kx on the surface give W cos kx (down) and U sin kx:
 //! [U; W] = C(k, s) [τ; p], C symmetric. The impedance Z (stresses by displacements on a horizontal
 //! plane) is carried upwards from the base, layer by layer, with decaying exponentials only (Kausel
 //! & Roësset 1981 for the impedance; Luco & Apsel 1983 for the reflected waves).
 //!
-//! Through layers thin beside the waves, displacements and stresses are carried by the power series of their
-//! differential equations: the reflected waves of a slab would nearly cancel the others, and what soft ground
-//! below it gives would drown in their rounding.
+//! Through layers thin relative to the wavelength, displacements and stresses are carried by the power series
+//! of their differential equations. There the reflected waves of a slab would nearly cancel the others, and
+//! the contribution of soft ground below would be lost in rounding.
 //!
-//! Waves polarised across the wavenumber have the impedance Z = σ/u alone: μβ in a half-space, and through a layer of
-//! thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom Z ← z₀ (1 − R)/(1 + R).
-//! With E = 1 − e^(−2βh) that is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps its digits in thin layers; a rigid
-//! base is Z = ∞.
+//! Waves polarised across the wavenumber have the impedance Z = σ/u alone. It is μβ in a half-space. Through
+//! a layer of thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom, Z ←
+//! z₀ (1 − R)/(1 + R). With E = 1 − e^(−2βh) the result is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps
+//! its digits in thin layers; a rigid base is Z = ∞.
 //!
 //! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
 //! |s|/(c k) → 0; all differences are formed as products.
@@ -23,8 +23,8 @@
 //! | q₂, q₁ | ρs²/μ, a²q₂ |
 //! | α, β | √(k² + q₁), √(k² + q₂), principal |
 //! | U, T | columns: displacements (x, z) and stresses (xz, zz) of the waves P and D |
-//! | Λ | their change over the layer |
-//! | R | waves that go up by those that come down, at the layer's bottom |
+//! | Λ | change of these waves over the layer |
+//! | R | up-going waves per down-going waves, at the layer's bottom |
 
 use crate::error::Result;
 use crate::linalg::Complex;
@@ -57,26 +57,27 @@ pub(crate) struct Compliance {
     layers: Vec<Layer>,
     rigid: bool,
     moduli: Vec<Complex>,
-    /// α, β of the layers down to the last that the surface feels.
+    /// α, β of the layers down to the last that affects the surface.
     roots: Vec<[Complex; 2]>,
-    /// Layers that evaluations have gone through so far.
+    /// Number of layers used by all evaluations so far.
     pub(crate) visited: usize,
 }
 
 /// |β|h below which a layer is thin.
 const THIN: f64 = 0.2;
-/// Terms of the power series, relative to the first.
+/// Size of the last term of the power series, relative to the first.
 const SMALL: f64 = 1e-18;
 
 impl Layer {
-    /// Whether the layer's waves hardly turn or decay over its thickness at the wavenumber `k`.
+    /// Whether the phase and decay of the layer's waves over its thickness are small at the wavenumber `k`.
     fn is_thin(&self, k: f64) -> bool {
         let turn = (k * k + self.q2.abs()).sqrt() * self.thickness;
         turn < THIN
     }
 
-    /// Displacements and stresses at its top for those at its bottom: with `even` = [U; `σ_zz`/μ] and
-    /// `odd` = [W; `σ_xz`/μ], even′ = P odd and odd′ = Q even.
+    /// Displacements and stresses at the layer's top from those at its bottom.
+    ///
+    /// With `even` = [U; `σ_zz`/μ] and `odd` = [W; `σ_xz`/μ]: even′ = P odd and odd′ = Q even.
     fn carry(&self, k: f64, (u, t): (Square, Square)) -> (Square, Square) {
         let (a2, q2, h) = (self.a2, self.q2, self.thickness);
         let (wave, one) = (Complex::real(k), Complex::real(1.0));
@@ -89,7 +90,7 @@ impl Layer {
         let [u_x, u_z, w_x, w_z] = u.0;
         let mut terms = [Square([u_x, u_z, zz_x, zz_z]), Square([w_x, w_z, xz_x, xz_z])];
         let [mut even, mut odd] = terms;
-        // Every other power of h k and h √q₂ may be missing from an entry.
+        // Every other power of h k and h √q₂ may be absent from an entry.
         let turn = 2.0 * (k + q2.abs().sqrt()) * h;
         let (mut n, mut size) = (0.0, 1.0);
         while size > SMALL {
@@ -106,11 +107,11 @@ impl Layer {
     }
 }
 
-/// Depth in decay lengths below which nothing comes back to the surface: e^(−2·21) is 6e-19.
+/// Depth in decay lengths below which no wave returns to the surface: e^(−2·21) is 6e-19.
 const OPAQUE: f64 = 21.0;
 
 impl Compliance {
-    /// Moves on to the Laplace variable `s`.
+    /// Sets the Laplace variable `s` and the moduli of the layers.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].
@@ -124,7 +125,8 @@ impl Compliance {
         for (((soil, _), modulus), thickness) in profile.soils().zip(&self.moduli).zip(thicknesses)
         {
             let a2 = soil.speed_ratio_squared();
-            // s twice: its square may leave the range where this does not.
+            // s is multiplied twice, because its square may leave the range of f64 when this product does
+            // not.
             let q2 = (s / *modulus) * s.scale(soil.density());
             self.layers.push(Layer { modulus: *modulus, q1: q2.scale(a2), q2, a2, thickness });
         }
@@ -143,7 +145,7 @@ impl Compliance {
         Some((last.modulus, last.q2, last.a2))
     }
 
-    /// |√q₂| of the top layer, 1/m; infinite where squares leave the range of f64.
+    /// |√q₂| of the top layer, 1/m; infinite if the result is not a number.
     pub(crate) fn root(&self) -> f64 {
         let root = self.layers[0].q2.sqrt().abs();
         if root.is_nan() { f64::INFINITY } else { root }
@@ -166,7 +168,7 @@ impl Compliance {
         let last = self.roots.len() - 1;
         let lowest = &self.layers[last];
         let waves = || Waves::new(lowest, k, self.roots[last]);
-        // A layer that nothing comes back through is a half-plane.
+        // A layer from whose bottom no wave returns is a half-plane.
         let (mut u, mut t) = if lowest.thickness.is_infinite() || decay > OPAQUE {
             let waves = waves();
             (waves.u, waves.t)
@@ -192,9 +194,9 @@ impl Compliance {
         SurfaceCompliance { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
     }
 
-    /// `C_tt` = 1/Z: displacement by shear across the wavenumber at which the last evaluation was, m/Pa.
+    /// `C_tt` = 1/Z: displacement per shear across the wavenumber of the last evaluation, m/Pa.
     pub(crate) fn across(&self) -> Complex {
-        // Below the last layer that is felt, rigid is as good as anything.
+        // Below the last layer that affects the surface any base is valid, so it starts as rigid.
         let mut below = None;
         for (layer, [_, beta]) in self.layers.iter().zip(&self.roots).rev() {
             let own = layer.modulus * *beta;
@@ -276,7 +278,7 @@ impl Waves {
             let shear = self.beta.scale(-h).exp();
             return Transfer { pressure, shear, mixed: (pressure - shear) / self.gap };
         }
-        // e^(−βh) by the product of e^(−αh) and e^x; φ₁(x) = (e^x − 1)/x by its series.
+        // e^(−βh) is the product of e^(−αh) and e^x; φ₁(x) = (e^x − 1)/x by its series.
         let mut phi = Complex::real(1.0);
         for n in (2..=10).rev() {
             phi = Complex::real(1.0) + (phi * x).scale(1.0 / f64::from(n));

@@ -1,19 +1,22 @@
 //! The mobility of a layered ground along its contours.
 //!
-//! (1−z) Ĝ(z) is smooth in the angle θ of z wherever the ground has forgotten. Panels in θ, each with 24 Chebyshev
-//! points, are halved until the last two coefficients are small: a binary tree for every eigenvalue of Δ(z). That of
-//! the first, whose waves travel and come back, becomes narrower towards θ = 0, where long waves have a branch
-//! point; waves of the others die within a step or two, but for high frequencies with three stages, and a few
-//! panels, after a division by (1−z)², are all of it.
+//! (1−z) Ĝ(z) is smooth in the angle θ of z, except where waves return late. Panels in θ have 24 Chebyshev
+//! points each. They are halved until the last two coefficients are small, which gives a binary tree for
+//! every eigenvalue of Δ(z). The tree of the first eigenvalue, whose waves travel and return, has narrower
+//! panels towards θ = 0, where long waves have a branch point. The waves of the other eigenvalues decay
+//! within a step or two, except for high frequencies with three stages. After a division by (1−z)², a few
+//! panels represent them.
 //!
-//! All singularities lie on |z| ≥ 1, those of undamped layers on the unit circle itself. Panels lie beside it,
-//! ln |z| = −w/20 for a width w, so that none is missed between two points; as polynomials of the complex
-//! variable ln z they are good on every circle from there to |z| = 1. One panel thus serves all
-//! blocks of lags. Where panels would have more points than a circle has on them, the circle's points themselves are
-//! evaluated: always at cut-off frequencies of undamped layers.
+//! All singularities lie on |z| ≥ 1, and the singularities of undamped layers on the unit circle itself.
+//! Panels lie inside it, at ln |z| = −w/20 for a width w, so that no singularity is missed between two
+//! points. As polynomials of the complex variable ln z they are accurate on every circle from there to the unit
+//! circle. One panel thus serves all blocks of lags. Where panels would need more points than the circle has
+//! there, the circle's own points are evaluated. This always occurs at cut-off frequencies of undamped
+//! layers.
 //!
-//! What comes up to m lags late is polynomials in z of degree m, and turns by up to mw over a panel; divided by
-//! the power of z in the middle, by half of that. Panels that are not resolved as they are may be so.
+//! A response up to m lags late is a polynomial in z of degree m, with a phase change up to mw over a panel.
+//! After division by the power of z in the middle, the phase change is half of this. A panel that is not
+//! resolved may then be resolved.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -25,24 +28,26 @@ use crate::error::Result;
 use crate::history::PairClasses;
 use crate::linalg::Complex;
 
-/// Chebyshev points of a panel.
+/// Number of Chebyshev points of a panel.
 pub(crate) const POINTS: usize = 24;
-/// Halvings of θ = 0 … π with which panels begin.
+/// Number of halvings of θ = 0 … π for the first panels.
 const COARSEST: u32 = 2;
-/// −ln |z| of a panel over its width.
+/// −ln |z| of a panel, over its width.
 const ASIDE: f64 = 1.0 / 20.0;
-/// Last Chebyshev coefficients over the tolerance: errors grow with the lag where those of F do not.
+/// Limit of the last Chebyshev coefficients over the tolerance: their errors grow with the lag, errors of F
+/// do not.
 const LAST: f64 = 0.3;
-/// Turns over half a panel of what functions on it are divided by, one after the other: what waves leave behind comes
-/// late and never early, a power of z at least.
+/// Phase change over half a panel of the powers of z by which functions are divided, in the order of trial.
+///
+/// Responses come late and never early, so the powers are not negative.
 const TURNS: [f64; 2] = [0.0, 4.0];
-/// Points of a circle that are evaluated together.
+/// Number of points of a circle evaluated together.
 const LANES: usize = 32;
 
-/// Circle |z| = r on which a block is transformed.
+/// Circle |z| = r for the transform of a block.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Circle {
-    /// Points of all of it.
+    /// Number of points of the whole circle.
     pub(crate) length: usize,
     /// ln r.
     pub(crate) logarithm: f64,
@@ -55,43 +60,44 @@ impl Circle {
         Self { length, logarithm: 2.0 / 3.0 * tolerance.ln() / length as f64 }
     }
 
-    /// Points of the upper half, both ends included.
+    /// Number of points of the upper half, both ends included.
     pub(crate) fn points(self) -> usize {
         self.length / 2 + 1
     }
 
-    /// Angle of a point, radians.
+    /// Angle of a point, rad.
     pub(crate) fn angle(self, point: usize) -> f64 {
         std::f64::consts::TAU / self.length as f64 * point as f64
     }
 }
 
-/// Share of an eigenvalue in the mobility over what has panels.
+/// Ratio of an eigenvalue's contribution to the mobility and the function that panels represent.
 pub(crate) fn factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
     let [_, rest] = on_circle(logarithm, angle);
     if node == 0 { Complex::real(1.0) } else { rest * rest }
 }
 
-/// Panels met so far, with polynomials on those that are resolved.
+/// Panels tested so far, with polynomials on the resolved ones.
 #[derive(Debug)]
 pub(crate) struct Panels {
     kept: Mutex<HashMap<Place, Option<Arc<Polynomials>>>>,
-    /// Per class: those of its two elements on themselves.
+    /// For each class: the classes of the pairs of its two elements with themselves.
     pub(super) own: Arc<[[usize; 2]]>,
 }
 
-/// Functions on a panel over a power of z, by Chebyshev coefficients.
+/// Functions on a panel, divided by a power of z, by Chebyshev coefficients.
 #[derive(Debug)]
 pub(crate) struct Polynomials {
-    /// Degree by degree, one column for each function.
+    /// Coefficients degree by degree, one column for each function.
     coefficients: Vec<Complex>,
-    /// Angle by which the power turns over half the panel.
+    /// Phase change of the power over half the panel.
     turn: f64,
 }
 
 impl Polynomials {
-    /// Through `values` at the points of a panel, one column for each function; `None` if they are resolved over no
-    /// power. `own` and `tolerance` are those of [`is_resolved`].
+    /// Polynomials through `values` at the points of a panel, one column for each function.
+    ///
+    /// `None` if no power resolves them. `own` and `tolerance` as in [`is_resolved`].
     pub(crate) fn through<const KINDS: usize>(
         values: &[Complex],
         own: &[[usize; 2]],
@@ -129,13 +135,13 @@ impl Place {
         PI / (1_usize << self.depth) as f64
     }
 
-    /// Points of a circle that lie on it.
+    /// Points of a circle on this panel.
     pub(super) fn points_of(self, circle: Circle) -> Range<usize> {
         let points = (circle.points() - 1) >> self.depth;
         self.index * points..(self.index + 1) * points
     }
 
-    /// ln |z| and angle of its Chebyshev points.
+    /// ln |z| and angle of the Chebyshev points of this panel.
     pub(crate) fn places(self) -> impl Iterator<Item = [f64; 2]> {
         let width = self.width();
         nodes().map(move |x| [-ASIDE * width, width * (self.index as f64 + 0.5 * (1.0 + x))])
@@ -173,13 +179,13 @@ impl Panels {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether the panel at `place` is resolved, if it has been met.
+    /// Whether the panel at `place` is resolved; `None` if it has not been tested.
     pub(crate) fn known(&self, place: Place) -> Option<bool> {
         self.kept().get(&place).map(Option::is_some)
     }
 }
 
-/// Per class: those of its two elements on themselves.
+/// For each class: the classes of the pairs of its two elements with themselves.
 pub(super) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
     let mut own = vec![[0; 2]; classes.count()];
     let (pairs, elements) = (classes.pairs(), classes.elements().len());
@@ -190,8 +196,10 @@ pub(super) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
     own
 }
 
-/// Whether the last two of the `coefficients` are small beside those of the elements themselves, up to the unit
-/// circle; `own` has, per class, the classes of its two elements, `turn` belongs to the coefficients.
+/// Whether the last two `coefficients` are small, up to the unit circle.
+///
+/// They are compared with the coefficients of the pairs of the elements with themselves; `own` has, for each
+/// class, the classes of these pairs. `turn` belongs to the coefficients.
 fn is_resolved<const KINDS: usize>(
     coefficients: &[Complex],
     own: &[[usize; 2]],
@@ -208,7 +216,7 @@ fn is_resolved<const KINDS: usize>(
     let largest = |class: usize, kind: usize| {
         degrees.iter().map(|row| row[class][kind].abs()).fold(0.0, f64::max)
     };
-    // Of a symmetric matrix the diagonal comes first.
+    // The diagonal of a symmetric matrix comes first.
     let least = |class: usize| {
         (0..KINDS.div_ceil(2)).map(|kind| largest(class, kind)).fold(f64::INFINITY, f64::min)
     };
@@ -221,8 +229,9 @@ fn is_resolved<const KINDS: usize>(
 }
 
 impl Circle {
-    /// Panels that cover the upper half, and, ascending, the points that are left; `resolved` returns which of some
-    /// panels of one width are resolved.
+    /// Panels that cover the upper half, and the remaining points in ascending order.
+    ///
+    /// `resolved` returns for panels of one width which of them are resolved.
     pub(crate) fn covered(
         self,
         node: usize,
@@ -236,7 +245,7 @@ impl Circle {
             beside && panel.points_of(self).len() > POINTS
         };
         while panels.first().is_some_and(serves) {
-            // The branch point of long waves.
+            // The panel at the branch point of long waves is never resolved.
             let never = node == 0 && panels[0].index == 0;
             let (first, rest) = panels.split_at(usize::from(never));
             let mut halves = first.to_vec();
@@ -252,11 +261,12 @@ impl Circle {
     }
 }
 
-/// Values evaluated between two calls of `heard`, about: a hundredth of a second.
+/// Approximate number of values between two calls of `heard`: a hundredth of a second.
 const HEARD: usize = 1 << 18;
 
-/// Adds the contribution of an eigenvalue by a panel to the values at the points of a circle, row by row one function
-/// of them. An error of `heard` ends it.
+/// Adds the contribution of an eigenvalue on a panel to the values at the points of a circle.
+///
+/// `spectra` has one row for each function. An error of `heard` ends the evaluation.
 pub(super) fn evaluate(
     node: usize,
     panel: &Polynomials,
@@ -268,7 +278,7 @@ pub(super) fn evaluate(
     let Polynomials { coefficients: panel, turn } = panel;
     let count = panel.len() / POINTS;
     let points = place.points_of(circle);
-    // The polynomials of the panel's line in that of the circle, x − iy.
+    // Converts the polynomials from the panel's line to the circle's, x − iy.
     let shift = -(circle.logarithm + ASIDE * place.width()) / (0.5 * place.width());
     let mut moved = vec![Complex::default(); panel.len()];
     for (x, values) in nodes().zip(moved.chunks_exact_mut(count)) {

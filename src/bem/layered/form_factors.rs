@@ -1,13 +1,13 @@
 //! Form factors of element pairs in the wavenumber domain, on fixed panels.
 //!
-//! For a source of length `l_q` and a receiver of length `l_p`, X to its right, integrals over both
-//! of e^(ik(x−ξ)) are `S_p` `S_q` cos kX and `S_p` `S_q` sin kX with S = 2 sin(kl/2)/k. Panels are so
-//! narrow that these turn by at most 16 radians, which 16 Gauss points resolve; they depend on the
-//! mesh alone, so they are computed once, panel by panel, when they are needed first.
+//! For a source of length `l_q` and a receiver of length `l_p`, X to its right, the integrals of e^(ik(x−ξ))
+//! over both are `S_p` `S_q` cos kX and `S_p` `S_q` sin kX with S = 2 sin(kl/2)/k. Panels are so narrow that
+//! the phase of these changes by at most 16 radians, which 16 Gauss points resolve. Form factors depend only
+//! on the mesh. Each panel is therefore computed once, when it is first needed.
 //!
-//! Wide panels, 2, 4, 8 … times as long, have 16 Gauss points as well: there C/k² is taken for a polynomial
-//! Σ cₙ Pₙ(x), and `S_p` `S_q` k² for what it is, four waves e^(iky), with
-//! ∫ Pₙ(x) e^(i(κ+hx)y) dx = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's idea).
+//! Wide panels, 2, 4, 8 … times as long, also have 16 Gauss points. There C/k² is approximated by a
+//! polynomial Σ cₙ Pₙ(x), while `S_p` `S_q` k² is exact, as four waves e^(iky), with ∫ Pₙ(x) e^(i(κ+hx)y) dx
+//! = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's idea).
 
 use std::sync::OnceLock;
 
@@ -15,17 +15,17 @@ use crate::bem::ContactElement;
 use crate::history::PairClasses;
 use crate::linalg::gauss::Rule;
 
-/// Gauss points of a panel.
+/// Number of Gauss points of a panel.
 pub(crate) const POINTS: usize = 16;
-/// Legendre coefficients of the form factors on a panel: J₃₂(8) is 7e-17.
+/// Number of Legendre coefficients of the form factors on a panel: J₃₂(8) is 7e-17.
 pub(crate) const DEGREES: usize = 32;
-/// Angle by which the fastest form factor turns over a panel.
+/// Phase change of the fastest form factor over a panel, rad.
 const TURN: f64 = 16.0;
-/// Pairs that are summed together.
+/// Number of pairs summed together.
 pub(crate) const LANES: usize = 4;
-/// Widths of panels, from one to the next twice as long.
+/// Number of panel widths, each twice the one before.
 pub(crate) const LEVELS: usize = 14;
-/// Most memory for tables at Gauss points, bytes; panels beyond it are computed each time.
+/// Largest memory for tables at Gauss points, bytes; panels beyond it are computed each time.
 const MEMORY: usize = 256 << 20;
 
 /// zz, xx, zx: real and imaginary part of each, for [`LANES`] pairs.
@@ -33,19 +33,19 @@ pub(crate) type Sums = [[f64; LANES]; 6];
 /// Even and odd form factors of [`LANES`] pairs.
 pub(crate) type FormRow = [[f64; LANES]; 2];
 
-/// A pair of elements as the wavenumber domain sees it.
+/// A pair of elements in the wavenumber domain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PairShape {
     /// Lengths of source and receiver, m.
     pub(crate) lengths: [f64; 2],
-    /// Distance from the source's centre to the receiver's, m, positive to the right.
+    /// Distance from the source's centre to the receiver's centre, m, positive to the right.
     pub(crate) offset: f64,
 }
 
 impl PairShape {
     fn new(source: ContactElement, receiver: ContactElement) -> Self {
         let lengths = [source.length(), receiver.length()];
-        // The centres of an element and itself do not differ by rounding.
+        // The offset of an element from itself must be exactly zero.
         let offset = if source == receiver { 0.0 } else { receiver.center() - source.center() };
         Self { lengths, offset }
     }
@@ -64,8 +64,9 @@ impl PairShape {
         [one * two * cos, one * two * sin]
     }
 
-    /// Waves of which k² times the form factors are the sum: distances y ≥ 0 of cos ky and sin ky, and the factors
-    /// of these.
+    /// The four waves whose sum is k² times the form factors.
+    ///
+    /// For each wave: the distance y ≥ 0 of cos ky and sin ky, and the factors of both.
     pub(crate) fn waves(&self) -> [(f64, [f64; 2]); 4] {
         let Self { lengths: [q, p], offset } = *self;
         let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
@@ -75,13 +76,13 @@ impl PairShape {
             (offset + difference, 1.0),
             (offset - sum, -1.0),
         ];
-        // An element on itself has no odd part, without rounding.
+        // The odd part of an element with itself is exactly zero.
         let odd = |y: f64| if offset == 0.0 { 0.0 } else { y.signum() };
         ends.map(|(y, sign)| (y.abs(), [sign, sign * odd(y)]))
     }
 }
 
-/// A panel of wavenumbers: the `index`-th of those that are 2^`level` times as long as the narrowest.
+/// A panel of wavenumbers: the `index`-th of the panels 2^`level` times as long as the narrowest.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Panel {
     pub(crate) level: u32,
@@ -103,13 +104,13 @@ pub(crate) struct FormFactors {
     pub(crate) width: f64,
     pub(crate) rule: Rule,
     fine: Rule,
-    /// Per panel: blocks of pairs, rows of Gauss points.
+    /// For each panel: blocks of pairs with rows of Gauss points.
     values: Vec<OnceLock<Box<[FormRow]>>>,
-    /// Per panel: blocks of pairs, rows of Legendre coefficients.
+    /// For each panel: blocks of pairs with rows of Legendre coefficients.
     legendre: Vec<OnceLock<Box<[FormRow]>>>,
-    /// Per level above the first: as `values`.
+    /// For each level above the first: as `values`.
     wide: [OnceLock<Tables>; LEVELS],
-    /// Panels of any one level whose tables are kept.
+    /// Number of panels of one level whose tables are stored.
     room: usize,
 }
 
@@ -141,7 +142,7 @@ impl FormFactors {
         self.shapes.len().div_ceil(LANES)
     }
 
-    /// Whether the table of a panel, at Gauss points or of a halved one by Legendre coefficients, is kept.
+    /// Whether the table of a panel is stored: at Gauss points, or by Legendre coefficients if it is halved.
     pub(crate) fn keeps(&self, panel: Panel, halved: bool) -> bool {
         let room = match (panel.level, halved) {
             (_, true) => self.legendre.len(),
@@ -151,12 +152,12 @@ impl FormFactors {
         panel.index < room
     }
 
-    /// Points that Legendre coefficients are made of.
+    /// Number of points from which Legendre coefficients are computed.
     pub(crate) fn projection(&self) -> f64 {
         self.fine.nodes.len() as f64
     }
 
-    /// Wide panels of a level whose tables are kept.
+    /// Number of wide panels of a level whose tables are stored.
     fn wide_room(&self, level: u32) -> usize {
         self.room.min((1 << 17) >> level)
     }
@@ -178,8 +179,8 @@ impl FormFactors {
         Self::with(tables, index, || self.wide_table(panel), apply);
     }
 
-    /// Calls `apply` with the rows of `panel` for Legendre polynomials of degree 0, 1, …: weights of
-    /// ∫ C Pₙ dk.
+    /// Calls `apply` with the rows of `panel` for Legendre polynomials of degree 0, 1, …, weights of ∫ C Pₙ
+    /// dk.
     pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[FormRow])) {
         Self::with(&self.legendre, panel, || self.projected(panel), apply);
     }
@@ -210,7 +211,7 @@ impl FormFactors {
         rows.into_boxed_slice()
     }
 
-    /// Rows of a wide panel: what the sum over Gauss points of C and their weights is to be multiplied with.
+    /// Rows of a wide panel: factors of the sum of C and weights over Gauss points.
     fn wide_table(&self, panel: Panel) -> Box<[FormRow]> {
         let [left, width] = self.extent(panel);
         let (half, middle) = (0.5 * width, left + 0.5 * width);
@@ -267,7 +268,7 @@ impl FormFactors {
 
 /// jₙ(t), n = 0 … 15, for t ≥ 0.
 fn spherical_bessel(t: f64) -> [f64; POINTS] {
-    /// Degree from which the recurrence is stable downwards to those wanted, for t up to their number.
+    /// Degree from which the downward recurrence is stable to the degrees needed, for t up to their number.
     const ABOVE: usize = 64;
     let mut values = [0.0; POINTS];
     if t < 1.0 {
@@ -298,7 +299,7 @@ fn spherical_bessel(t: f64) -> [f64; POINTS] {
             values[n - 1] = value;
         }
     }
-    // The larger of the first two cannot vanish.
+    // The larger of the first two is not zero.
     let [zero, one] = [sin / t, (sin / t - cos) / t];
     let scale = if zero.abs() > one.abs() { zero / values[0] } else { one / values[1] };
     values.map(|value| scale * value)
@@ -322,7 +323,8 @@ pub(crate) fn legendre_at<const N: usize>(x: [f64; N]) -> [[f64; N]; DEGREES] {
     values
 }
 
-/// (2n−1)/n and (n−1)/n of [`next_legendre`](crate::linalg::gauss::next_legendre), divided beforehand.
+/// Factors (2n−1)/n and (n−1)/n of [`next_legendre`](crate::linalg::gauss::next_legendre), divided at compile
+/// time.
 const RECURRENCE: [[f64; 2]; DEGREES] = {
     let mut factors = [[0.0; 2]; DEGREES];
     let mut n = 1;
@@ -333,7 +335,7 @@ const RECURRENCE: [[f64; 2]; DEGREES] = {
     factors
 };
 
-/// Adds Σ coefficient × row to the sums of all pairs: the whole cost of many pairs.
+/// Adds Σ coefficient × row to the sums of all pairs; with many pairs, this is nearly the whole cost.
 pub(crate) fn accumulate(rows: &[FormRow], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
     for (rows, sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
         let mut local = *sums;

@@ -7,19 +7,21 @@ use super::wavenumber::{Found, SHORT, Scratch, Wavenumbers, parts};
 use crate::linalg::Complex;
 use crate::linalg::gauss::Rule;
 
-/// Rounding of C relative to its largest value on a panel.
+/// Rounding error of C relative to its largest value on a panel.
 pub(crate) const FLOOR: f64 = 3e-14;
-/// Exponent of the tolerance in the Legendre coefficients that may be left out on the narrowest panels and
-/// their halves: 16 points integrate products up to degree 31, so the error is about their power 3/2 to 5/3.
+/// Exponent of the tolerance for Legendre coefficients that may be neglected on the narrowest panels and
+/// their halves. 16 points integrate products up to degree 31, so the error is about their power 3/2 to 5/3.
 pub(crate) const SHARE: f64 = 2.0 / 3.0;
-/// Panels are halved at most so often.
+/// Largest number of successive halvings of a panel.
 const DEEPEST: u32 = 44;
-/// Most halves of one integral: rounding beyond [`FLOOR`] must not halve without end.
+/// Largest number of halves of one integral: rounding above [`FLOOR`] must not cause endless halving.
 const MOST_HALVES: usize = 1 << 16;
 
-/// Halves the panel from `start` on, `whole` wide, until C is resolved on every part: `sample` is called with the left
-/// end and the width of a part, and says whether it is resolved on its samples; `take` with place and size of a
-/// resolved part, relative to the panel, its width and its samples. The wavenumber where halving stopped if it did.
+/// Halves the panel from `start`, of width `whole`, until C is resolved on every part.
+///
+/// `sample` gets the left end and the width of a part, and returns its samples and whether they resolve it.
+/// `take` gets the position and size of a resolved part relative to the panel, its width and its samples.
+/// Returns the wavenumber at which halving stopped as the error.
 pub(crate) fn by_halves<S>(
     [start, whole]: [f64; 2],
     stack: &mut Vec<(f64, f64, u32)>,
@@ -45,13 +47,14 @@ pub(crate) fn by_halves<S>(
     Ok(())
 }
 
-/// The median of some samples' sizes: one sample beside a pole says little of the integral.
+/// The median of some samples' sizes: a single sample near a pole does not represent the integral.
 pub(crate) fn median(mut sizes: [f64; POINTS]) -> f64 {
     *sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp).1
 }
 
-/// Size of the last two Legendre coefficients of functions given by `samples` at Gauss points, the largest of all;
-/// `None` if one is not a number.
+/// Largest size of the last two Legendre coefficients of functions given by `samples` at Gauss points.
+///
+/// `None` if a coefficient is not a number.
 pub(crate) fn last_coefficients<const N: usize>(
     samples: impl Iterator<Item = [Complex; N]>,
     rule: &Rule,
@@ -71,7 +74,7 @@ pub(crate) fn last_coefficients<const N: usize>(
 }
 
 impl Wavenumbers {
-    /// Calls `take` with each panel that C is resolved on, what was found there, and evaluations of C in its halves.
+    /// Calls `take` with each panel, the result on it, and the number of evaluations of C in its halves.
     pub(super) fn resolve(
         &self,
         panels: usize,
@@ -122,7 +125,9 @@ impl Wavenumbers {
         }
     }
 
-    /// The widest panels up to K into `work.samples`; the errors that wide ones and the narrowest may have.
+    /// Stores samples on the widest panels up to K in `work.samples`.
+    ///
+    /// Returns the errors allowed on wide panels and on the narrowest.
     fn sample(
         &self,
         panels: usize,
@@ -173,7 +178,7 @@ impl Wavenumbers {
         error * width * share <= allowed || error <= FLOOR * largest
     }
 
-    /// ∫ C Pₙ dk over one panel, by halves.
+    /// ∫ C Pₙ dk over one panel, by repeated halving.
     fn halved(
         &self,
         start: f64,

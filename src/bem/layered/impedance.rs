@@ -1,11 +1,11 @@
 //! Dynamic stiffness of a rigid strip on layered ground.
 //!
-//! With F(iω) the element compliances, A the resultants of unit tractions (the columns: horizontal,
-//! vertical, rocking) and rigid motions the same numbers, K = Aᵀ F⁻¹ A.
+//! F(iω) are the element compliances. The columns of A are the resultants of unit tractions (horizontal,
+//! vertical, rocking), which also describe the rigid motions. Then K = Aᵀ F⁻¹ A.
 //!
-//! Without damping poles lie on the path of the integrals at s = iω. K(s) is analytic there all the
-//! same (but for the frequencies at which guided waves begin), so it is evaluated at iω + η, 2η, … 8η
-//! and extrapolated.
+//! Without damping, poles lie on the path of the integrals at s = iω. K(s) is nevertheless analytic there,
+//! except at the frequencies at which guided waves begin. It is therefore evaluated at iω + η, 2η, … 8η and
+//! extrapolated.
 
 use realfft::num_complex::Complex64;
 
@@ -22,9 +22,9 @@ use crate::soil::{Base, SoilProfile};
 
 /// Dynamic stiffness of a rigid, massless strip for motions e^(iωt), per metre of its length.
 ///
-/// x to the right, y down, a positive rotation lowers the right end; forces act on the soil.
-/// Reference point is the middle of the patch. The real part is stiffness (and soil that moves along), the
-/// imaginary part damping, by radiation and in the soil.
+/// x to the right, y down; a positive rotation lowers the right end; forces act on the soil. The reference
+/// point is the middle of the patch. The real part is stiffness (less the inertia of soil that moves along).
+/// The imaginary part is damping, by radiation and in the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -52,8 +52,9 @@ impl StripImpedance {
         self.all().map(|k| k.re)
     }
 
-    /// Dashpots Im K/ω beside these springs, in the same order, N s/m² and so on; at frequency zero
-    /// they are not defined (NaN).
+    /// Dashpots Im K/ω parallel to these springs, in the same order, N s/m² and so on.
+    ///
+    /// At frequency zero they are not defined (NaN).
     pub fn dashpots(&self) -> [f64; 4] {
         self.all().map(|k| k.im / (std::f64::consts::TAU * self.frequency))
     }
@@ -67,26 +68,28 @@ pub enum StripContact {
     /// Soil and strip move together.
     #[default]
     Bonded,
-    /// Vertical motions without shear, horizontal ones without pressure; no coupling.
+    /// Vertical motions without shear, horizontal motions without pressure; no coupling.
     Relaxed,
 }
 
-/// Accuracy of the element compliances; elements themselves leave far more.
+/// Accuracy of the element compliances; the error of the elements themselves is much larger.
 const TOLERANCE: f64 = 1e-9;
 /// Im μ/|μ| below which a layer counts as undamped.
 const LOSSLESS: f64 = 1e-6;
-/// Points of the extrapolation.
+/// Number of points of the extrapolation.
 const PER_FREQUENCY: usize = 8;
-/// Distance of the points over ω, and over the inverse of the time that waves take.
+/// Distance of the points over ω, and over the inverse of the wave travel time.
 const SPACING: [f64; 2] = [0.04, 0.1];
-/// Largest relative difference between 8 and 7 points.
+/// Largest relative difference between the extrapolations from 8 and from 7 points.
 const SETTLED: f64 = 1e-3;
 
 impl ElasticGround {
-    /// Dynamic stiffness of all strips together (cosine-graded ones converge with second order), as one rigid body,
-    /// at each of `frequencies` (Hz).
+    /// Dynamic stiffness of all strips together as one rigid body, at each of `frequencies` (Hz).
     ///
-    /// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, hysteretic too.
+    /// Cosine-graded strips converge with second order.
+    ///
+    /// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, including hysteretic
+    /// damping.
     ///
     /// ```
     /// use basemat::Soil;
@@ -96,7 +99,7 @@ impl ElasticGround {
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
     /// let strip = Strip::graded(-3.0..3.0, 16)?;
     /// let found = ElasticGround::new(soil, &strip)?.impedances(&[2.0, 8.0], StripContact::Bonded)?;
-    /// // Vertical dashpots come near that of plane waves, ρ c₁ per area.
+    /// // Vertical dashpots come near the dashpot of plane waves, ρ c₁ per area.
     /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
     /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
     ///
@@ -109,9 +112,10 @@ impl ElasticGround {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not finite, or 0 on
-    /// a half-plane, whose static stiffness is 0; [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without
-    /// damping at a frequency at which guided waves begin; [`Error::Singular`] if the elements cannot be distinguished.
+    /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not
+    /// finite, or 0 on a half-plane, whose static stiffness is 0;
+    /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which
+    /// guided waves begin; [`Error::Singular`] if elements are too similar to be distinguished.
     pub fn impedances(
         &self,
         frequencies: &[f64],
@@ -120,7 +124,8 @@ impl ElasticGround {
         strip_impedances(self, frequencies, contact, &mut Watch::nobody())
     }
 
-    /// [`ElasticGround::impedances`] with an observer; parts are points of the Laplace plane, eight to a frequency.
+    /// [`ElasticGround::impedances`] with an observer; its parts are points of the Laplace plane, eight per
+    /// frequency.
     ///
     /// # Errors
     /// [`Error::Stopped`]; as for [`ElasticGround::impedances`].
@@ -134,7 +139,7 @@ impl ElasticGround {
     }
 }
 
-/// Watch of impedances at `frequencies`: parts are points of the Laplace plane, eight to a frequency.
+/// Progress of impedances at `frequencies`; its parts are points of the Laplace plane, eight per frequency.
 pub(in crate::bem) fn impedance_watch<'a>(
     frequencies: &[f64],
     observer: &'a mut Observer<'_>,
@@ -170,8 +175,9 @@ fn strip_impedances(
     Ok(frequencies.iter().zip(found).map(impedance).collect())
 }
 
-/// Laplace variables at which the stiffness is evaluated for a `frequency` (Hz), of elements over `span` (m): iω, or
-/// where layers are undamped [`PER_FREQUENCY`] points beside it.
+/// Laplace variables at which the stiffness is evaluated for a `frequency` (Hz) and elements over `span` (m).
+///
+/// The only variable is iω; with undamped layers, [`PER_FREQUENCY`] points next to iω.
 pub(in crate::bem) fn points(
     profile: &SoilProfile,
     span: f64,
@@ -191,11 +197,12 @@ pub(in crate::bem) fn points(
     Ok((1..=PER_FREQUENCY).map(|j| Complex::new(step * j as f64, omega)).collect())
 }
 
-/// K(iω) from its samples `at` the [`points`] of each frequency. Entries `judged` must agree between all samples and
-/// all but the last; `watch` is notified of each sample.
+/// K(iω) from its samples `at` the [`points`] of each frequency; `watch` is notified of each sample.
+///
+/// The entries `judged` must agree between the extrapolations from all samples and from all but the last.
 ///
 /// # Errors
-/// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they do not; as for `at`.
+/// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) if the entries do not agree; as for `at`.
 pub(in crate::bem) fn stiffnesses<const N: usize>(
     lists: &[Vec<Complex>],
     judged: &[usize],
@@ -291,7 +298,7 @@ impl<'a> RigidStrip<'a> {
         let order = layout.len();
         if self.contact == StripContact::Relaxed {
             for (place, value) in matrix.iter_mut().enumerate() {
-                // Displacements of another component than the traction's.
+                // Displacements in another direction than the traction are set to zero.
                 if layout.origin(place / order)[0] != layout.origin(place % order)[0] {
                     *value = Complex64::default();
                 }

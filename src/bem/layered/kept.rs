@@ -1,4 +1,4 @@
-//! Blocks of lags: made once, by one thread at a time, and kept in a file.
+//! Blocks of lags: computed once, by one thread at a time, and stored in a file.
 //!
 //! A file has words of eight bytes, little-endian:
 //!
@@ -7,13 +7,13 @@
 //! | 0, 1 | "BASEMATK", format |
 //! | 2 | fingerprint of the kernel |
 //! | 3, 4 | classes of pairs, blocks of lags |
-//! | then | coefficients: by block, class, kind (zz, xx, zx), lag |
-//! | last | check sum of all before |
+//! | then | convolution weights: by block, class, kind (zz, xx, zx), lag |
+//! | last | check sum of all words before |
 //!
-//! The fingerprint is that of the mobility at the points of the passivity gate, bit for bit, with step,
-//! stages, tolerance and elements: whatever changes a coefficient changes it, be it a layer, a damping law of
-//! one's own, the crate's arithmetic or the machine's. The format stands for the rule by which contours are
-//! sampled as well.
+//! The fingerprint is a hash of the mobility at the points of the passivity gate, bit for bit, with step,
+//! stages, tolerance and elements. Any change that changes a weight therefore changes it: a layer, a damping
+//! law of the user's own, the crate's arithmetic or the machine's. The format number also identifies the rule
+//! by which contours are sampled.
 
 use std::fs::File;
 use std::io::Read;
@@ -27,30 +27,30 @@ use crate::error::{Error, KernelFileError, LayeredError, Result, Watch, require,
 use crate::text::check_sum::CheckSum;
 use crate::text::file::write_file;
 
-/// Time between two checks whether another thread has ended.
+/// Time between two checks whether another thread has finished.
 const WAIT: Duration = Duration::from_millis(20);
 
-/// Blocks of a kernel as far as they have been made.
+/// Blocks of a kernel computed so far.
 #[derive(Debug)]
 pub(crate) struct KeptBlocks {
-    /// Fingerprint of what has passed the gate.
+    /// Fingerprint of the weights after the passivity gate.
     checked: OnceLock<Result<u64>>,
     blocks: [OnceLock<Result<Block>>; BLOCKS],
-    /// Held by the thread that computes.
+    /// Locked by the thread that computes.
     making: Mutex<()>,
     pub(crate) file: Option<PathBuf>,
-    /// Numbers of classes and kinds.
+    /// Numbers of classes and of kinds.
     sizes: [usize; 2],
 }
 
 impl KeptBlocks {
-    /// Store without blocks, for blocks of so many classes and kinds.
+    /// Empty store for blocks with these numbers of classes and kinds.
     pub(crate) fn new(sizes: [usize; 2], file: Option<PathBuf>) -> Self {
         let blocks = std::array::from_fn(|_| OnceLock::new());
         Self { checked: OnceLock::new(), blocks, making: Mutex::default(), file, sizes }
     }
 
-    /// Block `number`, made now if it has not been.
+    /// Block `number`; computed now if it is not stored.
     pub(crate) fn block(
         &self,
         number: usize,
@@ -60,22 +60,22 @@ impl KeptBlocks {
         self.once(&self.blocks[number], watch, make)
     }
 
-    /// Whether block `number` is there.
+    /// Whether block `number` is stored.
     pub(crate) fn has(&self, number: usize) -> bool {
         self.blocks[number].get().is_some()
     }
 
-    /// Blocks of `wanted` from the first missing one on.
+    /// Range of `wanted` from the first block that is not stored.
     pub(crate) fn missing(&self, wanted: Range<usize>) -> Range<usize> {
         wanted.start + wanted.clone().take_while(|number| self.has(*number)).count()..wanted.end
     }
 
-    /// Whether the gate has been passed, or not.
+    /// Whether the passivity gate has been evaluated, passed or not.
     pub(crate) fn is_checked(&self) -> bool {
         self.checked.get().is_some()
     }
 
-    /// Fingerprint by `check`, once; then the blocks of the file are in place.
+    /// Fingerprint from `check`, which runs once; afterwards the blocks of the file are stored.
     pub(crate) fn gate(
         &self,
         watch: &mut Watch,
@@ -100,7 +100,7 @@ impl KeptBlocks {
         write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
     }
 
-    /// Content of `place`, made now if there is none; making that is stopped leaves none.
+    /// Content of `place`; computed now if there is none. A computation that is stopped stores nothing.
     pub(crate) fn once<'a, T>(
         &self,
         place: &'a OnceLock<Result<T>>,
@@ -121,7 +121,7 @@ impl KeptBlocks {
         }
     }
 
-    /// Waits until no other thread computes, with an open ear for the observer.
+    /// Waits for the lock; returns early if the observer stops the run.
     fn enter(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
         while watch.is_observed() {
             match self.making.try_lock() {
@@ -137,7 +137,9 @@ impl KeptBlocks {
     }
 }
 
-/// Overwrites `values`, one slice for each kind, with the lags of a class from `first_lag` on, out of `block`.
+/// Overwrites `values`, one slice for each kind, with the lags of a class from `first_lag` on.
+///
+/// `block` returns a block by its number.
 pub(crate) fn copy_lags<'a, const KINDS: usize>(
     class: usize,
     first_lag: usize,
@@ -163,14 +165,14 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
     Ok(())
 }
 
-/// Number of the block with lag `lag`.
+/// Number of the block that contains `lag`.
 pub(crate) fn last_block(lag: usize) -> Result<usize> {
     let most = FIRST << (BLOCKS - 1);
     require("lag of a layered ground", lag as f64, lag <= most, "at most 2147483648")?;
     Ok(Block::place(lag).0)
 }
 
-/// Threads for one block.
+/// Number of threads for one block.
 pub(crate) fn threads() -> usize {
     #[cfg(feature = "rayon")]
     return rayon::current_num_threads();
@@ -181,15 +183,17 @@ pub(crate) fn threads() -> usize {
 // Files.
 
 const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
-/// 1: of coefficients sampled at every point of their circles; 2: on panels; 3: over powers of z there; 4: where they
-/// look resolved.
+/// Versions of the rule for the samples.
+///
+/// 1: every point of the circles; 2: panels; 3: panels over powers of z; 4: only panels predicted as
+/// resolved.
 const FORMAT: u64 = 5;
 const HEADER: usize = 5;
 
-/// The blocks of a file, in order; none if there is no file, or one of another kernel or format.
+/// The blocks of a file, in order; none without a file, or for another kernel or format.
 ///
 /// # Errors
-/// [`LayeredError::File`] for a file that cannot be read, is no kernel's, or is damaged.
+/// [`LayeredError::File`] for a file that cannot be read, is not a kernel file, or is damaged.
 fn read(path: &Path, fingerprint: u64, [classes, kinds]: [usize; 2]) -> Result<Vec<Block>> {
     match contents(path, fingerprint, [classes, kinds]) {
         Err(KernelFileError::Unreadable(std::io::ErrorKind::NotFound)) => Ok(vec![]),
@@ -257,7 +261,7 @@ fn contents(
     Ok((0..blocks).map(&mut block).collect())
 }
 
-/// Writes the file anew; another process finds the old one or the new, whole.
+/// Replaces the file; another process finds either the old file or the new one, complete.
 fn write(path: &Path, fingerprint: u64, classes: usize, blocks: &[&Block]) -> Result<()> {
     let lists = || blocks.iter().flat_map(|block| &block.values);
     let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;

@@ -1,14 +1,14 @@
 //! Layered, damped ground.
 //!
-//! | file | what is in it |
+//! | file | content |
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
 //! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
-//! | cost | cost of convolution weights, beforehand |
-//! | passivity | the gate that convolution weights pass |
+//! | cost | cost of convolution weights, estimated in advance |
+//! | passivity | the gate that checks convolution weights |
 //! | kept | blocks of convolution weights in memory and in a file |
-//! | weights | convolution weights as a history takes them |
+//! | weights | convolution weights for a history |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
 mod coefficients;

@@ -1,4 +1,4 @@
-//! Whether the convolution weights of a layered ground can give energy away.
+//! Passivity gate: whether the convolution weights of a layered ground can create energy.
 
 use realfft::num_complex::Complex64;
 
@@ -9,9 +9,9 @@ use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::text::check_sum::CheckSum;
 
-/// Radius of the circle that is checked.
+/// Radius of the circle of the check.
 pub(crate) const RADIUS: f64 = 0.99;
-/// Points on the upper half of the circle.
+/// Number of points on the upper half of the circle.
 pub(crate) const POINTS: usize = 40;
 
 /// ln |z| and angle of these points.
@@ -20,12 +20,12 @@ pub(crate) fn places() -> impl Iterator<Item = [f64; 2]> {
         .map(|point| [RADIUS.ln(), std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64])
 }
 
-/// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the
-/// tolerance of the quadrature times the number of degrees of freedom, every pair relative to its elements' own
-/// mobilities.
+/// Fingerprint of the weights, after a check of Herm[(1−z) Ĝ(z)] ≥ 0.
 ///
-/// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The
-/// fingerprint is that of all values at these points, of the `mesh` and of what else a coefficient depends on.
+/// The check uses 40 points of |z| = 0.99. It allows the tolerance of the quadrature times the number of
+/// degrees of freedom, with every pair relative to the mobilities of its elements. The theorem guarantees
+/// passivity; the check finds errors of the quadrature and damping laws that are not passive. The fingerprint
+/// is a hash of all values at these points, of the `mesh` and of all other data on which a weight depends.
 pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
     quadrature: &Quadrature<I, KINDS>,
     classes: &PairClasses,
@@ -59,8 +59,10 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
     Ok(fingerprint.value())
 }
 
-/// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute
-/// diagonal; NaN if it is not finite. By Betti's reciprocity the matrix is symmetric, so that this is its real part.
+/// Smallest eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute diagonal.
+///
+/// NaN if the matrix is not finite. By Betti's reciprocity the matrix is symmetric, so its Hermitian part is
+/// its real part.
 pub(crate) fn margin<const KINDS: usize>(
     classes: &PairClasses,
     values: &[[Complex; KINDS]],
@@ -68,7 +70,7 @@ pub(crate) fn margin<const KINDS: usize>(
     classes.least_eigenvalue(own(values), |_, pair| real(&values[pair.class]))
 }
 
-/// Absolute values of the components of elements on themselves.
+/// Absolute values of the components of elements with themselves.
 fn own<const KINDS: usize>(values: &[[Complex; KINDS]]) -> impl Fn(usize, usize) -> f64 {
     |class, component| values[class][component].inner().norm().max(f64::MIN_POSITIVE)
 }
@@ -77,7 +79,7 @@ fn real<const KINDS: usize>(values: &[Complex; KINDS]) -> [f64; KINDS] {
     values.map(|value| value.re)
 }
 
-/// All pairs in work form (2Q × 2Q, row-major): integrals over receiver and source.
+/// Matrix of all pairs in work form (2Q × 2Q, row-major): integrals over receiver and source.
 pub(crate) fn assembled<const KINDS: usize>(
     classes: &PairClasses,
     values: &[[Complex; KINDS]],

@@ -1,7 +1,7 @@
-//! The Runge–Kutta methods Radau IIA, as convolution quadrature needs them.
+//! The Runge–Kutta methods Radau IIA for convolution quadrature.
 //!
-//! With Δ(z) = (A + z/(1−z) 1bᵀ)⁻¹ (Lubich & Ostermann 1993), bᵀ f(Δ) 1 = Σ wⱼ f(λⱼ) over the
-//! eigenvalues of Δ. For the stability function R = P/Q they are the roots of Q − zP, and
+//! With Δ(z) = (A + z/(1−z) 1bᵀ)⁻¹ (Lubich & Ostermann 1993), bᵀ f(Δ) 1 = Σ wⱼ f(λⱼ) over the eigenvalues of
+//! Δ. With the stability function R = P/Q, the eigenvalues are the roots of Q − zP, and
 //!
 //! wⱼ λⱼ = −(1−z)² P(λⱼ)/(λⱼ (Q′ − zP′)(λⱼ)),   Σ wⱼ = 1
 //!
@@ -11,12 +11,11 @@ use crate::error::{Error, Result};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Frequency (Hz) whose reflections [`Stages::for_profile`] looks at, and the error of phase it
-/// allows.
+/// Frequency of reflections (Hz), and allowed phase error (rad), in [`Stages::for_profile`].
 const FREQUENCY: f64 = 15.0;
 const PHASE: f64 = 1e-3;
 
-/// Number of stages of the Runge–Kutta method that carries a ground through time.
+/// Number of stages of the Runge–Kutta method for a ground in the time domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -52,8 +51,10 @@ impl Stages {
         }
     }
 
-    /// Two where reflections at 15 Hz keep their phase to a thousandth on their way down through
-    /// the layers of `profile` and back, n (ωΔt)⁴/72 < 10⁻³ with n steps on the way; otherwise three.
+    /// Selects two stages if they are accurate enough for `profile` and `time_step`, else three.
+    ///
+    /// Two stages are enough if reflections at 15 Hz keep their phase to a thousandth on their way down
+    /// through the layers and back: n (ωΔt)⁴/72 < 10⁻³ with n steps on the way.
     pub fn for_profile(profile: &SoilProfile, time_step: f64) -> Self {
         let angle = std::f64::consts::TAU * FREQUENCY * time_step;
         let error = 2.0 * profile.travel_time() / time_step * angle.powi(4) / 72.0;
@@ -76,9 +77,9 @@ impl Stages {
         }
     }
 
-    /// Eigenvalues and weights at z; `rest` is 1 − z, given apart so that it keeps its digits.
+    /// Eigenvalues and weights at z; `rest` is 1 − z, passed separately so that it keeps its digits.
     ///
-    /// First the one near −ln z, then that near −ln z + 2πi: each by itself is analytic beside |z| = 1.
+    /// The first is near −ln z, the second near −ln z + 2πi; each is analytic near |z| = 1.
     pub(crate) fn nodes(self, z: Complex, rest: Complex) -> impl Iterator<Item = Node> {
         let [p, q] = self.stability();
         let mut roots = match self {
@@ -251,7 +252,7 @@ mod tests {
         assert!(worst < 1e-12, "{worst:e}");
     }
 
-    /// The small root is −ln z up to the order of the method.
+    /// The small root equals −ln z up to the order of the method.
     #[test]
     fn orders_are_three_and_five() {
         for (stages, constant, order) in

@@ -1,13 +1,13 @@
 //! Static compliance of a layered ground.
 //!
 //! The integrals of [`wavenumber`](super::wavenumber) at s = 0, with long-term moduli. On a half-plane
-//! (subscript b) C(k, 0) → (1−`ν_b`)/(`μ_b` k) for k → 0: what makes the displacement logarithmic far away. It is
-//! taken out with a factor e^(−ka), a the length of the patch, and comes back in space as
+//! (subscript b) C(k, 0) → (1−`ν_b`)/(`μ_b` k) for k → 0, which makes the displacement logarithmic far away.
+//! This part is subtracted with a factor e^(−ka), with a the length of the patch, and added in space as
 //!
 //! `F_zz`, `F_xx` += (1−`ν_b`)/(π`μ_b`) ∫∫ −½ ln(((x−ξ)² + a²)/L₀²),
 //! `F_zx` += (1−2`ν_b`)/(2π`μ_b`) ∫∫ atan((x−ξ)/a)
 //!
-//! with a free datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). A rigid base is its own datum.
+//! with an arbitrary datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). On a rigid base displacements are absolute.
 
 use super::compliance::{Compliance, SurfaceCompliance};
 use super::wavenumber::{Scratch, Wavenumbers, deep};
@@ -20,14 +20,15 @@ use crate::soil::SoilProfile;
 
 /// Tolerance of the integrals.
 const TOLERANCE: f64 = 1e-11;
-/// Decay of e^(−ka) at the end of the panels.
+/// Decay exponent ka at the end of the panels.
 const FORGOTTEN: f64 = 40.0;
 /// Datum L₀ over the length of the patch; well above one, so that the matrix is positive definite.
 const DATUM: f64 = 10.0;
 
-/// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa; 2Q numbers as in [`crate::bem`]) with the mean
-/// static displacements of `elements` due to unit tractions: absolute on a rigid base, up to a
-/// rigid settlement on a half-plane.
+/// Overwrites `matrix` with the mean static displacements of `elements` due to unit tractions.
+///
+/// `matrix` is 2Q × 2Q, row-major, m/Pa, with 2Q numbers as in [`crate::bem`]. Displacements are absolute on
+/// a rigid base, and determined up to a rigid settlement on a half-plane.
 ///
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length,
@@ -85,8 +86,9 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
     Ok(values)
 }
 
-/// ∫∫ −½ ln((x² + a²)/L₀²) and ∫∫ atan(x/a) over source and receiver, x from one to the other;
-/// both are smooth on the scale of a, the length of the patch.
+/// ∫∫ −½ ln((x² + a²)/L₀²) and ∫∫ atan(x/a) over source and receiver, with x from one to the other.
+///
+/// Both integrands are smooth on the scale of a, the length of the patch.
 fn smooth(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] {
     let rule = gauss::largest();
     let (p, q) = (0.5 * receiver.length(), 0.5 * source.length());
@@ -118,7 +120,7 @@ mod tests {
         matrix
     }
 
-    /// A half-plane, in one piece and cut into layers, is Flamant's to rounding.
+    /// A half-plane, in one piece and cut into layers, equals Flamant's solution to rounding.
     #[test]
     fn homogeneous_ground_is_flamants() {
         let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
@@ -143,7 +145,7 @@ mod tests {
                             (at(p, count + q), wanted.zx),
                             (at(count + p, q), -wanted.zx),
                         ] {
-                            // (1−ν)/(πμ) l is the order of a mean displacement.
+                            // A mean displacement has the order of (1−ν)/(πμ) l.
                             worst = worst.max((found - wanted).abs() / (0.1 * source.length()));
                         }
                     }
@@ -154,8 +156,8 @@ mod tests {
         }
     }
 
-    /// Slow motions tend to statics: on a half-plane up to a settlement (one of zz, one of xx), on
-    /// a rigid base in every digit.
+    /// Slow motions tend to statics: on a half-plane up to a settlement (one for zz, one for xx), on a rigid
+    /// base in every digit.
     #[test]
     fn statics_are_the_limit_of_slow_motions() {
         let layer = Soil::new(1.0, 0.4, 1.0).unwrap();

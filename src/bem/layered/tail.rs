@@ -1,24 +1,24 @@
 //! The wavenumber integral beyond the last panel, by a series.
 //!
-//! For k > K the surface sees the top layer alone (e^(−2kh) is rounding), whose compliance is a power
-//! series in x = q₂/k²,
+//! For k > K only the top layer affects the surface (e^(−2kh) is rounding). Its compliance is a power series
+//! in x = q₂/k²,
 //!
 //! C = 1/(μk) Σ dⱼ xʲ,   `C_xx` = √(1+x)/(μkρ), `C_zz` = √(1+a²x)/(μkρ),
 //! `C_xz` = (2 + x − 2√(1+x)√(1+a²x))/(μkxρ),   xρ = (2+x)² − 4√(1+x)√(1+a²x)
 //!
-//! with a radius of convergence of (`c_R`/`c_S`)². With `S_p` `S_q` cos kX = −D²[cos ky]/k², D² the
-//! second difference over the elements' ends, what remains are
+//! with a radius of convergence of (`c_R`/`c_S`)². With `S_p` `S_q` cos kX = −D²[cos ky]/k², D² the second
+//! difference over the elements' ends, the remaining integrals are
 //!
 //! `E_m` = ∫₁^∞ t^(−m) e^(iκt) dt,   κ = Ky,  m = 3, 5, …
 //!
-//! (generalised exponential integrals, Abramowitz & Stegun 5.1), which depend on K and the mesh only.
+//! (generalised exponential integrals, Abramowitz & Stegun 5.1), which depend only on K and the mesh.
 
 use std::sync::OnceLock;
 
 use super::form_factors::{FormFactors, FormRow, LANES};
 use crate::linalg::Complex;
 
-/// Terms kept: for |x| ≤ 1/16 the last is below rounding.
+/// Number of terms: for |x| ≤ 1/16 the last is below rounding.
 pub(crate) const TERMS: usize = 16;
 /// K over |√q₂|.
 pub(crate) const REACH: f64 = 4.0;
@@ -53,7 +53,7 @@ pub(crate) fn surface_series(a2: f64) -> [[f64; TERMS]; 3] {
     [divided(&|j| beta[j]), divided(&|j| alpha[j]), divided(&|j| coupled[j + 1])]
 }
 
-/// Integrals beyond K for the pairs of a patch, made when a K is met first.
+/// Integrals beyond K for the pairs of a patch, computed when a K first occurs.
 #[derive(Debug)]
 pub(crate) struct Tails {
     tables: Vec<OnceLock<Box<[FormRow]>>>,
@@ -65,20 +65,21 @@ impl Default for Tails {
     }
 }
 
-/// The least number of the form m·2ᵉ with m ≤ 16 that is not below `panels`: few differ.
+/// Rounds `panels` up to the form m·2ᵉ with m ≤ 16, so that few different numbers occur.
 pub(crate) fn on_grid(panels: usize) -> usize {
     let step = grid(panels);
     panels.div_ceil(step) * step
 }
 
-/// 2ᵉ so that `panels` is between 8 and 16 times it.
+/// The power 2ᵉ for which `panels` is between 8 and 16 times it.
 pub(crate) fn grid(panels: usize) -> usize {
     1 << (panels.max(8).ilog2() - 3)
 }
 
 impl Tails {
-    /// Rows j = 0, 1, … of K^(2j) ∫_K^∞ k^(−1−2j) `S_p` `S_q` (cos, sin) kX dk, block by block, for K
-    /// at the end of a [grid](on_grid) number of panels.
+    /// Rows j = 0, 1, … of K^(2j) ∫_K^∞ k^(−1−2j) `S_p` `S_q` (cos, sin) kX dk, block by block.
+    ///
+    /// K is at the end of a [grid](on_grid) number of panels.
     pub(crate) fn rows(&self, forms: &FormFactors, panels: usize) -> &[FormRow] {
         let step = grid(panels);
         let index = 8 * step.ilog2() as usize + panels / step;
@@ -102,7 +103,7 @@ fn table(forms: &FormFactors, limit: f64) -> Box<[FormRow]> {
     rows.into_boxed_slice()
 }
 
-/// Largest m, and the count of all m from 1.
+/// Largest m.
 const LAST: usize = 2 * TERMS + 1;
 
 /// `E_m` for m = 3, 5, …, κ ≥ 0.
@@ -170,7 +171,7 @@ mod tests {
     use crate::bem::layered::compliance::Compliance;
     use crate::soil::{Soil, SoilProfile};
 
-    /// E_m by repeated integration by parts far out, and the series near 0, meet the recurrence.
+    /// E_m by repeated integration by parts at large κ, and by the series near 0, satisfies the recurrence.
     #[test]
     fn tail_integrals_match_quadrature() {
         let rule = crate::linalg::gauss::largest();
@@ -178,11 +179,11 @@ mod tests {
             let found = oscillating(kappa);
             for j in [0, 1, 5, TERMS - 1] {
                 let m = i32::try_from(2 * j + 3).unwrap();
-                // t = 1/v: ∫₀¹ v^(m−2) e^(iκ/v) dv oscillates; turn the path instead: t = 1 + iu.
+                // t = 1/v: ∫₀¹ v^(m−2) e^(iκ/v) dv oscillates. The path is rotated instead: t = 1 + iu.
                 let mut sum = Complex::default();
                 let pieces = 400;
                 for piece in 0..pieces {
-                    // u = (w/(1 − w))², w in 0..1: for κ = 0 it decays like a power only.
+                    // u = (w/(1 − w))², w in 0..1, because for κ = 0 the integrand decays only like a power.
                     for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                         let h = 1.0 / f64::from(pieces);
                         let w = h * (f64::from(piece) + 0.5 * (1.0 + node));

@@ -1,8 +1,8 @@
-//! Profiles of the tables, of the types that unit tests see: P1, a layer on rock; P3, the same layer on a rigid base.
+//! Profiles of the tables for unit tests: P1, a layer on rock; P3, the same layer on a rigid base.
 
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 
-/// The law of `gmb.json` for 5 % or 1 %.
+/// The damping law of `gmb.json` for 5 % or 1 %.
 pub(in crate::bem) fn gmb(percent: u32) -> GeneralizedMaxwell {
     let (long_term, moduli, frequencies) = basemat_problems::profiles::gmb_numbers(percent);
     GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()

@@ -4,12 +4,12 @@
 //! `F_zx` = −(1/π) ∫₀^∞ `C_zx` `S_p` `S_q` sin kX dk (down due to shear, receiver X to the right),
 //! integrals over receiver and source, m²/Pa × m.
 //!
-//! For Re s > 0 and passive layers no pole lies on the real axis, so the path is the axis itself: a
-//! path into the complex plane would have to know where poles of backward waves are. Panels of 16 Gauss points
-//! are halved until C is a polynomial there. They begin as wide as C lets expect, whatever the elements are, and
-//! wide ones have weights that know the form factors; what halves of the narrowest find reaches the pairs
-//! through Legendre moments over the whole panel, so that only C is evaluated more often. Beyond K the integral
-//! is a [series](super::tail).
+//! For Re s > 0 and passive layers no pole lies on the real axis, so the path is the axis itself. A path in
+//! the complex plane would need the poles of backward waves. Panels of 16 Gauss points are halved until C is
+//! a polynomial there. The first panels are as wide as C permits, for any elements; wide panels have weights
+//! that contain the form factors. Halves of the narrowest panels contribute to the pairs through Legendre
+//! moments over the whole panel, so that only C is evaluated more often. Beyond K the integral is a
+//! [series](super::tail).
 
 use super::compliance::{Compliance, SurfaceCompliance};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
@@ -19,24 +19,24 @@ use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Decay lengths in the top layer beyond which its bottom is not felt: e^(−2·20) is 4e-18.
+/// Number of decay lengths in the top layer beyond which its bottom has no effect: e^(−2·20) is 4e-18.
 const DEEP: f64 = 20.0;
-/// K × shortest element: below it the second differences of the tail cancel.
+/// K × shortest element below which the second differences of the tail cancel.
 pub(super) const SHORT: f64 = 0.05;
-/// Most panels of one integral.
+/// Largest number of panels of one integral.
 const MOST_PANELS: f64 = 65_536.0;
-/// Panels that short elements may ask for.
+/// Largest number of panels required by short elements.
 const MOST_FOR_SHORT: f64 = 100.0;
 
-/// Compliances of classes of pairs, of some kinds each.
+/// Compliances of classes of pairs, with some kinds for each class.
 pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
-    /// Scratch of one thread.
+    /// Workspace of one thread.
     type Workspace: Default;
 
-    /// Errors of late convolution weights, summed, over the 2/3 power of the tolerance and the sum of all coefficients.
+    /// Sum of the errors of late weights over the 2/3 power of the tolerance and the sum of all weights.
     const LATE_ERROR: f64 = 0.0;
 
-    /// Makes the data common to all compliances, unless they are there.
+    /// Computes the data common to all compliances, if they are missing.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
@@ -44,8 +44,9 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
         Ok(())
     }
 
-    /// Overwrites `values`, one per class, with the compliances at `s`, Re s > 0 (or damped layers), integrals over
-    /// receiver and source.
+    /// Overwrites `values`, one per class, with the compliances at `s`, integrals over receiver and source.
+    ///
+    /// Re s > 0, or damped layers.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
@@ -57,8 +58,9 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
         values: &mut [[Complex; KINDS]],
     ) -> Result<()>;
 
-    /// Appends [`OUTLOOK`] numbers for each of a few wavenumbers that stand for the compliances at `s`, at a hundredth of
-    /// the cost.
+    /// Appends [`OUTLOOK`] numbers for each of a few wavenumbers, which replace the compliances at `s`.
+    ///
+    /// They cost a hundredth of the compliances.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].
@@ -71,10 +73,11 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     ) -> Result<()>;
 }
 
-/// Wavenumbers at which the surface compliance stands for the mobility, times the length of the patch: the first, and
-/// the others where a slab carries waves along.
+/// Wavenumbers at which the surface compliance replaces the mobility, times the length of the patch.
+///
+/// The first is always used, the others if a slab carries waves along the patch.
 const WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
-/// Components of the surface compliance in an outlook: zz, xx, xz.
+/// Number of components of the surface compliance in an outlook: zz, xx, xz.
 pub(crate) const OUTLOOK: usize = 3;
 
 /// Integrals over the wavenumber for the pairs of a patch.
@@ -87,18 +90,18 @@ pub(crate) struct Wavenumbers {
     pub(crate) span: f64,
     pub(crate) shortest: f64,
     pub(super) longest: f64,
-    /// Accuracy relative to an element's own compliance.
+    /// Accuracy relative to the compliance of an element with itself.
     pub(super) tolerance: f64,
 }
 
-/// Scratch of one thread.
+/// Workspace of one thread.
 #[derive(Debug, Default)]
 pub(crate) struct Workspace {
     pub(crate) compliance: Compliance,
     pub(super) panels: Scratch,
 }
 
-/// Scratch for the panels of one integral after the other.
+/// Workspace for the panels of successive integrals.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     pub(super) samples: Vec<(Panel, [SurfaceCompliance; POINTS])>,
@@ -109,26 +112,26 @@ pub(super) struct Scratch {
     pub(super) evaluations: usize,
 }
 
-/// Work that integrals take: numbers, estimated.
+/// Estimated amount of work for integrals.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counts {
-    /// Panels that are summed.
+    /// Number of panels summed.
     pub(crate) panels: f64,
-    /// Panels that are halved below the narrowest.
+    /// Number of panels halved below the narrowest width.
     pub(crate) halved: f64,
-    /// Integrals, and those whose K is for the thickness of the top layer's sake.
+    /// Number of integrals, and of integrals whose K depends on the thickness of the top layer.
     pub(crate) integrals: f64,
     pub(crate) deep: f64,
-    /// Evaluations of C.
+    /// Number of evaluations of C.
     pub(crate) evaluations: f64,
-    /// Evaluations of C in halves.
+    /// Number of evaluations of C in halves.
     pub(crate) halves: f64,
-    /// Layers that evaluations go through after the first.
+    /// Number of layers used in evaluations, without the first.
     pub(crate) layers: f64,
 }
 
 impl Counts {
-    /// Combined with another, number by number.
+    /// Combines each number with the same number of `other`.
     pub(crate) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             panels: combine(self.panels, other.panels),
@@ -142,7 +145,7 @@ impl Counts {
     }
 }
 
-/// Result of a panel: C at its points, or the moments of its halves.
+/// Result on a panel: C at its points, or the moments of its halves.
 pub(super) enum Found<'a> {
     Samples(&'a [SurfaceCompliance; POINTS]),
     Moments(&'a [[f64; 6]; DEGREES]),
@@ -169,7 +172,8 @@ impl Compliances<KINDS> for Wavenumbers {
         Ok(())
     }
 
-    /// The surface compliance at small wavenumbers, and on waves along the shortest element and the patch.
+    /// Appends the surface compliance at small wavenumbers, and for waves along the shortest element and the
+    /// patch.
     fn outlook(
         &self,
         profile: &SoilProfile,
@@ -184,8 +188,9 @@ impl Compliances<KINDS> for Wavenumbers {
     }
 }
 
-/// The surface compliance at small wavenumbers, and on waves along the shortest element and the patch: how often it was
-/// evaluated.
+/// Appends the surface compliance at small wavenumbers, and for waves along shortest element and patch.
+///
+/// Returns the number of evaluations.
 pub(crate) fn surface_outlook(
     profile: &SoilProfile,
     compliance: &mut Compliance,
@@ -228,8 +233,9 @@ impl Wavenumbers {
         }
     }
 
-    /// Work for the compliances at `s`: all of it but the pairs'. `meet` is called with each panel, and whether it
-    /// is halved.
+    /// Counts the work for the compliances at `s`, without the work for pairs.
+    ///
+    /// `meet` is called with each panel, and whether it is halved.
     ///
     /// # Errors
     /// As for [`Compliances::compliance`].
@@ -260,14 +266,15 @@ impl Wavenumbers {
         let resolved = self.resolve(panels, work, &mut |k| compliance.at(k), &mut count);
         resolved.map_err(|k| unresolved(s, k))?;
         counts.evaluations = (work.evaluations - before) as f64;
-        // The lowest is a half-plane, or half as dear as another layer on a rigid base.
+        // The lowest layer is a half-plane, or costs half as much as another layer if it is on a rigid base.
         let lowest = if compliance.half_plane().is_some() { 1.0 } else { 0.5 };
         counts.layers = compliance.visited as f64 - lowest * counts.evaluations;
         Ok(counts)
     }
 
-    /// Compliances at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
-    /// top layer of `compliance` beyond.
+    /// Compliances at s = 0 with `symbol` for C, up to a wavenumber of at least `least` (1/m).
+    ///
+    /// Beyond, the static tail of the top layer of `compliance` is used.
     pub(super) fn at_rest(
         &self,
         compliance: &Compliance,
@@ -284,7 +291,7 @@ impl Wavenumbers {
         Ok(())
     }
 
-    /// Least K for which the series of the tail converges.
+    /// Smallest K for which the series of the tail converges.
     fn reach(compliance: &Compliance) -> f64 {
         REACH * compliance.root()
     }
@@ -303,7 +310,7 @@ impl Wavenumbers {
         Ok(on_grid(count))
     }
 
-    /// Panels up to K into `work.sums`; the wavenumber where halving stopped if it did.
+    /// Sums the panels up to K into `work.sums`; returns the wavenumber where halving stopped as the error.
     fn sum(
         &self,
         panels: usize,
@@ -329,7 +336,7 @@ impl Wavenumbers {
         outcome
     }
 
-    /// Number of panels that an integral begins with at `s`.
+    /// Number of initial panels of an integral at `s`.
     ///
     /// # Errors
     /// As for [`Compliances::compliance`].
@@ -342,7 +349,7 @@ impl Wavenumbers {
         Ok(widest.len())
     }
 
-    /// Adds the series beyond the last panel.
+    /// Adds the series for wavenumbers beyond the last panel.
     fn add_tail(&self, compliance: &Compliance, panels: usize, work: &mut Scratch) {
         let (modulus, q2, a2) = compliance.top();
         let [xx, zz, xz] = surface_series(a2);
@@ -370,12 +377,12 @@ impl Wavenumbers {
     }
 }
 
-/// Error of an integral at `s` whose halving stopped at the wavenumber `k`.
+/// Error for an integral at `s` whose halving stopped at the wavenumber `k`.
 pub(crate) fn unresolved(s: Complex, k: f64) -> Error {
     LayeredError::Unresolved { re: s.re, im: s.im, wavenumber: k }.into()
 }
 
-/// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
+/// Smallest K at which the bottom of the top layer has no effect on the surface, 1/m.
 pub(crate) fn deep(profile: &SoilProfile) -> f64 {
     profile.layers().first().map_or(0.0, |layer| DEEP / layer.thickness)
 }

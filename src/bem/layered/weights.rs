@@ -1,4 +1,4 @@
-//! Convolution weights by quadrature, in blocks of lags that are computed when they are needed first.
+//! Convolution weights by quadrature, in blocks of lags that are computed when first needed.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -21,13 +21,13 @@ use crate::soil::SoilProfile;
 pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     pub(in crate::bem) quadrature: Quadrature<I, KINDS>,
     pub(in crate::bem) classes: PairClasses,
-    /// Elements that pass the gate in place of all.
+    /// Elements for which the passivity gate is evaluated, if not all.
     sample: Option<PairClasses>,
     /// Numbers that distinguish the mesh from others.
     mesh: Vec<f64>,
     kept: KeptBlocks,
     spectra: SharedSpectra,
-    /// Most processor time that weights may take, s.
+    /// Largest processor time for the weights, s.
     limit: f64,
 }
 
@@ -35,12 +35,13 @@ pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
 pub(in crate::bem) type StripWeights = QuadratureWeights<Wavenumbers, STRIP_KINDS>;
 
 impl StripWeights {
-    /// Weights of `profile` under `elements` for the sizes time step, tolerance and limit on processor time.
+    /// Weights of `profile` under `elements`; the numbers are time step, tolerance and limit of processor
+    /// time.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step,
-    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that exists in the frequency domain
-    /// only; as for [`PairClasses::new`].
+    /// [`Error::Input`](crate::Error::Input) for an invalid time step,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that is defined only in the
+    /// frequency domain; as for [`PairClasses::new`].
     pub(in crate::bem) fn under_strips(
         profile: SoilProfile,
         elements: &[ContactElement],
@@ -59,7 +60,7 @@ impl StripWeights {
 }
 
 impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
-    /// Weights of `classes`, none computed yet: a `sample` of the elements passes the gate if it is given.
+    /// Weights of `classes`, not yet computed; the gate uses only the elements of `sample`, if given.
     pub(in crate::bem) fn new(
         quadrature: Quadrature<I, KINDS>,
         classes: PairClasses,
@@ -79,20 +80,22 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         Ok(self.quadrature.cost(blocks, Some(self.gate().layout().len()))?.0)
     }
 
-    /// Elements that pass the gate.
+    /// Elements for which the passivity gate is evaluated.
     fn gate(&self) -> &PairClasses {
         self.sample.as_ref().unwrap_or(&self.classes)
     }
 
-    /// Block `number`, computed now if it has not been.
+    /// Block `number`; computed now if it is not stored.
     fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&Block> {
         self.kept.block(number, watch, |watch| {
             self.quadrature.block(number, threads(), Samples::new(watch, expected))
         })
     }
 
-    /// Fingerprint of the weights, after the gate; an error if the gate is not passed, or if what is missing of the
-    /// blocks of `wanted` costs too much. `outlook` are the samples of these.
+    /// Fingerprint of the weights, after the passivity gate and the limit of processor time.
+    ///
+    /// Returns an error if the gate is not passed, or if the missing blocks of `wanted` cost too much.
+    /// `outlook` holds the samples of these blocks.
     fn admit(
         &self,
         wanted: Range<usize>,
@@ -101,7 +104,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     ) -> Result<u64> {
         let missing = self.kept.missing(wanted.clone());
         let gate = (!self.kept.is_checked()).then(|| self.gate().layout().len());
-        // A file may hold all that is wanted.
+        // A file may contain all blocks that are wanted.
         let late = gate.is_some() && self.kept.file.is_some();
         let first = if late { 0..0 } else { missing };
         if gate.is_some() || !first.is_empty() {
@@ -118,7 +121,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         Ok(fingerprint)
     }
 
-    /// Error unless the blocks up to the last of `missing` may be in memory.
+    /// Error unless the blocks up to the last of `missing` fit into memory.
     fn fits(&self, missing: &Range<usize>) -> Result<()> {
         if missing.is_empty() {
             return Ok(());
@@ -127,7 +130,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
-    /// Computes the blocks of lags up to `lags`; without an observer, nothing is counted beforehand.
+    /// Computes the blocks of lags up to `lags`; samples are counted in advance only for an observer.
     fn compute(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let last = last_block(lags.max(1))?;
         let missing = self.kept.missing(0..last + 1);
@@ -136,7 +139,7 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         let mut watch = Watch::nobody();
         let mut outlook = None;
         if let Some(observer) = observer {
-            // What cannot be counted beforehand fails as it does without an observer.
+            // If samples cannot be counted in advance, the computation fails as without an observer.
             outlook = self.quadrature.outlook(missing.clone(), &mut I::Workspace::default()).ok();
             let counts = outlook.iter().flat_map(Outlook::counts);
             expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);

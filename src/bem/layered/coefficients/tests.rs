@@ -1,4 +1,4 @@
-//! Panels against the points that they stand for.
+//! Panels against the points that they replace.
 
 use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
@@ -17,8 +17,9 @@ fn block(quadrature: &Quadrature, number: usize, threads: usize) -> Block {
     quadrature.block(number, threads, Samples::new(&mut Watch::nobody(), 0..0)).unwrap()
 }
 
-/// Panels give what points give, at every seventh point of circles, relative to the own mobility of each pair's
-/// elements.
+/// Panels give the same values as points, at every seventh point of circles.
+///
+/// Errors are relative to the mobilities of each pair's elements.
 #[test]
 fn panels_give_what_points_give() {
     for (name, profile) in [
@@ -61,7 +62,7 @@ fn panels_give_what_points_give() {
     }
 }
 
-/// Panels take a quarter fewer samples at least in short runs of undamped layers: few are sampled in vain.
+/// In short runs of undamped layers, panels need at least a quarter fewer samples: few samples are in vain.
 #[test]
 fn panels_take_fewer_samples_than_points() {
     for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", p3(Elastic))] {
@@ -95,7 +96,7 @@ fn lags_are_those_of_all_points() {
         let mut largest = [0.0_f64; KINDS];
         let mut worst = 0.0_f64;
         for number in 0..4 {
-            // None of the panels that there could be.
+            // All panels are marked as unresolved.
             for (node, panels) in points.panels.iter().enumerate() {
                 let unresolved = |places: &[Place]| {
                     panels.kept().extend(places.iter().map(|place| (*place, None)));
@@ -116,7 +117,7 @@ fn lags_are_those_of_all_points() {
     }
 }
 
-/// Whatever had been sampled before, and on however many threads.
+/// The bits of a block do not depend on earlier samples or on the number of threads.
 #[test]
 fn bits_of_a_block_are_its_own() {
     let alone = block(&quadrature(p1(gmb(5), gmb(1)), Stages::Three), 3, 1);
@@ -130,7 +131,7 @@ fn bits_of_a_block_are_its_own() {
     }
 }
 
-/// Contribution of each eigenvalue, which goes round the half circle without a jump.
+/// The contribution of each eigenvalue is continuous on the half circle.
 #[test]
 fn eigenvalues_keep_their_numbers() {
     for stages in [Stages::Two, Stages::Three] {

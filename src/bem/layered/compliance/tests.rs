@@ -37,8 +37,9 @@ fn agrees_with_sixty_digits() {
     agrees(include_str!("../../../../tests/data/layered/kernel_C_ks.csv"), 80);
 }
 
-/// `contrasts_C_ks.csv`: slabs up to 1e8 times as stiff as the ground below, at rest and in motion, by matrix
-/// exponentials in 120 digits.
+/// `contrasts_C_ks.csv`: slabs up to 1e8 times as stiff as the ground below, static and dynamic.
+///
+/// The reference uses matrix exponentials with 120 digits.
 #[test]
 fn stiff_layers_over_soft_ground_keep_their_digits() {
     agrees(include_str!("../../../../tests/data/layered/contrasts_C_ks.csv"), 144);
@@ -194,7 +195,7 @@ fn damped_profiles() -> [SoilProfile; 3] {
     [layers(on_rock), layers(SoilProfile::on_rigid_base()), thin]
 }
 
-/// Identical layers are one half-space, thick or thin.
+/// Identical layers, thick or thin, equal one half-space.
 #[test]
 fn cut_half_space_is_whole_across() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
@@ -215,7 +216,7 @@ fn cut_half_space_is_whole_across() {
     }
 }
 
-/// Shear along and across the wavenumber send the same vertical wave as k → 0: that of the other recursion.
+/// As k → 0, shear along and across the wavenumber has the same vertical wave; compares both recursions.
 #[test]
 fn long_waves_are_those_along_the_wavenumber() {
     for profile in damped_profiles() {

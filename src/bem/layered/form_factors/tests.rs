@@ -1,10 +1,10 @@
-//! Form factors on wide panels, and the functions that they are made of.
+//! Form factors on wide panels, and the functions from which they are computed.
 
 use super::*;
 use crate::bem::{Grading, Strip};
 
 impl FormFactors {
-    /// Tables made of the narrowest panels, wide and halved ones.
+    /// Number of tables computed: narrowest panels, wide panels and halved panels.
     pub(crate) fn made(&self) -> [usize; 3] {
         let made = |tables: &[OnceLock<_>]| tables.iter().filter(|it| it.get().is_some()).count();
         let wide = self.wide.iter().filter_map(OnceLock::get).map(|tables| made(tables)).sum();
@@ -12,7 +12,7 @@ impl FormFactors {
     }
 }
 
-/// Integrals by a wide panel and by the narrow ones in it agree, for elements on themselves and far apart.
+/// Integrals by a wide panel equal the sum of its narrow panels, for elements with themselves and far apart.
 #[test]
 fn wide_panels_are_sums_of_narrow_ones() {
     let strip = Strip::new(-1.0..1.0, 7, Grading::Cosine).unwrap();
@@ -42,7 +42,7 @@ fn wide_panels_are_sums_of_narrow_ones() {
     }
 }
 
-/// Closed forms of the first three, and the recurrence, where methods change.
+/// Closed forms of the first three, and the recurrence, where the method changes.
 #[test]
 fn bessel_functions_are_spherical() {
     for t in [1e-12, 1e-3, 0.5, 0.999_999, 1.0, 3.1, 9.0, 15.9, 16.1, 300.0_f64] {

@@ -1,4 +1,4 @@
-//! The mobility of random grounds is accretive, and the check sees when it is not.
+//! The mobility of random grounds is accretive, and the check detects a mobility that is not.
 
 use proptest::prelude::*;
 
@@ -45,7 +45,7 @@ prop_compose! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Least eigenvalue of Herm(sF), every pair relative to its elements' own mobilities.
+    /// Smallest eigenvalue of Herm(sF), with every pair relative to the mobilities of its elements.
     #[test]
     fn mobility_of_random_grounds_is_accretive(
         layers in prop::collection::vec(layer(), 1..5),
@@ -95,7 +95,7 @@ fn tables_profiles_pass_for_all_steps() {
     }
 }
 
-/// A modulus that creeps the wrong way: stiffness falls with frequency.
+/// A modulus with negative damping: stiffness falls with frequency.
 #[derive(Debug)]
 struct Active;
 
@@ -117,7 +117,7 @@ fn active_damping_is_refused() {
     );
 }
 
-/// Hermitian parts are real parts: matrices of all pairs are symmetric, on unequal elements too.
+/// Hermitian parts are real parts: matrices of all pairs are symmetric, also with unequal elements.
 #[test]
 fn mobilities_are_reciprocal() {
     let strip = Strip::new(-1.0..1.0, 5, Grading::Cosine).unwrap();
@@ -145,7 +145,7 @@ fn mobilities_are_reciprocal() {
     assert!(exceeds(least - 1e-10) && !exceeds(least + 1e-10));
 }
 
-/// The gate with a bar that no ground meets, and the eigenvalue that it reports.
+/// The gate with a limit that no ground satisfies, and the eigenvalue that it reports.
 #[test]
 fn the_gate_reports_the_least_eigenvalue() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
@@ -157,7 +157,7 @@ fn the_gate_reports_the_least_eigenvalue() {
     quadrature.mobility(at, &mut Workspace::default(), &mut scratch, &mut values).unwrap();
     let sound = margin(&classes, &values);
     assert!(sound > 0.0);
-    // With the own mobilities scaled to one, the sign of the coupling between elements decides.
+    // With the mobilities of the elements scaled to one, the sign of the coupling between elements decides.
     for class in 0..classes.count() {
         let [source, receiver] = classes.representative(class).unwrap();
         if source == receiver {

@@ -1,4 +1,4 @@
-//! Element compliances against tables, closed forms and themselves.
+//! Element compliances against tables, closed forms and each other.
 
 use super::*;
 use crate::bem::layered::passivity::assembled;
@@ -39,7 +39,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
         let (row, column) = (index(2), index(3));
         let found = assembled(&classes, &values);
         if (row, column) == (0, 0) {
-            // u_xx of an element on itself.
+            // u_xx of an element due to its own traction.
             largest = found[3 * 6 + 3].norm();
         }
         worst = worst
@@ -51,7 +51,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     assert!(worst < 1e-8, "{worst:e}");
 }
 
-/// s ∫ e^(−st) u(t) dt with the closed form of the half-plane for a traction that is switched on.
+/// s ∫ e^(−st) u(t) dt with the closed form of the half-plane, for a traction that is switched on.
 #[test]
 fn homogeneous_ground_is_the_closed_form() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
@@ -61,7 +61,7 @@ fn homogeneous_ground_is_the_closed_form() {
     for h in [0.4, 1.1] {
         many = many.with_layer(soil, h).unwrap();
     }
-    // With panels of one width, and with wide ones.
+    // With panels of one width, and with wide panels.
     for (s, end) in [(1.3, 30.0), (150.0, 0.26)] {
         agrees_with(soil, &strip, &classes, &many, s, end);
     }
@@ -85,7 +85,7 @@ fn agrees_with(
     for class in 0..classes.count() {
         let [source, receiver] = classes.representative(class).unwrap();
         let mut sum = [0.0; 3];
-        // Elements' ends meet waves at these times; pieces in between are smooth enough.
+        // Waves reach the elements' ends at these times; between them the integrand is smooth enough.
         let pieces = 6000;
         for piece in 0..pieces {
             let h = end / f64::from(pieces);
@@ -104,7 +104,7 @@ fn agrees_with(
                 }
             }
         }
-        // At large s, pairs apart have nothing to do with each other.
+        // At large s, separate elements do not interact.
         let size = found[class][0].re.max(0.01 * largest);
         for component in 0..3 {
             worst = worst.max((found[class][component].re - sum[component]).abs() / size);
@@ -116,7 +116,7 @@ fn agrees_with(
     assert!(worst < 1e-7, "{worst:e}");
 }
 
-/// The tolerance holds, relative to each pair's own elements, for every kind of s.
+/// The tolerance holds for every kind of s, relative to the compliances of each pair's elements.
 #[test]
 fn tolerance_holds() {
     let strip = Strip::new(-1.0..1.0, 12, Grading::Cosine).unwrap();
