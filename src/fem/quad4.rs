@@ -31,7 +31,7 @@ pub enum QuadFormulation {
     /// As in Flanagan & Belytschko (1981), who take about 5 %: 0 is `OnePoint`, 100 is `Full`. Constant
     /// strains are not affected.
     Hourglass {
-        /// Hourglass stiffness, in per cent of that in `Full`.
+        /// Hourglass stiffness, in per cent of the hourglass stiffness of `Full`.
         percent: u8,
     },
 }

@@ -1,7 +1,7 @@
 //! Condition numbers from factors.
 //!
-//! The condition number is computed for the matrix scaled by the roots of its diagonal: SAS with sᵢ =
-//! |aᵢᵢ|^−½. It does not depend on units (a degree of freedom may be a length or an angle). For positive
+//! The condition number is computed for the matrix scaled by the roots of its diagonal: SAS with
+//! sᵢ = |aᵢᵢ|^−½. It does not depend on units (a degree of freedom may be a length or an angle). For positive
 //! definite matrices it is at most the order times the smallest condition number that any diagonal scaling
 //! reaches (van der Sluis 1969). It bounds the error of a Cholesky solve, scaled or not (Higham 2002, theorem
 //! 10.6 with § 10.1.1).

@@ -172,7 +172,7 @@ impl WithSimd for Substitute<'_> {
             add_rows(simd, factors, columns.map(|column| &column[COLUMNS..]), rest);
         }
         solve_lower(|j| &column(whole + j)[whole..], &mut x[whole..]);
-        // The columns that fill no block come first, so that every block has all its rows above it.
+        // The incomplete block is the first one: no rows are above it, which it would have to update.
         let first = order % COLUMNS;
         for k in (first..order).step_by(COLUMNS).rev() {
             let (rest, known) = x[..k + COLUMNS].split_at_mut(k);

@@ -55,8 +55,8 @@ impl Rule {
     }
 }
 
-/// Legendre polynomial of `degree` at `x` from the two polynomials of lower degree: k Pₖ = (2k−1) x Pₖ₋₁ −
-/// (k−1) Pₖ₋₂.
+/// Legendre polynomial of `degree` at `x` from the two polynomials of lower degree:
+/// k Pₖ = (2k−1) x Pₖ₋₁ − (k−1) Pₖ₋₂.
 pub(crate) fn next_legendre(degree: usize, x: f64, [before, last]: [f64; 2]) -> f64 {
     let k = degree as f64;
     ((2.0 * k - 1.0) * x * last - (k - 1.0) * before) / k

@@ -76,8 +76,8 @@ impl RockingBlock {
 
     /// Full period of rocking from amplitude θ₀ (rad) without loss, s, for any block.
     ///
-    /// T = (4/p) (K(k) − F(φ, k)), k = cos((α − θ₀)/2), sin φ = cos(α/2)/k: the pendulum's integral of θ″ =
-    /// −p² sin(α − θ). The difference is computed as one integral (NIST DLMF 19.11.7), so that small
+    /// T = (4/p) (K(k) − F(φ, k)), k = cos((α − θ₀)/2), sin φ = cos(α/2)/k: the pendulum's integral of
+    /// θ″ = −p² sin(α − θ). The difference is computed as one integral (NIST DLMF 19.11.7), so that small
     /// amplitudes keep their digits.
     ///
     /// # Errors

@@ -30,7 +30,7 @@ impl Boundary {
     /// Flat surface z = 0 with strips from left to right and free elements around them.
     ///
     /// `free` is the number of traction-free elements on either side. They are as long as the mean element of
-    /// the adjacent strip. Gaps between strips are filled with such elements.
+    /// the adjacent strip. Gaps between strips are filled with elements of about this length.
     ///
     /// # Errors
     /// [`Error::Size`] for no strips, [`Error::Input`] for strips out of order or too many elements.

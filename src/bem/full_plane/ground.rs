@@ -106,8 +106,8 @@ impl FullPlaneGround {
 
     /// Ground with any boundary.
     ///
-    /// If the boundary is not flat, call [`FullPlaneGround::with_incident_field`] first: the boundary
-    /// scatters the ground motion.
+    /// A boundary that is not flat scatters the ground motion, and needs
+    /// [`FullPlaneGround::with_incident_field`] before the ground is prepared.
     pub fn new(soil: Soil, boundary: Boundary) -> Self {
         let make_kernel = Box::new(|segments: &[Segment], soil, time_step| {
             Ok(Box::new(TimeKernel::new(soil, segments, time_step)?) as Box<dyn BoundaryKernel>)

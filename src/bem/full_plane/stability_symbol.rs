@@ -233,9 +233,7 @@ impl<'a> Symbol<'a> {
         }
     }
 
-    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ.
-    ///
-    /// Returns the Laplace variable s if the kernel has one.
+    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ; returns the kernel's s, if it has one.
     pub(super) fn at(
         &self,
         zeta: Complex64,

@@ -6,8 +6,8 @@
 //! on the mesh. Each panel is therefore computed once, when it is first needed.
 //!
 //! Wide panels, 2, 4, 8 … times as long, also have 16 Gauss points. There C/k² is approximated by a
-//! polynomial Σ cₙ Pₙ(x), while `S_p` `S_q` k² is exact, as four waves e^(iky), with ∫ Pₙ(x) e^(i(κ+hx)y) dx
-//! = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's idea).
+//! polynomial Σ cₙ Pₙ(x), while `S_p` `S_q` k² is exact, as four waves e^(iky), with
+//! ∫ Pₙ(x) e^(i(κ+hx)y) dx = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's idea).
 
 use std::sync::OnceLock;
 
