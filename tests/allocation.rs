@@ -200,12 +200,12 @@ fn recording_does_not_allocate_once_memory_is_reserved() {
     let recorder = Recorder::new().contact(2).motion(3);
     let mut time_series = recorder.start(&simulation).unwrap();
     for _ in 0..WARM {
-        time_series.record(simulation.step().unwrap());
+        time_series.record(simulation.step().unwrap()).unwrap();
     }
-    time_series.reserve(STEPS);
+    time_series.reserve(STEPS).unwrap();
     let before = COUNT.get();
     for _ in 0..STEPS {
-        time_series.record(simulation.step().unwrap());
+        time_series.record(simulation.step().unwrap()).unwrap();
     }
     assert_eq!(COUNT.get() - before, 0);
     assert_eq!(time_series.times().len(), WARM + STEPS + 1);

@@ -78,6 +78,26 @@ where
     Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
 }
 
+/// An array of this shape of `values`, in a memory that numpy allocates: it raises a `MemoryError` if there is too little.
+pub(crate) fn filled<'py, T: Element>(
+    py: Python<'py>,
+    shape: [usize; 2],
+    values: impl Iterator<Item = T>,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
+    let numpy = py.import("numpy")?;
+    let array = numpy.call_method1("empty", (shape, numpy::dtype::<T>(py)))?;
+    let array = array.cast_into::<PyArray2<T>>()?;
+    array.try_readwrite()?.as_slice_mut()?.iter_mut().zip(values).for_each(|(to, own)| *to = own);
+    Ok(array)
+}
+
+/// As many whole numbers from 0 on as a base has directions.
+pub(crate) fn wholes<const N: usize>(object: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
+    let found: Vec<usize> = whole(object)?;
+    let count = found.len();
+    found.try_into().map_err(|_| refuse(format!("{count} numbers, but must be {N}")))
+}
+
 /// Numbers that Python gets as an array of shape (n,).
 pub(crate) struct Array<T = f64>(Vec<T>);
 

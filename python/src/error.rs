@@ -80,12 +80,6 @@ where
     })
 }
 
-/// The error of an argument that is none of the types named.
-pub(crate) fn no_such(object: &Bound<'_, PyAny>, needed: &str) -> PyErr {
-    let found = object.get_type().name().map_or_else(|_| "object".into(), |name| name.to_string());
-    pyo3::exceptions::PyTypeError::new_err(format!("of the type {found}, but must be {needed}"))
-}
-
 /// A warning of the package, at the line of Python that is being run.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     let text = CString::new(text)?;
@@ -114,6 +108,10 @@ pub(crate) fn in_python(mut text: String) -> String {
         ("; `with_time_limit` allows more", ""),
         ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),
         ("take `Midpoint`,", "take TimeScheme.midpoint(),"),
+        (
+            "a recorder of fewer steps takes less",
+            "larger `every`, `contact_every`, `motion_every` or `series=False` take less",
+        ),
         ("tell the recorder to keep the contact", "give `contact_every` to `run`"),
         ("tell the recorder to keep the motion", "give `motion_every` to `run`"),
     ] {

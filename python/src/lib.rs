@@ -99,6 +99,7 @@ mod refine;
 mod restored;
 mod results;
 mod row;
+mod several;
 mod simulation;
 mod site;
 mod soil;

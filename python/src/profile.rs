@@ -9,8 +9,9 @@ use basemat::soil::{
 use pyo3::prelude::*;
 
 use crate::array::Numbers;
-use crate::error::{OrRaise, no_such};
+use crate::error::OrRaise;
 use crate::results::preformatted;
+use crate::several::{Several, no_such};
 use crate::soil::PySoil;
 
 /// Damping of a soil: how its shear modulus depends on frequency.
@@ -77,7 +78,7 @@ members! {
     PySoilProfile, own;
     #[pyo3(signature = (layers, base=None, *, base_damping=None))]
     new(
-        layers: Vec<Bound<'_, PySoilLayer>>,
+        layers: Several<'_, PySoilLayer>,
         base: Option<&PySoil>,
         base_damping: Option<&PyDampingLaw>,
     ) = {

@@ -11,6 +11,7 @@ use crate::error::{OrRaise, refuse};
 use crate::motion::{PyColumn, PyRecord, control};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
+use crate::several::Several;
 
 /// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
 #[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
@@ -94,7 +95,7 @@ impl PyColumn {
         &self,
         py: Python<'_>,
         record: &PyRecord,
-        curves: Vec<Bound<'_, PyStrainCurves>>,
+        curves: Several<'_, PyStrainCurves>,
         control: &str,
         strain_ratio: Option<f64>,
         tolerance: Option<f64>,

@@ -161,3 +161,170 @@ def test_models_that_are_none_are_refused() -> None:
     ops.wipe()
     with pytest.raises(bm.InputError, match="no elements"):
         opensees.structure(ops, [1], width=1.0)
+
+
+# Ties, fixes and numbers: unit deflections against OpenSees' own static analysis.
+
+BASE, NAMES = (1, 2, 3), ("x", "y", "rotation")
+HANDLERS = {
+    "Plain": ("Plain",),
+    "Transformation": ("Transformation",),
+    "Lagrange": ("Lagrange",),
+    # Its own error: the stiffness over the penalty, and the penalty's rounding over the stiffness.
+    "Penalty": ("Penalty", 1e14, 1e14),
+}
+EACH, IDENTITY = tuple(HANDLERS), ("Plain", "Transformation", "Penalty")
+# Ties, and the handlers of OpenSees 3.7.1 that hold them: Plain holds equal directions only, Transformation no chains;
+# Lagrange ends the process where a tie has fewer directions than its node.
+TIES: dict[str, tuple[tuple[str, ...], list[tuple[object, ...]]]] = {
+    "none": (EACH, []),
+    "one direction": (IDENTITY, [("equalDOF", 11, 12, 1)]),
+    "from a higher tag": (IDENTITY, [("equalDOF", 22, 11, 1, 3)]),
+    "all directions": (EACH, [("equalDOF", 15, 31, 1, 2, 3)]),
+    "mixed": (EACH, [("equalDOF_Mixed", 15, 31, 3, 1, 1, 2, 2, 3, 3)]),
+    "two that hold each other's rest": (IDENTITY, [("equalDOF", 21, 22, 1), ("equalDOF", 11, 12, 2)]),
+    "beam": (("Transformation", "Lagrange", "Penalty"), [("rigidLink", "beam", 11, 30)]),
+    "beam, bar": (("Transformation", "Penalty"), [("rigidLink", "beam", 11, 30), ("rigidLink", "bar", 12, 15)]),
+    "bar": (IDENTITY, [("rigidLink", "bar", 11, 30)]),
+    "diaphragm": (IDENTITY, [("rigidDiaphragm", 1, 11, 12, 15)]),
+    "rigid plane": (("Transformation", "Lagrange", "Penalty"), [("rigidDiaphragm", 3, 21, 30, 31)]),
+    "fixed rotation": (EACH, [("fix", 30, 0, 0, 1)]),
+    "fixed follower": (("Penalty",), [("equalDOF", 12, 30, 1, 3), ("fix", 30, 0, 0, 1)]),
+    "fixed master": (("Transformation", "Lagrange", "Penalty"), [("rigidLink", "beam", 12, 30), ("fix", 12, 0, 0, 1)]),
+    "base, equal": (IDENTITY, [("equalDOF", 1, 3, 1)]),
+    "base, rigid": (("Transformation", "Lagrange", "Penalty"), [("rigidLink", "beam", 2, 1), ("rigidLink", "beam", 2, 3)]),
+    "base follows": (IDENTITY, [("equalDOF", 11, 1, 3)]),
+    "two masters": (("Penalty",), [("equalDOF", 11, 30, 1), ("equalDOF", 12, 30, 2)]),
+    "repeated": (IDENTITY, [("equalDOF", 15, 31, 1, 2), ("equalDOF", 15, 31, 1)]),
+    "chain": (("Penalty",), [("equalDOF", 21, 22, 1), ("equalDOF", 22, 15, 1), ("rigidLink", "beam", 15, 31)]),
+    "chain of beams": (("Lagrange", "Penalty"), [("rigidLink", "beam", 30, 11), ("rigidLink", "beam", 12, 30)]),
+    "chain of equal directions": (("Plain", "Penalty"), [("equalDOF", 12, 11, 1, 3), ("equalDOF", 11, 30, 1, 2, 3)]),
+    "circle": (("Penalty",), [("equalDOF", 11, 12, 1), ("equalDOF", 12, 15, 1), ("equalDOF", 15, 11, 1)]),
+}
+CHAINS = {name for name in TIES if name.startswith("chain")} | {"circle"}
+
+
+def tied_frame(commands: list[tuple[object, ...]]) -> None:
+    """Two storeys on three base nodes with a brace over 30 and 31; tags in no order."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    places = {3: (3.0, 0.0), 1: (-3.0, 0.0), 2: (0.5, 0.0), 22: (3.0, 7.0), 12: (3.0, 4.0), 11: (-3.0, 4.0)}
+    for tag, place in {**places, 21: (-3.0, 7.0), 15: (1.0, 4.0), 30: (-2.0, 5.0), 31: (-1.5, 5.5)}.items():
+        ops.node(tag, *place)
+        ops.mass(tag, 8e3, 8e3, 2e3)
+    ops.geomTransf("Linear", 1)
+    beams = ((1, 2), (2, 3), (1, 11), (3, 12), (11, 15), (15, 12), (11, 21), (12, 22), (21, 22), (30, 31), (31, 22))
+    for tag, ends in enumerate((*beams, (30, 21)), 1):
+        ops.element("elasticBeamColumn", tag, *ends, 0.1 + 0.02 * tag, 30e9, 2e-3, 1)
+    for command, *values in commands:
+        getattr(ops, str(command))(*values)
+
+
+def springs(base: int) -> list[float]:
+    """Stiffness of the springs under a base node."""
+    return [4e7 * (1 + 0.1 * base), 9e7 * (1 + 0.1 * base), 2e7 * (1 + 0.1 * base)]
+
+
+def deflections(tags: list[int], handler: tuple[object, ...]) -> np.ndarray:
+    """Of all nodes, under 1 MN or MN·m on each, with springs under the base: by OpenSees."""
+    for own in BASE:
+        ops.node(100 + own, *ops.nodeCoord(own))
+        ops.fix(100 + own, 1, 1, 1)
+        for k, stiffness in enumerate(springs(own), 1):
+            ops.uniaxialMaterial("Elastic", 10 * own + k, stiffness)
+        materials = [10 * own + k for k in (1, 2, 3)]
+        ops.element("zeroLength", 100 + own, own, 100 + own, "-mat", *materials, "-dir", 1, 2, 3)
+    ops.timeSeries("Constant", 1)
+    found = []
+    for tag, k in ((tag, k) for tag in tags for k in range(3)):
+        ops.pattern("Plain", 1, 1)
+        ops.load(tag, *(1e6 * np.eye(3)[k]).tolist())
+        analysis(handler, "LoadControl")
+        assert ops.analyze(1) == 0
+        found.append([ops.nodeDisp(own, j) for own in tags for j in (1, 2, 3)])
+        ops.remove("loadPattern", 1)
+        ops.reset()
+    return np.array(found)
+
+
+def analysis(handler: tuple[object, ...], integrator: str) -> None:
+    ops.wipeAnalysis()
+    ops.constraints(*handler)
+    ops.numberer("RCM")
+    ops.system("FullGeneral")
+    ops.algorithm("Linear")
+    ops.integrator(integrator, *((1.0,) if integrator == "LoadControl" else (0.5, 0.25)))
+    ops.analysis("Static" if integrator == "LoadControl" else "Transient")
+
+
+def row(model: opensees.OpenSeesModel, tag: int, name: str) -> np.ndarray:
+    """Weights of a displacement; zero where the model says that it is held."""
+    try:
+        return model.row(tag, name).weights(model.dofs)  # type: ignore[arg-type]
+    except bm.InputError as error:
+        assert f"node {tag} is held in the direction {name}" in str(error) and "fix of node" in str(error)
+        return np.zeros(model.dofs)
+
+
+@pytest.mark.filterwarnings("ignore:the structure does not rotate")
+@pytest.mark.parametrize(("ties", "handler"), [(name, own) for name in TIES for own in TIES[name][0]])
+def test_ties_fixes_and_numbers_are_those_of_opensees(ties: str, handler: str) -> None:
+    tied_frame(TIES[ties][1])
+    tags = [int(tag) for tag in ops.getNodeTags()]
+    # An analysis of the user's has numbered the model before.
+    analysis(HANDLERS[handler], "Newmark")
+    assert ops.analyze(1, 0.01) == 0
+    if ties in CHAINS:
+        with pytest.warns(bm.BasematWarning, match="ties to nodes that follow others.*of node .* to node .*Transformation"):
+            model = opensees.structure(ops, BASE)
+    else:
+        model = opensees.structure(ops, BASE)
+    rows = np.array([row(model, tag, name) for tag in tags for name in NAMES])
+    stiffness = model.stiffness()
+    for own in BASE:
+        for name, spring in zip(NAMES, springs(own)):
+            weights = row(model, own, name)
+            stiffness = stiffness + spring * np.outer(weights, weights)
+    found = 1e6 * rows @ np.linalg.solve(stiffness, rows.T)
+    expected = deflections(tags, HANDLERS[handler])
+    error = np.abs(found - expected).max() / np.abs(expected).max()
+    assert error < (1e-5 if handler == "Penalty" else 1e-9)
+    for node, own in zip(model.contact_nodes(), BASE):
+        assert node.x == ops.nodeCoord(own)[0]
+        assert (node.horizontal, node.vertical) == (model.row(own, "x"), model.row(own, "y"))
+
+
+@pytest.mark.parametrize(
+    ("commands", "text"),
+    [
+        ([("fix", 12, 1, 0, 0)], r"translate freely in x.*node 12 \(x\) does not follow, by fix of node 12 \(x\)"),
+        ([("fix", 2, 0, 1, 0)], r"node 2 is held in the direction y: it must be free.*by fix of node 2 \(y\)"),
+        (
+            [("equalDOF", 22, 1, 1), ("fix", 22, 1, 0, 0)],
+            r"node 1 is held in the direction x.*fix of node 22 \(x\), equalDOF.* of node 1 \(x\) to node 22",
+        ),
+        ([("equalDOF_Mixed", 11, 30, 1, 2, 1)], r"translate freely in x.*equalDOF_Mixed of node 30 \(x\) to node 11"),
+    ],
+)
+def test_ties_and_fixes_that_hold_the_structure_are_named(commands: list[tuple[object, ...]], text: str) -> None:
+    tied_frame(commands)
+    with pytest.raises(bm.InputError, match=text):
+        opensees.structure(ops, BASE)
+
+
+def test_ties_that_hold_a_rotation_are_named() -> None:
+    tied_frame([("equalDOF", 11, 12, 2)])
+    with pytest.warns(bm.BasematWarning, match=r"does not rotate freely.*equalDOF.* of node 12 \(y\) to node 11"):
+        opensees.structure(ops, BASE)
+
+
+def test_a_free_column_prints_nothing(capfd: pytest.CaptureFixture[str]) -> None:
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    for tag in (1, 2):
+        ops.node(tag, 0.0, 4.0 * (tag - 1))
+        ops.mass(tag, 1e4, 1e4, 0.0)
+    ops.geomTransf("Linear", 1)
+    ops.element("elasticBeamColumn", 1, 1, 2, 0.25, 30e9, 0.005, 1)
+    assert opensees.structure(ops, [1], width=4.0).dofs == 6
+    assert capfd.readouterr() == ("", "")

@@ -249,18 +249,6 @@ def test_no_damaged_checkpoint_resumes_with_other_numbers() -> None:
     simulation.resume(saved)
 
 
-def test_sizes_beyond_memory_are_refused_with_what_they_take() -> None:
-    limit = bm.memory_limit()
-    assert limit == 4 * 2**30
-    with pytest.raises(bm.InputError, match="contact elements: 10000 would take about 40.0 GB"):
-        bm.Strip(-5.0, 5.0, 10_000)
-    bm.set_memory_limit(2**36)
-    try:
-        assert len(bm.Strip(-5.0, 5.0, 10_000).nodes) == 10_001
-    finally:
-        bm.set_memory_limit(limit)
-
-
 @pytest.mark.parametrize("value", [bm.Soil(80e6, 0.33, 1900.0), bm.DofCombination([(3, 1.5), (0, -1.0)])])
 def test_descriptions_pickle(value: object) -> None:
     assert repr(pickle.loads(pickle.dumps(value))) == repr(value)

@@ -46,7 +46,7 @@ def test_one_row_per_case_in_order_and_errors_beside_results() -> None:
     ]
     failed = table["friction"] == 0.25
     assert set(table["error"][failed]) == {"ValueError: no such friction"}
-    assert table["error"][~failed].isna().all()
+    assert all(error is None for error in table["error"][~failed])
     assert table["shear"][failed].isna().all()
     expected = make(0.3, 3.0).run(300).base_shear.magnitude
     assert table["shear"].iloc[-1] == expected
@@ -171,7 +171,7 @@ def test_files_of_shards_merge_to_the_table(tmp_path: Path) -> None:
     merged = bm.merge([tmp_path / "1.csv", tmp_path / "0.csv"], AREAS)
     pandas.testing.assert_frame_equal(merged, bm.merge(tmp_path / "whole.csv", AREAS))
     assert list(merged.columns) == ["width", "soil", "area", "flat", "none", "error"]
-    assert merged["error"].isna().tolist() == [True] * 4 + [False, True]
+    assert [error is None for error in merged["error"]] == [True] * 4 + [False, True]
     assert merged["error"][4] == "ValueError: no\nsuch case"
     right = merged.drop(4)
     assert right["area"].tolist() == whole.drop(4)["area"].tolist() and right["none"].isna().all()

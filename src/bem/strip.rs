@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::error::{Error, Result, finite, positive, require};
 use crate::fundamental::branch::Weight;
 use crate::geometry::{ContactElement, PLANE, check_count};
-use crate::structure::{Structure, foundation_nodes};
+use crate::structure::{Structure, foundation_nodes, from_the_left};
 
 /// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -110,8 +110,11 @@ impl Strip {
     pub fn under(structure: &dyn Structure, count: usize, grading: Grading) -> Result<Vec<Self>> {
         let nodes = structure.contact_nodes();
         let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
-        let strip =
-            |own: Range<usize>| Self::new(nodes[own.start].x..nodes[own.end - 1].x, count, grading);
+        let strip = |own: Range<usize>| {
+            let (first, last) = (nodes[own.start].x, nodes[own.end - 1].x);
+            from_the_left(first, last)?;
+            Self::new(first..last, count, grading)
+        };
         foundations.into_iter().map(strip).collect()
     }
 

@@ -258,15 +258,20 @@ impl Sequence {
         to.serialize_f64(self.end)
     }
 
-    /// Whether `state` is of the same simulation and later; `state` is the last one then.
-    pub(crate) fn takes(&mut self, state: &State) -> bool {
+    /// Whether `state` is of the same simulation and later than the last one.
+    pub(crate) fn is_next(&self, state: &State) -> bool {
         // The fields of a state are public and may have been changed.
-        let takes = state.origin.is(self.origin)
+        state.origin.is(self.origin)
             && state.contact.len() == self.elements
             && state.modes.len() == self.elements
             && state.probes.len() == self.probes
             && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
-            && state.time > self.end;
+            && state.time > self.end
+    }
+
+    /// Whether `state` is the next one; it is the last one then.
+    pub(crate) fn takes(&mut self, state: &State) -> bool {
+        let takes = self.is_next(state);
         if takes {
             self.end = state.time;
         }

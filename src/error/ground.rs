@@ -224,14 +224,17 @@ pub enum PlanError {
     },
     /// A top layer so thin, or cells so small beside the mat, that no one would wait for it.
     #[error(
-        "a mat of {span} m needs wavenumbers up to {wavenumber:e} 1/m, which would take minutes (a thicker top layer, \
-         lower frequencies or fewer cells help)"
+        "a mat of {span:.4} m needs wavenumbers up to {wavenumber:.3e} 1/m, which would take minutes: up to {most:.3e} 1/m \
+         are allowed, {:.2} times less (a time step so many times as long, frequencies so many times lower, a thicker top \
+         layer or fewer cells)", wavenumber / most
     )]
     TooFine {
         /// Diagonal of the mat, m.
         span: f64,
         /// Wavenumber up to which form factors would be tabulated, 1/m.
         wavenumber: f64,
+        /// Largest wavenumber that is allowed for so many cells, 1/m.
+        most: f64,
     },
     /// Cells that do not resolve the waves of a frequency.
     #[error(

@@ -26,7 +26,8 @@ pub struct MemoryError {
 
 fn bytes(number: f64) -> String {
     match number {
-        few if few < 1e9 => format!("{:.0} MB", few / 1e6),
+        few if few < 1e6 => format!("{:.1} kB", few / 1e3),
+        some if some < 1e9 => format!("{:.1} MB", some / 1e6),
         many if many < 1e15 => format!("{:.1} GB", many / 1e9),
         endless => format!("{:.0e} GB", endless / 1e9),
     }
@@ -91,7 +92,8 @@ mod tests {
             "rows: 100000 would take about 4.8 GB of memory, but at most 4.3 GB are allowed \
              (less)"
         );
-        assert!(text(2e6).contains("about 2 MB of") && text(2e30).contains("about 2e21 GB of"));
+        assert!(text(2e6).contains("about 2.0 MB of") && text(2e30).contains("about 2e21 GB of"));
+        assert!(text(2e4).contains("about 20.0 kB of"));
         assert!(text(f64::INFINITY).contains("about inf GB of"));
     }
 }

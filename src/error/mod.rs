@@ -24,7 +24,7 @@ pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
-    positive, require, require_part, same_length,
+    positive, require, require_part, same_length, short,
 };
 pub(crate) use step::along;
 pub use step::{CheckpointError, StabilityError, StepError};
@@ -41,7 +41,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[non_exhaustive]
 pub enum Error {
     /// A number out of its range (NaN and infinities included).
-    #[error("{quantity} is {value}, but must be {needed}")]
+    #[error("{quantity} is {}, but must be {needed}", short(*.value))]
     Input {
         /// Name of the quantity.
         quantity: &'static str,
@@ -363,7 +363,7 @@ pub enum Error {
         growing_modes: usize,
     },
     /// A time step that could not be solved; the simulation stays at the last accepted step.
-    #[error("step {step} (t = {time} s): {source}")]
+    #[error("step {step} (t = {} s): {source}", short(*.time))]
     Step {
         /// Number of the step that failed, from 1.
         step: usize,

@@ -69,6 +69,23 @@ pub(crate) fn require_part(
     if holds { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
 }
 
+/// A number for people, without the rounding of how it was computed: whole ones as they are, others in six figures, or
+/// in twelve where six would make a round number of them.
+pub(crate) fn short(value: f64) -> String {
+    let figures = |count: usize| format!("{value:.count$e}").parse::<f64>().unwrap_or(value);
+    let (three, six) = (figures(2), figures(5));
+    let whole = value.fract() == 0.0 || !value.is_finite();
+    let shown = if whole {
+        value
+    } else if six.to_bits() == three.to_bits() {
+        figures(11)
+    } else {
+        six
+    };
+    // No negative zero.
+    (shown + 0.0).to_string()
+}
+
 impl Error {
     /// [`Error::Name`] for a name that none of `known` is.
     pub(crate) fn no_name<T: Into<String>>(

@@ -202,6 +202,26 @@ pub enum StabilityError {
         /// Horizontal resultant over friction; infinite without friction.
         ratio: f64,
     },
+    /// In plan: the torque of the loads is beyond friction.
+    #[error(
+        "the load at t = 0 twists it: a torque of {torque:.4e} N·m, {ratio:.3} times the {resistance:.4e} N·m of friction \
+         under a normal force of {normal:.4e} N that is spread evenly{}",
+        on(*ends, Some(*across))
+    )]
+    Twisting {
+        /// Left and right end of the base of the part that is twisted, m.
+        ends: [f64; 2],
+        /// Front and back end of that base along y, m.
+        across: [f64; 2],
+        /// Torque of the loads about the middle of the base, counter-clockwise from above, N·m.
+        torque: f64,
+        /// Normal force, N.
+        normal: f64,
+        /// Torque of friction under even pressure, N·m.
+        resistance: f64,
+        /// Torque over that of friction; infinite without friction.
+        ratio: f64,
+    },
     /// The resultant of weight and loads passes beside the base.
     #[error(
         "weight and loads at t = 0 overturn it{1}: moment {moment:.4e} N·m{0} about the middle of the base \

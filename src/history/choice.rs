@@ -89,6 +89,9 @@ pub enum ChoiceReason {
     MemoryLimit,
     /// An exact history takes more memory than is allowed, but exponentials are not possible, or would take more still.
     NoExponentials,
+    /// In plan: an exact history of all lags takes more memory than is allowed, but fits without the lags beyond the last
+    /// that counts.
+    WithoutLateLags,
 }
 
 impl fmt::Display for ChoiceReason {
@@ -102,6 +105,9 @@ impl fmt::Display for ChoiceReason {
             Self::MemoryLimit => "an exact history would need more memory than allowed",
             Self::NoExponentials => {
                 "more memory than allowed, but exponentials cannot be had or take more"
+            }
+            Self::WithoutLateLags => {
+                "within the memory allowed without the lags beyond the last that counts"
             }
         })
     }

@@ -348,7 +348,7 @@ impl HistoryOptions {
         }
         // In plan the soil forgets; what does not fit into memory has to end before.
         let error_bound = self.tolerance.unwrap_or(FORGOTTEN.max(kernel.late_error()));
-        let mut ended = exact;
+        let (mut ended, mut reason) = (exact, reason);
         if reason == ChoiceReason::NoExponentials {
             let lags = room(self, HistoryMethod::RelaxedFft, &**kernel)?;
             let Some(end) = LastLag::of(&**kernel, error_bound, lags)? else {
@@ -361,6 +361,7 @@ impl HistoryOptions {
                 }));
             };
             ended = Estimate::new(HistoryMethod::RelaxedFft, &**kernel, 2 * end.lag)?;
+            reason = ChoiceReason::WithoutLateLags;
         }
         let choice = choice(HistoryMethod::RelaxedFft, reason, ended);
         let kept = Kept::Exact(Box::new(history.forgetting(error_bound)));

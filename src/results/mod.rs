@@ -25,6 +25,7 @@
 //!     .build()?;
 //!
 //! let mut time_series = Recorder::new().start(&simulation)?;
+//! time_series.reserve(500)?; // An error if they do not fit in the memory that is allowed.
 //! let run = simulation.run(500, |state| time_series.record(state))?;
 //!
 //! println!("{run}");
@@ -55,7 +56,7 @@
 //!
 //! Nothing where it is not used. The scalar time series take 24 numbers and one per probe at every
 //! kept step (192 kB for 1000 steps); contact and motion frames are off unless asked for, see
-//! [`TimeSeries::bytes`]. A [`Run`] keeps numbers per element and the slip events. Its peaks,
+//! [`TimeSeries::bytes`]. All of them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] keeps numbers per element and the slip events. Its peaks,
 //! envelopes and events are those of all steps, however few the time series keep.
 //!
 //! # Conventions
@@ -68,6 +69,7 @@ mod csv;
 #[cfg(any(feature = "io", feature = "plot"))]
 mod deformed_shape;
 mod floor;
+mod frames;
 #[cfg(feature = "npz")]
 mod npz;
 mod recorder;
@@ -83,5 +85,6 @@ pub use csv::spectrum_csv;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
+pub use frames::{ContactFrame, MotionFrame};
 pub use recorder::Recorder;
-pub use time_series::{ContactFrame, MotionFrame, TimeSeries};
+pub use time_series::TimeSeries;

@@ -1,11 +1,13 @@
 //! The observer: time series of a run, and the frames of motion and contact that it keeps.
 
+use std::collections::TryReserveError;
+
+use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, reserve};
 use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::{EnergyBalance, Probe, Sequence, State, probe_index};
-use crate::error::{Result, require};
-use crate::interface::{ContactState, Mode};
+use crate::error::{MemoryError, Result, memory_limit, require};
 
 /// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
 /// observer of [`Simulation::run`].
@@ -80,6 +82,12 @@ validated! {
 /// Most steps that memory is reserved for.
 const MOST_RESERVED: usize = 1_000_000;
 
+/// Ways out of a limit of memory.
+const LIMITED: &str = "a recorder of fewer steps takes less, `set_memory_limit` allows more";
+
+/// Ways out where the system has no more memory.
+const EXHAUSTED: &str = "the system gives no more; a recorder of fewer steps takes less";
+
 impl Recorder {
     /// Starts with the simulation as it stands.
     ///
@@ -115,28 +123,95 @@ impl Recorder {
 impl TimeSeries {
     /// Reserves memory for `steps` more steps, at most a million: recording them then allocates nothing (but for frames
     /// of motion of a structure that is stepped in its modes, whose degrees of freedom the state then makes).
-    pub fn reserve(&mut self, steps: usize) {
-        let steps = steps.min(MOST_RESERVED);
-        let count = steps / self.recorder.every + 1;
-        let lists = self.scalars.iter_mut().chain(&mut self.probe_values);
-        lists.chain([&mut self.times]).for_each(|list| list.reserve(count));
-        self.energy_balances.reserve(count);
-        if let Some(frames) = &mut self.contact {
-            frames.reserve(steps, self.elements.len());
-        }
-        if let Some(frames) = &mut self.motion {
-            frames.reserve(steps, self.dofs);
-        }
+    ///
+    /// Called before a run, it says at once whether the run's time series and frames fit.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::Error::Memory) if time series and frames of all `steps` would take more than the
+    /// [limit](crate::memory_limit), or the first million more than the system gives.
+    pub fn reserve(&mut self, steps: usize) -> Result<()> {
+        self.fit(steps)?;
+        self.make_room(steps.min(MOST_RESERVED))
     }
 
     /// Takes in a step. States of another simulation and those that are not later than the last
     /// one are ignored.
-    pub fn record(&mut self, state: &State) {
-        if !self.sequence.takes(state) {
-            return;
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::Error::Memory) if time series and frames would take more than the
+    /// [limit](crate::memory_limit) or than the system gives; they end with the step before then. As the observer's
+    /// error it ends a run.
+    pub fn record(&mut self, state: &State) -> Result<()> {
+        if !self.sequence.is_next(state) {
+            return Ok(());
         }
+        self.fit(1)?;
+        self.make_room(1)?;
+        self.sequence.takes(state);
         self.steps += 1;
         self.keep(state);
+        Ok(())
+    }
+
+    /// Number of the next `steps` steps that are kept of every `every`th.
+    fn due(&self, every: usize, steps: usize) -> usize {
+        self.steps.saturating_add(steps) / every - self.steps / every
+    }
+
+    /// Memory that `steps` more steps would take, bytes.
+    fn needed(&self, steps: usize) -> f64 {
+        let of = |every: usize, frame: usize| self.due(every, steps) as f64 * frame as f64;
+        let numbers = 1 + self.scalars.len() + self.probe_values.len();
+        let step = numbers * size_of::<f64>() + size_of::<EnergyBalance>();
+        let contact = self.contact.as_ref().map_or(0.0, |frames| {
+            of(frames.every, ContactFrames::frame_bytes(self.elements.len()))
+        });
+        let motion = self
+            .motion
+            .as_ref()
+            .map_or(0.0, |frames| of(frames.every, MotionFrames::frame_bytes(self.dofs)));
+        of(self.recorder.every, step) + contact + motion
+    }
+
+    /// Compares the memory of `steps` more steps with the limit.
+    fn fit(&self, steps: usize) -> Result<()> {
+        let (needed, limit) = (self.bytes() as f64 + self.needed(steps), memory_limit() as f64);
+        if needed <= limit { Ok(()) } else { Err(self.too_many(steps, limit, LIMITED).into()) }
+    }
+
+    fn too_many(&self, steps: usize, limit: f64, remedy: &'static str) -> MemoryError {
+        let (quantity, asked) =
+            ("steps with time series and snapshots", self.steps as f64 + steps as f64);
+        MemoryError {
+            quantity,
+            asked,
+            needed: self.bytes() as f64 + self.needed(steps),
+            limit,
+            remedy,
+        }
+    }
+
+    /// Reserves memory for `steps` more steps.
+    fn make_room(&mut self, steps: usize) -> Result<()> {
+        let room = self.try_room(steps);
+        Ok(room.map_err(|_| self.too_many(steps, self.bytes() as f64, EXHAUSTED))?)
+    }
+
+    fn try_room(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
+        let count = self.due(self.recorder.every, steps);
+        for list in self.scalars.iter_mut().chain(&mut self.probe_values).chain([&mut self.times]) {
+            reserve(list, count)?;
+        }
+        reserve(&mut self.energy_balances, count)?;
+        let counts = [self.recorder.contact, self.recorder.motion]
+            .map(|every| every.map_or(0, |every| self.due(every, steps)));
+        if let Some(frames) = &mut self.contact {
+            frames.reserve(counts[0], self.elements.len())?;
+        }
+        if let Some(frames) = &mut self.motion {
+            frames.reserve(counts[1], self.dofs)?;
+        }
+        Ok(())
     }
 
     fn keep(&mut self, state: &State) {
@@ -222,152 +297,5 @@ impl TimeSeries {
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
-    }
-}
-
-// Snapshots of the base and of the structure, every so many steps.
-
-/// The base at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct ContactFrame<'a> {
-    /// Time, s.
-    pub time: f64,
-    /// Opening and total traction of each element.
-    pub states: &'a [ContactState],
-    /// Mode of each element.
-    pub modes: &'a [Mode],
-}
-
-/// The structure at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct MotionFrame<'a> {
-    /// Time, s.
-    pub time: f64,
-    /// Degrees of freedom as changes against the static state, relative to the free field's translation, m
-    /// and rad.
-    pub displacement: &'a [f64],
-    /// Total velocities of the degrees of freedom, m/s and rad/s.
-    pub velocity: &'a [f64],
-    /// Mean displacement [horizontal, up] of the free field under the base, m.
-    pub free_field: [f64; 2],
-    /// In plan: mean displacement of the free field along y, m; zero in the plane.
-    pub free_field_across: f64,
-}
-
-/// Frames of the base, end to end.
-#[derive(Debug, Clone, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub(super) struct ContactFrames {
-    pub(super) every: usize,
-    times: Vec<f64>,
-    states: Vec<ContactState>,
-    modes: Vec<Mode>,
-}
-
-impl ContactFrames {
-    pub(super) fn new(every: usize) -> Self {
-        Self { every, ..Self::default() }
-    }
-
-    pub(super) fn keep(&mut self, state: &State) {
-        self.times.push(state.time);
-        self.states.extend_from_slice(&state.contact);
-        self.modes.extend_from_slice(&state.modes);
-    }
-
-    /// Reserves memory for `steps` more steps of `count` elements each.
-    pub(super) fn reserve(&mut self, steps: usize, count: usize) {
-        let frames = steps / self.every + 1;
-        self.times.reserve(frames);
-        let _ = self.states.try_reserve(frames.saturating_mul(count));
-        let _ = self.modes.try_reserve(frames.saturating_mul(count));
-    }
-
-    /// Whether these are frames of `count` elements each.
-    #[cfg(feature = "serde")]
-    pub(super) fn is_whole(&self, count: usize) -> bool {
-        let needed = self.times.len().checked_mul(count);
-        self.every > 0 && [self.states.len(), self.modes.len()].map(Some) == [needed; 2]
-    }
-
-    /// Frames of `count` elements each.
-    pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
-        self.times.iter().enumerate().map(move |(k, &time)| {
-            let range = k * count..(k + 1) * count;
-            ContactFrame { time, states: &self.states[range.clone()], modes: &self.modes[range] }
-        })
-    }
-
-    pub(super) fn bytes(&self) -> usize {
-        size_of_val(&self.times[..]) + size_of_val(&self.states[..]) + size_of_val(&self.modes[..])
-    }
-}
-
-/// Frames of the structure, end to end.
-#[derive(Debug, Clone, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub(super) struct MotionFrames {
-    pub(super) every: usize,
-    times: Vec<f64>,
-    displacement: Vec<f64>,
-    velocity: Vec<f64>,
-    free_field: Vec<[f64; 2]>,
-    /// Mean displacement of the free field along y, m, one for each frame; none if the file that was read has none.
-    #[cfg_attr(feature = "serde", serde(default))]
-    free_field_across: Vec<f64>,
-}
-
-impl MotionFrames {
-    pub(super) fn new(every: usize) -> Self {
-        Self { every, ..Self::default() }
-    }
-
-    pub(super) fn keep(&mut self, state: &State) {
-        self.times.push(state.time);
-        self.displacement.extend_from_slice(state.displacement());
-        self.velocity.extend_from_slice(state.velocity());
-        self.free_field.push(state.free_field);
-        self.free_field_across.push(state.free_field_across);
-    }
-
-    /// Reserves memory for `steps` more steps of `count` degrees of freedom each.
-    pub(super) fn reserve(&mut self, steps: usize, count: usize) {
-        let frames = steps / self.every + 1;
-        self.times.reserve(frames);
-        // What does not fit now may never be needed.
-        let _ = self.displacement.try_reserve(frames.saturating_mul(count));
-        let _ = self.velocity.try_reserve(frames.saturating_mul(count));
-        self.free_field.reserve(frames);
-        self.free_field_across.reserve(frames);
-    }
-
-    /// Whether these are frames of `count` degrees of freedom each.
-    #[cfg(feature = "serde")]
-    pub(super) fn is_whole(&self, count: usize) -> bool {
-        let needed = self.times.len().checked_mul(count);
-        self.every > 0
-            && self.free_field.len() == self.times.len()
-            && [0, self.times.len()].contains(&self.free_field_across.len())
-            && [self.displacement.len(), self.velocity.len()].map(Some) == [needed; 2]
-    }
-
-    /// Frames of `count` degrees of freedom each.
-    pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = MotionFrame<'_>> {
-        self.times.iter().enumerate().map(move |(k, &time)| {
-            let range = k * count..(k + 1) * count;
-            let displacement = &self.displacement[range.clone()];
-            let (velocity, free_field) = (&self.velocity[range], self.free_field[k]);
-            // Files of before have none.
-            let free_field_across = self.free_field_across.get(k).copied().unwrap_or(0.0);
-            MotionFrame { time, displacement, velocity, free_field, free_field_across }
-        })
-    }
-
-    pub(super) fn bytes(&self) -> usize {
-        8 * (4 * self.times.len() + self.displacement.len() + self.velocity.len())
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{DofCombination, Structure};
-use crate::error::{Error, Result, at_least, finite, in_bounds};
+use crate::error::{Error, Result, at_least, finite, in_bounds, require};
 use crate::geometry::{PLANE, SPACE};
 
 /// A point of the base: where it is, and how the degrees of freedom move it.
@@ -192,6 +192,12 @@ pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<FaceNode> {
 pub(crate) fn check_base_nodes(nodes: &[FaceNode], dofs: usize) -> Result<()> {
     at_least("list of contact nodes", nodes.len(), 2)?;
     nodes.iter().try_for_each(|node| node.check(dofs))
+}
+
+/// Error unless a contact node at `x` lies to the right of another, at `before`, that is listed before it.
+pub(crate) fn from_the_left(before: f64, x: f64) -> Result<()> {
+    let needed = "to the right of the node before it: contact nodes are listed from left to right";
+    require("coordinate of a contact node", x, x > before, needed).map(drop)
 }
 
 /// Contact nodes of each foundation, for `count` nodes in all and those that are the last of a

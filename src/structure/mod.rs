@@ -13,7 +13,7 @@ mod reduction;
 
 pub use crate::linalg::Triplets;
 pub use contact_node::{ContactNode, FaceNode};
-pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes};
+pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{
     HeldBase, check_attached, check_damping, check_mass, massless, numbers as unknown_numbers,

@@ -175,6 +175,12 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
+/// A number with three decimals; no negative zero.
+pub(crate) fn thousandths(value: f64) -> String {
+    // What rounds to zero is zero.
+    format!("{:.3}", if value.abs() < 0.5e-3 { 0.0 } else { value })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

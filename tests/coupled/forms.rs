@@ -451,7 +451,7 @@ fn time_series_with_all_that_is_in_them() {
     assert!(record(&serde_json::from_value(later).unwrap()).is_err());
     // It takes no more steps, and lists of other lengths are refused.
     simulation.step().unwrap();
-    read.record(simulation.state());
+    read.record(simulation.state()).unwrap();
     assert_eq!(read.times().len(), 41);
     for (list, reason) in [
         ("times", "list of energy balances has length 41, but must have 40"),

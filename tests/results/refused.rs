@@ -13,11 +13,10 @@ fn bad_requests_are_errors() {
     // A loop of one's own that forgets steps has no spectrum.
     let mut forgetful = simulation();
     let mut time_series = Recorder::new().start(&forgetful).unwrap();
-    time_series.reserve(usize::MAX);
     for step in 0..200 {
         let state = forgetful.step().unwrap();
         if step % 2 == 1 {
-            time_series.record(state);
+            time_series.record(state).unwrap();
         }
     }
     let spectrum = time_series.floor_spectrum("top acceleration", &[0.1, 0.2], 0.05);
@@ -47,7 +46,7 @@ fn bad_requests_are_errors() {
     // The same state twice, and one of another scene.
     let state = simulation.step().unwrap().clone();
     let mut record = |state: &State| {
-        time_series.record(state);
+        time_series.record(state).unwrap();
         run.record(state);
     };
     record(&state);
@@ -78,11 +77,35 @@ fn states_of_another_simulation_are_ignored() {
     let (mut own, mut other) = (simulation(), simulation());
     let (mut time_series, mut run) = (Recorder::new().start(&own).unwrap(), own.begin_run());
     let foreign = other.step().unwrap();
-    time_series.record(foreign);
+    time_series.record(foreign).unwrap();
     run.record(foreign);
     assert_eq!((time_series.times(), run.steps), (&[0.0][..], 0));
     let state = own.step().unwrap();
-    time_series.record(state);
+    time_series.record(state).unwrap();
     run.record(state);
     assert_eq!((time_series.times(), run.steps), (&[0.0, own.time_step()][..], 1));
+}
+
+/// Time series and snapshots of more steps than the limit of memory allows are an error before the run, which names
+/// the memory that they would take: as much a step as a recorded step takes.
+#[test]
+fn time_series_beyond_the_limit_of_memory_are_an_error() {
+    let mut simulation = simulation();
+    let mut series = Recorder::new().contact(1).motion(1).start(&simulation).unwrap();
+    let start = series.bytes() as f64;
+    let errors = [usize::MAX, 1_000_000_000].map(|steps| match series.reserve(steps) {
+        Err(Error::Memory(error)) => error,
+        other => panic!("{steps} steps: {other:?}"),
+    });
+    series.reserve(5).unwrap();
+    series.record(simulation.step().unwrap()).unwrap();
+    let step = series.bytes() as f64 - start;
+    for error in errors {
+        assert!((error.needed / (start + step * error.asked) - 1.0).abs() < 1e-12);
+        assert_eq!(error.limit, basemat::memory_limit() as f64);
+        assert!(error.to_string().starts_with("steps with time series and snapshots: "), "{error}");
+    }
+    // Frames that are seldom kept fit where all steps do not.
+    let seldom = Recorder::new().every(1_000_000).motion(1_000_000).start(&simulation);
+    seldom.unwrap().reserve(1_000_000_000).unwrap();
 }

@@ -183,3 +183,33 @@ fn bodies_that_are_none() {
     let error = build(body(&crossed, round).unwrap(), cells(), Bonded);
     assert!(matches!(error, Error::Plan(PlanError::Face { face: 0, .. })), "{error}");
 }
+
+/// A torque beyond friction is named, with what friction gives under even pressure: µ N times the mean distance of the
+/// cells from the middle.
+#[test]
+fn a_torque_beyond_friction_is_named() {
+    let weight = 9.80665 * 2000.0 * 108.0;
+    let build = |torque: f64| {
+        Simulation::builder(4e-3)
+            .structure(RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap())
+            .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
+            .interface(Coulomb::new(0.5).unwrap())
+            .load(Load::new(5, move |_| torque))
+            .build()
+    };
+    let places = [-2.25_f64, -0.75, 0.75, 2.25];
+    let arms = places.iter().flat_map(|x| places.iter().map(move |y| x.hypot(*y)));
+    let most = 0.5 * weight * arms.sum::<f64>() / 16.0;
+    assert!(build(0.9 * most).is_ok());
+    let Error::Stability(cause) = build(1.1 * most).unwrap_err() else {
+        panic!("another error")
+    };
+    let StabilityError::Twisting { torque, resistance, ratio, .. } = *cause else {
+        panic!("{cause}")
+    };
+    assert!(
+        (ratio - 1.1).abs() < 1e-6 && (resistance / most - 1.0).abs() < 1e-9,
+        "{ratio} {resistance}"
+    );
+    assert!((torque / (1.1 * most) - 1.0).abs() < 1e-9, "{torque}");
+}

@@ -112,7 +112,7 @@ def sweep(
         Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
         :attr:`Run.warnings`) and ``error`` (None, or its text), rows in the order of the cases.
     """
-    frames = pandas()
+    pandas()
     given = parameters_of(grid)
     cases = cases_of(grid, given)
     numbers = _shard(range(len(cases)), shard)
@@ -141,7 +141,7 @@ def sweep(
         outcomes = _in_threads(arguments, jobs or os.cpu_count() or 1, tell)
     taken = {*parameters, *_OWN}
     outcomes = [_distinct(own, taken) for own in outcomes]
-    table = frames.DataFrame(_table(cases, parameters, outcomes), index=numbers)
+    table = _frame(_table(cases, parameters, outcomes), numbers)
     if file is not None and given is not None:
         try:
             _save(file, given, shard, outcomes)
@@ -178,7 +178,14 @@ def merge(
     names = [name for name, _ in parameters]
     table = _table(cases_of(grid, parameters), names, found)
     del table["warnings"]
-    return pandas().DataFrame(table)
+    return _frame(table, range(len(found)))
+
+
+def _frame(table: dict[str, list[Any]], index: range) -> Any:
+    """The frame of a table. Its errors are objects: a column of texts of pandas 3 makes NaN of None."""
+    frame = pandas().DataFrame(table, index=index)
+    frame["error"] = pandas().Series(table["error"], index=index, dtype=object)
+    return frame
 
 
 def _shard(numbers: range, shard: tuple[int, int] | None) -> range:

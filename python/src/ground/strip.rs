@@ -8,7 +8,8 @@ use pyo3::prelude::*;
 
 use super::PyPlan;
 use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, no_such};
+use crate::error::OrRaise;
+use crate::several::no_such;
 
 /// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
 /// "cosine" (the default: short at the edges, where tractions are singular) or "uniform".

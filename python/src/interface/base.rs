@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, heard, refuse};
 use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
+use crate::several::no_class;
 use crate::user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance, UserLaw};
 
 /// A law between base and ground: what an element of the contact does in a step, its mode (see
@@ -93,6 +94,7 @@ pub(crate) fn recipes(
     object: &Bound<'_, PyAny>,
     in_plan: bool,
 ) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
+    no_class(object)?;
     match object.extract::<Vec<Bound<'_, PyAny>>>() {
         Ok(list) => list.iter().map(|law| recipe(law, in_plan)).collect(),
         Err(_) => Ok(vec![recipe(object, in_plan)?]),

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::array::real;
 use crate::error::{self, OrRaise, has_raised, heard, refuse};
 use crate::recipe::Recipe;
+use crate::several::no_class;
 
 /// Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
 /// :func:`free_field` makes of a function. Until t = 0 the ground rests.
@@ -52,6 +53,7 @@ pub(crate) fn given<'a, 'py>(
     if let Ok(own) = object.cast::<PyFreeField>() {
         return Ok(own);
     }
+    no_class(object)?;
     Err(refuse(if object.is_callable() {
         "a function is no motion before it is said what it returns: \
          free_field(displacement=function), or free_field(acceleration=function, time_step=…, \

@@ -3,11 +3,10 @@
 use basemat::coupled::{EnergyBalance, EnergyTerm};
 use basemat::interface::ContactState;
 use basemat::results::{ContactFrame, MotionFrame, Quantity, Run, TimeSeries};
-use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyDictMethods};
 
-use crate::array::{Array, Named};
+use crate::array::{Array, Named, filled};
 use crate::error::refuse;
 
 /// A scalar, or a probe, by its name.
@@ -64,8 +63,7 @@ pub(super) fn contact<'py>(
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let value = |pick: fn(&ContactState) -> f64| {
-        let values = frames.iter().flat_map(|frame| frame.states).map(pick);
-        PyArray1::from_iter(py, values).reshape(shape)
+        filled(py, shape, frames.iter().flat_map(|frame| frame.states).map(pick))
     };
     let in_plan = !time_series.depths().is_empty();
     for (name, _, across, pick) in ContactState::NUMBERS {
@@ -74,7 +72,7 @@ pub(super) fn contact<'py>(
         }
     }
     let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| *mode as u8);
-    columns.set_item("mode", PyArray1::from_iter(py, modes).reshape(shape)?)?;
+    columns.set_item("mode", filled(py, shape, modes)?)?;
     Ok(columns)
 }
 
@@ -88,15 +86,15 @@ pub(super) fn motion<'py>(
         return Err(refuse("no motion was kept: give `motion_every` to `run`"));
     };
     let shape = [frames.len(), first.displacement.len()];
-    let all = |pick: fn(&MotionFrame<'_>) -> Vec<f64>, shape: [usize; 2]| {
-        PyArray1::from_vec(py, frames.iter().flat_map(pick).collect()).reshape(shape)
+    let all = |pick: fn(&MotionFrame<'_>) -> &[f64]| {
+        filled(py, shape, frames.iter().flat_map(pick).copied())
     };
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
-    columns.set_item("displacement", all(|frame| frame.displacement.to_vec(), shape)?)?;
-    columns.set_item("velocity", all(|frame| frame.velocity.to_vec(), shape)?)?;
-    let two = [frames.len(), 2];
-    columns.set_item("free_field", all(|frame| frame.free_field.to_vec(), two)?)?;
+    columns.set_item("displacement", all(|frame| frame.displacement)?)?;
+    columns.set_item("velocity", all(|frame| frame.velocity)?)?;
+    let free_field = frames.iter().flat_map(|frame| frame.free_field);
+    columns.set_item("free_field", filled(py, [frames.len(), 2], free_field)?)?;
     if !time_series.depths().is_empty() {
         let across = frames.iter().map(|frame| frame.free_field_across);
         columns.set_item("free_field_across", across.collect::<Array>())?;

@@ -5,7 +5,8 @@ use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};
 use basemat::results::Quantity;
 use pyo3::prelude::*;
 
-use crate::error::{self, OrRaise, refuse, take_raised};
+use super::watched::settled;
+use crate::error::{self, OrRaise, refuse};
 use crate::probe::PyProbe;
 use crate::ticker::{progress_function, watched};
 
@@ -51,12 +52,8 @@ pub(super) fn build(
 }
 
 /// The checkpoint at the start of a simulation, or why there is none.
-pub(super) fn start(simulation: &Simulation) -> basemat::Result<Checkpoint> {
-    let found = simulation.checkpoint();
-    match take_raised() {
-        Some(reason) => Err(basemat::Error::part("structure", reason.to_string())),
-        None => found,
-    }
+pub(super) fn start(simulation: &Simulation) -> PyResult<Checkpoint> {
+    settled(simulation.checkpoint())
 }
 
 /// Number of steps that last so long, rounded up.

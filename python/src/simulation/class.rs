@@ -19,6 +19,7 @@ use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
 use crate::results::PyRun;
+use crate::several::{Several, no_such};
 use crate::ticker::{progress_function, watched};
 use crate::{error, interface, motion, structure, user};
 
@@ -77,7 +78,7 @@ pub(crate) struct PySimulation {
     /// Length of the motion that it was given, s.
     duration: Option<f64>,
     /// Checkpoint of the simulation's start, or why it cannot go back there.
-    start: basemat::Result<Checkpoint>,
+    start: PyResult<Checkpoint>,
 }
 
 impl PySimulation {
@@ -144,11 +145,11 @@ impl PySimulation {
         py: Python<'_>,
         time_step: f64,
         structure: Bound<'_, PyAny>,
-        ground: Bound<'_, PyGround>,
+        ground: Bound<'_, PyAny>,
         interface: Bound<'_, PyAny>,
         motion: Option<Bound<'_, PyAny>>,
-        probes: Option<Vec<Bound<'_, PyProbe>>>,
-        loads: Option<Vec<Bound<'_, PyLoad>>>,
+        probes: Option<Several<'_, PyProbe>>,
+        loads: Option<Several<'_, PyLoad>>,
         gravity: Option<f64>,
         gravity_stage: &str,
         initial_displacement: Option<Numbers>,
@@ -167,7 +168,11 @@ impl PySimulation {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         take_raised();
-        let ground = made(&ground.get().make)?;
+        let ground = ground
+            .cast::<PyGround>()
+            .map_err(|_| no_such(&ground, "an ElasticGround or a SpringGround"))?
+            .get();
+        let ground = made(&ground.make)?;
         let laws = interface::recipes(&interface, ground.directions() == 3)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
         user::made_springs();
@@ -186,8 +191,8 @@ impl PySimulation {
                 uplifted_fraction: allowable_uplifted_fraction,
                 rotation: allowable_rotation,
             })
-            .probes(build::probes(probes.iter().flatten(), dofs)?);
-        for load in loads.iter().flatten() {
+            .probes(build::probes(probes.iter().flat_map(|own| own.iter()), dofs)?);
+        for load in loads.iter().flat_map(|own| own.iter()) {
             load.get().order.check("a load", dofs)?;
             builder = builder.load((load.get().make)().or_raise()?);
         }
@@ -229,7 +234,8 @@ impl PySimulation {
     ///
     /// ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
     /// default, which floor spectra need), of contact every ``contact_every``th and of the structure's
-    /// motion every ``motion_every``th (none unless given).
+    /// motion every ``motion_every``th (none unless given). They must fit into :func:`memory_limit`: all
+    /// of them before the first step; with ``observe``, which may end the run, those of the steps made.
     ///
     /// ``warn``: whether every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`; True
     /// by default.
@@ -276,7 +282,11 @@ impl PySimulation {
             let mut time_series =
                 series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
             if let Some(time_series) = &mut time_series {
-                time_series.reserve(steps);
+                // A run that its observer ends may take fewer steps than it is given.
+                time_series.reserve(steps).or_else(|error| match error {
+                    basemat::Error::Memory(_) if observe.is_some() => Ok(()),
+                    _ => Err(raise(error)),
+                })?;
             }
             watched(coefficients, |observer| simulation.precompute(steps, observer))?;
             let mut watched = Watched::new(progress, steps, observe, observe_every, time_series);
@@ -335,9 +345,9 @@ impl PySimulation {
     ///
     /// Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
     /// ``save`` and ``restore``.
-    fn reset(&self) -> PyResult<()> {
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
         take_raised();
-        let start = self.start.as_ref().map_err(|reason| raise(reason.clone()))?;
+        let start = self.start.as_ref().map_err(|reason| reason.clone_ref(py))?;
         settled(self.lock()?.resume(start))
     }
 

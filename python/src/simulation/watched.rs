@@ -39,10 +39,8 @@ impl Watched {
 
     pub(super) fn see(&mut self, state: &State) -> ControlFlow<()> {
         self.done += 1;
-        if let Some(time_series) = &mut self.time_series {
-            time_series.record(state);
-        }
-        match self.ask(state) {
+        let recorded = self.time_series.as_mut().map_or(Ok(()), |own| own.record(state).or_raise());
+        match recorded.and_then(|()| self.ask(state)) {
             Ok(flow) => flow,
             Err(error) => {
                 self.stopped = Some(error);

@@ -11,6 +11,7 @@ use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
 use crate::row::PyDofCombination;
+use crate::several::no_class;
 use crate::user::UserStructure;
 
 /// A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
@@ -45,6 +46,7 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
     if let Ok(own) = object.cast::<PyStructure>() {
         return Ok(own.get().make.clone());
     }
+    no_class(object)?;
     if has_base(object)? {
         let object = object.clone().unbind();
         return Ok(Arc::new(move || {
@@ -68,6 +70,7 @@ fn has_base(object: &Bound<'_, PyAny>) -> PyResult<bool> {
 pub(crate) fn made<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Structure>, Bound<'py, PyAny>)> {
+    no_class(object)?;
     if object.cast::<PyStructure>().is_err() && has_base(object)? {
         let own = UserStructure::new(object)?;
         let copy = own.object(object.py());

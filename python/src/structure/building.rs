@@ -17,6 +17,7 @@ use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
 use crate::recipe::{Make, Recipe};
 use crate::row::{PyDofCombination, PySectionRows, rows};
+use crate::several::Several;
 
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
 /// of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
@@ -92,7 +93,7 @@ members! {
         width: f64,
         base_mass: f64,
         base_inertia: f64,
-        storeys: Vec<Bound<'_, PyStorey>>,
+        storeys: Several<'_, PyStorey>,
         damping: Option<f64>,
         center: f64,
         p_delta: Option<f64>,
@@ -229,7 +230,7 @@ members! {
     #[pyo3(signature = (mat, storeys, *, p_delta=None, laws=None))]
     new(
         mat: &PyRigidBody,
-        storeys: Vec<Bound<'_, PyPlanStorey>>,
+        storeys: Several<'_, PyPlanStorey>,
         p_delta: Option<f64>,
         laws: Option<BTreeMap<(i64, String), LawLike>>,
     ) = {

@@ -3,9 +3,9 @@
 use basemat::structure::{ContactNode, FaceNode};
 use pyo3::prelude::*;
 
-use crate::array::whole;
-use crate::error::no_such;
+use crate::array::wholes;
 use crate::row::{Order, PyDofCombination, RowLike};
+use crate::several::no_such;
 
 /// A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
@@ -27,7 +27,7 @@ members! {
     };
     /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
     /// numbers ``dofs`` (horizontal, vertical, rotation).
-    rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) =
+    rigid(x: f64, center: f64, #[pyo3(from_py_with = wholes)] dofs: [usize; 3]) =
         Ok(ContactNode::rigid(x, center, dofs).into());
     /// Coordinate to the right, m.
     x: f64 = own.0.x;
@@ -45,7 +45,7 @@ impl PyContactNode {
     fn rigid_base(
         left: f64,
         right: f64,
-        #[pyo3(from_py_with = whole)] dofs: [usize; 3],
+        #[pyo3(from_py_with = wholes)] dofs: [usize; 3],
     ) -> Vec<Self> {
         ContactNode::rigid_base(left, right, dofs).into_iter().map(Self::from).collect()
     }
@@ -102,7 +102,7 @@ impl PyFaceNode {
     fn rigid_base(
         corners: Vec<[f64; 2]>,
         center: [f64; 2],
-        #[pyo3(from_py_with = whole)] dofs: [usize; 6],
+        #[pyo3(from_py_with = wholes)] dofs: [usize; 6],
     ) -> Vec<Self> {
         FaceNode::rigid_base(&corners, center, dofs).into_iter().map(Self::from).collect()
     }

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::array::{Count, Numbers, Pairs, Rows, Table, whole};
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
+use crate::several::Several;
 
 /// A direction by its name: "x", "y" or "rotation".
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
@@ -176,11 +177,11 @@ members! {
     };
     /// Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
     /// :class:`Layer` from y = 0 upwards.
-    layered_block(left: f64, right: f64, columns: Count, layers: Vec<Bound<'_, PyLayer>>) =
+    layered_block(left: f64, right: f64, columns: Count, layers: Several<'_, PyLayer>) =
         Mesh::layered_block(left..right, columns.0, &self::layers(&layers)).or_raise().map(Self);
     /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
     /// ``layers`` is a list of :class:`Layer` from y = 0 upwards.
-    graded_block(grid: Numbers, layers: Vec<Bound<'_, PyLayer>>) =
+    graded_block(grid: Numbers, layers: Several<'_, PyLayer>) =
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self);
     /// Coordinates of the nodes: array of shape (nodes, 2), m.
     nodes: Rows = Rows(own.0.nodes().iter().map(|node| node.to_vec()).collect());

@@ -96,7 +96,7 @@ pub(super) struct FormTable {
     /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
     deep: f64,
     /// Number of panels up to K*.
-    end: usize,
+    pub(super) end: usize,
 }
 
 impl FormTable {
@@ -127,7 +127,8 @@ impl FormTable {
         let turn = end * lattice.diagonal();
         if turn.is_nan() || turn * turn * cells > MOST {
             let span = lattice.diagonal();
-            return Err(PlanError::TooFine { span, wavenumber: end }.into());
+            let most = (MOST / cells).sqrt() / span;
+            return Err(PlanError::TooFine { span, wavenumber: end, most }.into());
         }
         let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;

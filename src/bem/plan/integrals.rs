@@ -209,7 +209,8 @@ impl Integrals {
         let Some([values, tail]) = self.table.tabulated(panels) else {
             let width = self.table.width;
             let (span, wavenumber) = (self.table.span(), panels as f64 * width);
-            return Err(PlanError::TooFine { span, wavenumber }.into());
+            let most = self.table.end as f64 * width;
+            return Err(PlanError::TooFine { span, wavenumber, most }.into());
         };
         work.sums.clear();
         work.sums.resize(2 * SERIES * self.table.classes, 0.0);

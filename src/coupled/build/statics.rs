@@ -7,7 +7,7 @@ use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
-use crate::error::{Result, all_finite, finite, require, require_part};
+use crate::error::{Error, Result, all_finite, finite, require, require_part};
 use crate::geometry::PLANE;
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
@@ -21,6 +21,9 @@ const INCREMENTS: usize = 10;
 
 /// Passes in which state variables of laws settle.
 const PASSES: usize = 10;
+
+/// Relative change of a state variable in the last pass that is taken for rounding.
+const UNSETTLED: f64 = 1e-6;
 
 /// Length of the step that a gravity stage is to the laws, s.
 const TIME_STEP: f64 = 1.0;
@@ -137,11 +140,14 @@ fn settle(
     load: &[f64],
 ) -> Result<(StaticState, PreviousContacts)> {
     let mut state_variables = start.state_variables().to_vec();
-    for _ in 0..PASSES {
+    for pass in 1..=PASSES {
         let contact;
         (state, contact) = stage.equilibrium(laws, &start, state, load)?;
         start.update_state_variables(laws, &contact, &state.modes, &mut state_variables)?;
         let is_settled = state_variables == start.state_variables();
+        if pass == PASSES && !is_settled {
+            check_settled(start.state_variables(), &state_variables)?;
+        }
         start.advance(&contact, &state.modes, &state_variables);
         start.slip_rates_mut().for_each(|rate| *rate = 0.0);
         if is_settled {
@@ -149,6 +155,23 @@ fn settle(
         }
     }
     Ok((state, start))
+}
+
+/// Refuses state variables that change at rest by more than rounding.
+fn check_settled(before: &[f64], now: &[f64]) -> Result<()> {
+    let changes = before.iter().zip(now).map(|(before, now)| {
+        let size = before.abs().max(now.abs());
+        if size > 0.0 { (now - before).abs() / size } else { 0.0 }
+    });
+    let change = changes.fold(0.0, f64::max);
+    if change <= UNSETTLED {
+        return Ok(());
+    }
+    let change = format!("by {:.2} % in the last of {PASSES} passes", 100.0 * change);
+    let reason = format!(
+        "its state variables do not settle under weight and loads at t = 0: they change {change}"
+    );
+    Err(Error::part("interface law", reason))
 }
 
 // Motion at t = 0: displacement and velocity against the static state, and what the base does with them.

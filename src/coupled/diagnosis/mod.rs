@@ -100,14 +100,14 @@ fn resultants(
         }
         let middles = bounds.map(middle);
         let half_widths = bounds.map(|[least, most]| 0.5 * (most - least));
-        let mut moments = [0.0; 2];
+        let mut moments = [0.0; 3];
         let turns = held.turns(nodes.iter().copied(), middles);
         for (moment, mut rotation) in moments.iter_mut().zip(turns) {
             factor.solve(&mut rotation);
             *moment = dot(&rotation, load);
         }
         // The soil's pressure stands at the distance e: M + N e = 0.
-        let eccentricities = moments.map(|moment| -moment / normal);
+        let eccentricities = [-moments[0] / normal, -moments[1] / normal];
         let part_of = |axis: usize| eccentricities[axis].abs() / half_widths[axis];
         // In plan of the distance to the edge that is nearest to it, and the axis which that faces more.
         let (ratio, axis) = if is_plan {
@@ -142,6 +142,18 @@ fn resultants(
         }
         if let Some(slides) = slides() {
             return Some(slides);
+        }
+        if let Some(across) = across {
+            let distance = |[x, y]: [f64; 2]| (x - middles[0]).hypot(y - middles[1]);
+            let arms = all_middles.map(distance).zip(lengths());
+            let resistance = friction * pressure * arms.map(|(arm, area)| arm * area).sum::<f64>();
+            let torque = moments[2];
+            let ratio = torque.abs() / resistance;
+            if ratio > 1.0 {
+                let error =
+                    StabilityError::Twisting { ends, across, torque, normal, resistance, ratio };
+                return broken(coheres, error);
+            }
         }
         // At most the bearing pressure everywhere between the resultant's two equal distances.
         let largest = laws().map(bearing_pressure).fold(0.0, f64::max);

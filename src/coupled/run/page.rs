@@ -7,7 +7,7 @@ use super::quantity::Place;
 use super::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::coupled::Peak;
 use crate::geometry::{middle, span};
-use crate::text::column::{number, of_body, printed};
+use crate::text::column::{number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
 /// Elements of the pressure envelope beyond which only some are printed.
@@ -201,12 +201,8 @@ impl Run {
             1e3 * sliding.path
         )?;
         if let Some(event) = sliding.largest_event() {
-            let slip = 1e3 * resultant(event.slip, event.slip_across);
-            write!(
-                f,
-                "\n  largest event {slip:.3} mm, {:.3} s to {:.3} s",
-                event.start, event.end
-            )?;
+            let slip = thousandths(1e3 * resultant(event.slip, event.slip_across));
+            write!(f, "\n  largest event {slip} mm, {:.3} s to {:.3} s", event.start, event.end)?;
         }
         writeln!(
             f,
@@ -224,10 +220,10 @@ impl Run {
         let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
         let row = |envelope: &ElementEnvelope| {
-            let mut cells = vec![format!("{:.3}", envelope.element.center())];
+            let mut cells = vec![thousandths(envelope.element.center())];
             if self.in_plan {
                 let [front, back] = envelope.depth;
-                cells.push(format!("{:.3}", 0.5 * (front + back)));
+                cells.push(thousandths(0.5 * (front + back)));
             }
             cells.extend([
                 number(1e-3 * envelope.static_pressure),

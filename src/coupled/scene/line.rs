@@ -3,9 +3,9 @@
 use super::base::{Base, Outline, check_covered};
 use super::transformation::{Terms, Weights, accumulate};
 use crate::bem::ContactElement;
-use crate::error::{Result, require};
+use crate::error::{Error, Result, short};
 use crate::geometry::Patch;
-use crate::structure::{FaceNode, foundation_nodes};
+use crate::structure::{FaceNode, foundation_nodes, from_the_left};
 
 impl Base {
     /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
@@ -42,26 +42,27 @@ impl Base {
     }
 }
 
-/// Returns [`Error::Input`](crate::Error::Input) for nodes out of order.
+/// Returns [`Error::Input`] for nodes out of order.
 fn check_order(nodes: &[FaceNode]) -> Result<()> {
-    nodes.windows(2).try_for_each(|pair| {
-        let (before, x) = (pair[0].x, pair[1].x);
-        let needed = "to the right of the node before it";
-        require("coordinate of a contact node", x, x > before, needed).map(drop)
-    })
+    nodes.windows(2).try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
 }
 
 /// Refuses an element that is not wholly under the foundation with these nodes.
 fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
-    for value in [first - element.left, element.right - last] {
-        let quantity = "overhang of a contact element beyond the structure's base, m";
-        let needed =
-            "zero: all elements of the ground lie between the structure's outermost contact nodes";
-        require(quantity, value, value <= slack, needed)?;
+    let ContactElement { left, right, .. } = *element;
+    if first - left <= slack && right - last <= slack {
+        return Ok(());
     }
-    Ok(())
+    let [left, right, first, last] = [left, right, first, last].map(short);
+    Err(Error::part(
+        "ground",
+        format!(
+            "its element from {left} to {right} m reaches beyond the structure's base, {first} to {last} m: `under` makes \
+             a ground of the base's width"
+        ),
+    ))
 }
 
 /// Rise of the last node over the first, per distance.

@@ -136,7 +136,7 @@ pub fn recorded(
     let mut series = recorder.start(simulation).unwrap();
     let mut states = vec![simulation.state().clone()];
     let observe = |state: &State| {
-        series.record(state);
+        series.record(state).unwrap();
         states.push(state.clone());
     };
     let run = simulation.run(steps, observe).unwrap();

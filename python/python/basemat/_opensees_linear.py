@@ -1,0 +1,145 @@
+"""What of an OpenSees model is not linear, by the types of its elements, materials, sections and transformations."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+# Elements that are linear if their materials, sections and transformation are.
+_ELEMENTS = {
+    "ElasticBeam2d", "ElasticTimoshenkoBeam2d", "ModElasticBeam2d", "ElasticForceBeamColumn2d", "DispBeamColumn2d",
+    "ForceBeamColumn2d", "ForceBeamColumnCBDI2d", "TimoshenkoBeamColumn2d", "ComponentElement2d", "Truss",
+    "TrussSection", "ZeroLength", "ZeroLengthSection", "CoupledZeroLength", "TwoNodeLink", "InertiaTruss",
+}  # fmt: skip
+_SECTIONS = {"ElasticSection2d", "ElasticShearSection2d", "SectionAggregator", "FiberSection2d"}
+_MATERIALS = {
+    "ElasticMaterial", "ParallelMaterial", "SeriesMaterial", "InitStrainMaterial", "InitStressMaterial",
+    "ViscousMaterial",
+}  # fmt: skip
+_TRANSFORMATIONS = {"LinearCrdTransf2d"}
+
+# Materials with one tangent to one side of the state at rest, and another or none to the other side.
+_ONE_SIDED = {"ENTMaterial", "EPPGap", "HookGap", "HyperbolicGapMaterial", "ImpactMaterial", "ViscoelasticGap"}
+_PLACES = {"uniaxialMaterials": "material", "sections": "section", "crdTransformations": "crdTransformation"}
+
+
+class Part(NamedTuple):
+    """A part of a model as OpenSees prints it: its type, the rest of its line."""
+
+    type: str
+    text: str
+
+
+class Elements:
+    """Elements of a model, and what they are made of.
+
+    Args:
+        ops: the module ``openseespy.opensees``.
+    """
+
+    def __init__(self, ops: Any) -> None:
+        self._ops = ops
+        self._parts: dict[tuple[str, str], Part] = {}
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "model.json")
+            ops.printModel("-JSON", "-file", str(path))
+            lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if path.exists() else []
+        # By lines: OpenSees prints some types in words, and the whole is no JSON then.
+        kind, last = "", ("", "")
+        for line in lines:
+            if opening := re.match(r'\s*"(\w+)": \[\s*$', line):
+                kind = _PLACES.get(opening[1], opening[1])
+            elif found := re.match(r'\s*\{"name": "?(\d+)"?, "type": "(\w+)"(.*)', line):
+                last = kind, found[1]
+                self._parts[last] = Part(found[2], found[3])
+            elif found := re.match(r"Viscous tag: (\d+)", line):
+                last = kind, found[1]
+                self._parts[last] = Part("ViscousMaterial", "")
+            elif last in self._parts:
+                # Fibres of a section, numbers of a dashpot.
+                self._parts[last] = Part(self._parts[last].type, self._parts[last].text + line)
+
+    def not_linear(self) -> dict[str, list[int]]:
+        """Tags of the elements that are not linear, by their type and what makes them so."""
+        found: dict[str, list[int]] = {}
+        for tag in self._ops.getEleTags():
+            reasons = list(dict.fromkeys(self._reasons(tag)))
+            if reasons or self._type(tag) not in _ELEMENTS:
+                found.setdefault(", ".join([self._type(tag), *reasons]), []).append(int(tag))
+        return found
+
+    def without_tangent(self) -> dict[str, list[int]]:
+        """Tags of the elements that have no tangent at rest, by their type and what makes them so."""
+        found: dict[str, list[int]] = {}
+        for tag in self._ops.getEleTags():
+            text = self._part("elements", tag).text
+            reasons = [self._name("material", own) for own in self._uses("material", text) if self._one_sided(own)]
+            if reasons or "Contact" in self._type(tag):
+                found.setdefault(", ".join([self._type(tag), *dict.fromkeys(reasons)]), []).append(int(tag))
+        return found
+
+    def _type(self, tag: int) -> str:
+        return str(self._ops.eleType(tag))
+
+    def _part(self, kind: str, name: object) -> Part:
+        return self._parts.get((kind, str(name)), Part("", ""))
+
+    def _name(self, kind: str, name: str) -> str:
+        """Kind, tag and type for people."""
+        found = self._part(kind, name).type
+        if not found and kind != "crdTransformation":
+            command = "uniaxialMaterial" if kind == "material" else kind
+            found = str(self._ops.classType(command, int(name)))
+        return f"{kind} {name} {found}" if kind != "crdTransformation" else found or f"geomTransf {name}"
+
+    @staticmethod
+    def _uses(kind: str, text: str) -> list[str]:
+        """Tags of this kind in a text."""
+        single = re.findall(rf'"{kind}": "?(\d+)"?', text, re.IGNORECASE)
+        several = re.findall(rf'"{kind}s": \[([^\]]*)\]', text)
+        return list(dict.fromkeys(single + [own for found in several for own in re.findall(r"\d+", found)]))
+
+    def _reasons(self, tag: int) -> Iterator[str]:
+        """What makes an element nonlinear, as far as it is printed."""
+        text = self._part("elements", tag).text
+        if '"Mratios"' in text:
+            yield "P-Delta"
+        for name in self._uses("crdTransformation", text):
+            if self._part("crdTransformation", name).type not in _TRANSFORMATIONS:
+                yield self._name("crdTransformation", name)
+        yield from self._inside(text)
+        if not text and self._type(tag) in _ELEMENTS:
+            yield "unknown properties"
+
+    def _inside(self, text: str) -> Iterator[str]:
+        """Materials and sections of a text that are not linear."""
+        for name in self._uses("material", text):
+            part = self._part("material", name)
+            if part.type not in _MATERIALS or self._one_sided(name):
+                yield self._name("material", name)
+            else:
+                yield from self._inside(part.text)
+        for name in self._uses("section", text):
+            part = self._part("section", name)
+            if part.type in _SECTIONS:
+                inside = list(self._inside(part.text))
+                yield from [f"section {name} {part.type}", *inside] if inside else []
+            elif name != "0" or part.type:
+                # Section 0 is the elastic one that a beam with hinges makes between them.
+                yield self._name("section", name)
+
+    def _one_sided(self, name: str) -> bool:
+        """Whether a material, or one that it is made of, has no tangent at rest."""
+        part = self._part("material", name)
+        if part.type in _ONE_SIDED:
+            return True
+        if part.type == "ElasticMaterial":
+            sides = re.findall(r'"E(?:pos|neg)": ([^,}]+)', part.text)
+            return len(set(sides)) > 1
+        if part.type == "ViscousMaterial":
+            power = re.search(r"Alpha: (\S+)", part.text)
+            return power is None or float(power[1]) != 1.0
+        return any(self._one_sided(own) for own in self._uses("material", part.text))

@@ -1,0 +1,56 @@
+//! Lists of objects of a class, as Python gives them: messages that say what was given in their place.
+
+use std::ops::Deref;
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use pyo3::{PyClass, PyTypeInfo};
+
+use crate::error::refuse;
+
+/// A list, or another sequence, of objects of the class `T`; a single object is a list of one.
+pub(crate) struct Several<'py, T>(Vec<Bound<'py, T>>);
+
+impl<'py, T> Deref for Several<'py, T> {
+    type Target = [Bound<'py, T>];
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl<'py, T: PyClass> FromPyObject<'_, 'py> for Several<'py, T> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(own) = object.cast::<T>() {
+            return Ok(Self(vec![own.to_owned()]));
+        }
+        let name = <T as PyTypeInfo>::type_object(object.py()).name()?;
+        let needed = format!("a list of {name}");
+        let entries = object.try_iter().map_err(|_| no_such(&object, &needed))?;
+        let entry = |entry: PyResult<Bound<'py, PyAny>>| {
+            let entry = entry?;
+            let own = entry.cast::<T>().map_err(|_| no_such(&entry, &needed))?;
+            Ok(own.clone())
+        };
+        entries.map(entry).collect::<PyResult<_>>().map(Self)
+    }
+}
+
+/// The error of an argument that is none of what is `needed`.
+pub(crate) fn no_such(object: &Bound<'_, PyAny>, needed: &str) -> PyErr {
+    if let Err(error) = no_class(object) {
+        return error;
+    }
+    let found = object.get_type().name().map_or_else(|_| "object".into(), |name| name.to_string());
+    PyTypeError::new_err(format!("of the type {found}, but must be {needed}"))
+}
+
+/// Refuses a class where one of its objects is needed.
+pub(crate) fn no_class(object: &Bound<'_, PyAny>) -> PyResult<()> {
+    let Ok(class) = object.cast::<PyType>() else { return Ok(()) };
+    let name = class.name()?;
+    Err(refuse(format!("the class {name} itself, but must be an object of it: {name}(…)")))
+}
