@@ -201,9 +201,7 @@ fn a_torque_beyond_friction_is_named() {
     let arms = places.iter().flat_map(|x| places.iter().map(move |y| x.hypot(*y)));
     let most = 0.5 * weight * arms.sum::<f64>() / 16.0;
     assert!(build(0.9 * most).is_ok());
-    let Error::Stability(cause) = build(1.1 * most).unwrap_err() else {
-        panic!("another error")
-    };
+    let Error::Stability(cause) = build(1.1 * most).unwrap_err() else { panic!("another error") };
     let StabilityError::Twisting { torque, resistance, ratio, .. } = *cause else {
         panic!("{cause}")
     };

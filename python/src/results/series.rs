@@ -86,7 +86,7 @@ pub(super) fn motion<'py>(
         return Err(refuse("no motion was kept: give `motion_every` to `run`"));
     };
     let shape = [frames.len(), first.displacement.len()];
-    let all = |pick: fn(&MotionFrame<'_>) -> &[f64]| {
+    let all = |pick: for<'a> fn(&'a MotionFrame<'a>) -> &'a [f64]| {
         filled(py, shape, frames.iter().flat_map(pick).copied())
     };
     let columns = PyDict::new(py);
