@@ -1494,7 +1494,8 @@ class Simulation:
 
         ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
         default, which floor spectra need), of contact every ``contact_every``th and of the structure's
-        motion every ``motion_every``th (none unless given).
+        motion every ``motion_every``th (none unless given). They must fit into :func:`memory_limit`: all
+        of them before the first step; with ``observe``, which may end the run, those of the steps made.
 
         ``warn``: whether every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`; True
         by default.
