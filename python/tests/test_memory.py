@@ -46,7 +46,7 @@ def test_time_series_beyond_memory_are_refused(rocking) -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of a process")
 def test_too_little_memory_is_an_error_and_no_abort() -> None:
-    """Snapshots of 1200 degrees of freedom, in a process that may have 200 MB more than it has."""
+    """Snapshots of 1200 degrees of freedom, in a process that may have 40 MB more than it has."""
     program = """
 import resource
 import numpy as np
@@ -62,7 +62,7 @@ ground = bm.SpringGround.under(model, 4, 1e8, 1e8)
 simulation = bm.Simulation(0.01, model, ground, bm.Bonded(), motion=bm.el_centro_1940())
 simulation.run(2)
 taken = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-resource.setrlimit(resource.RLIMIT_AS, (taken + 200_000_000, resource.RLIM_INFINITY))
+resource.setrlimit(resource.RLIMIT_AS, (taken + 40_000_000, resource.RLIM_INFINITY))
 for observe in (None, lambda state: False):
     try:
         simulation.run(54_000, motion_every=1, observe=observe)
