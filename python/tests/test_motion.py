@@ -51,6 +51,47 @@ def test_files(tmp_path: Path) -> None:
     assert read.time_step == 0.005
 
 
+def test_files_of_agencies(tmp_path: Path) -> None:
+    knet = tmp_path / "knet.csv"
+    knet.write_text(
+        "#Station Code,XXX001\n#Sampling Freq(Hz),100\n#Time,NS,EW,UD\n"
+        "23:59:59.99,0.10,0.20,0.30\n00:00:00.00,0.11,0.21,0.31\n00:00:00.01,0.12,0.22,0.32\n"
+    )
+    record = bm.Record.read(knet, format="k-net csv", channel=2)
+    np.testing.assert_allclose(record.accelerations, [0.002, 0.0021, 0.0022], rtol=1e-15)
+    assert record.time_step == 0.01
+    station = bm.Record.read_all(knet, format="k-net csv")
+    assert list(station) == ["NS", "EW", "UD"]
+    np.testing.assert_array_equal(station["EW"].accelerations, record.accelerations)
+    by_columns = bm.Record.read(knet, unit="gal")
+    np.testing.assert_array_equal(by_columns.accelerations, station["NS"].accelerations)
+
+    three = tmp_path / "three.txt"
+    three.write_text("Station 7\nPGA 0.32\n0.1 0.2 0.3\n0.11 0.21 0.31\n0.12 0.22 0.32\n")
+    # The default pair, given: the second column is that of the acceleration.
+    for column in [2, 3]:
+        read = bm.Record.read(three, unit="g", time_step=0.01, columns=(1, column), header_lines=2)
+        wanted = 9.80665 * (np.array([0.0, 0.01, 0.02]) + 0.1 * column)
+        np.testing.assert_allclose(read.accelerations, wanted, rtol=1e-14)
+    everything = bm.Record.read_all(three, unit="g", time_step=0.01, header_lines=2)
+    assert list(everything) == ["column 1", "column 2", "column 3"]
+    with pytest.raises(bm.FileError, match="more than one line of header, give their number"):
+        bm.Record.read(three, unit="g", time_step=0.01, columns=(1, 2))
+    with pytest.raises(bm.FileError, match="3 columns, but one was expected"):
+        bm.Record.read(three, unit="g", time_step=0.01, header_lines=2)
+
+    for options, message in [
+        ({"format": "peer", "unit": "m/s²"}, "files of the format 'peer' are in g"),
+        ({"format": "esm", "channel": 2}, "take no `channel`"),
+        ({"format": "afad", "columns": (1, 2)}, "take no `columns`"),
+        ({"format": "smc", "time_step": 0.01}, "take no `time_step`"),
+        ({"unit": "g", "channel": 2}, "give `columns`"),
+        ({"format": "miniseed"}, "must be 'columns', 'peer', 'cosmos'"),
+    ]:
+        with pytest.raises(bm.InputError, match=message):
+            bm.Record.read(three, **options)  # type: ignore[arg-type]
+
+
 def test_treatments() -> None:
     record = bm.el_centro_1940()
     assert len(record) == 1560

@@ -68,11 +68,12 @@ struct Header {
 
 impl Header {
     fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), RecordError> {
+        let key = key.to_ascii_uppercase();
         if key.starts_with("NUMBER OF DATA") {
             self.points = HeaderNumber::Points.read(value)?.and_then(count);
         } else if let Some(unit) = key.strip_prefix("SAMPLING INTERVAL") {
             self.interval = HeaderNumber::TimeStep.read(&format!("{value} {}", unit.trim()))?;
-        } else if key.contains("PGA") && key.contains("(gal)") {
+        } else if key.contains("PGA") && key.contains("(GAL)") {
             value.clone_into(&mut self.peaks);
         }
         Ok(())

@@ -229,8 +229,8 @@ impl Table {
             let found = times[k] - times[k - 1];
             // the difference of huge times may be infinite
             if !(found > 0.0 && found < f64::INFINITY) {
-                let found = decimal(found);
-                return Err((self.lines[k], RecordError::TimeNotIncreasing { found }));
+                let why = RecordError::TimeNotIncreasing { found: decimal(found) };
+                return Err(if found == 0.0 { unequal(k, why) } else { (self.lines[k], why) });
             }
             if (found - first).abs() > STEP_TOLERANCE * first {
                 let (found, expected) = (decimal(found), decimal(first));
@@ -262,7 +262,9 @@ impl Table {
         let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]);
         let (least, most) = steps
             .fold((f64::MAX, 0.0_f64), |(least, most), step| (least.min(step), most.max(step)));
-        let equal = mean > COARSE * resolution
+        // Two times in one unit of the last digit, or several units in each step.
+        let coarse = mean > 0.0 && least == 0.0 && resolution < 1.0;
+        let equal = (coarse || mean > COARSE * resolution)
             && most - least <= (1.0 + 1e-6) * resolution
             && self.times.iter().enumerate().all(near);
         equal.then(|| RecordError::RoundedTimes { resolution, step: decimal(mean) })

@@ -154,6 +154,7 @@ fn places_that_disagree_are_refused() {
             &[
                 ("Freq(Hz),100", "Freq(Hz),200"),
                 ("Duration Time(s),1", "Duration Time(s),2"),
+                ("Freq(Hz),100", "Freq(Hz),50"),
                 ("Time,NS", "Time,NS(g)"),
                 ("(gal),108.580", "(gal),1.086"),
                 ("00:00:00.10,", "00:00:00.20,"),
@@ -281,6 +282,9 @@ fn times_that_are_rounded_too_coarsely_ask_for_the_step() {
     let (line, reason) = refusal(&bytes("rounded128.csv"), &columns);
     assert!(line == 5 && reason.to_string().contains("`time_step`"), "{line}: {reason}");
     let given = ColumnFormat { time_step: Some(1.0 / 128.0), ..columns };
+    // 200 samples a second, printed to 10 ms.
+    let text = "0.00 1\n0.01 2\n0.01 3\n0.02 4\n0.02 5\n";
+    assert!(matches!(refusal(text, &columns), (3, RecordError::RoundedTimes { .. })));
     let wanted = (0..200).map(|k| f64::from(k % 5));
     is_read("rounded128.csv", &given, 1.0 / 128.0, wanted);
 }

@@ -29,7 +29,9 @@ _StripContact: TypeAlias = Literal["bonded", "relaxed"]
 _FrictionLimit: TypeAlias = Literal["total", "lagged", "static", "dynamic"]
 _SlipSense: TypeAlias = Literal["inelastic", "velocity", "last velocity"]
 _AccelerationUnit: TypeAlias = Literal["m/s²", "mm/s²", "g", "gal", "ft/s²", "in/s²"]
-_RecordFormat: TypeAlias = Literal["columns", "peer", "cosmos", "k-net"]
+_RecordFormat: TypeAlias = Literal[
+    "columns", "peer", "cosmos", "k-net", "k-net csv", "esm", "afad", "smc", "geonet"
+]
 _Baseline: TypeAlias = Literal[
     "remove mean",
     "newmark parabola",
@@ -473,14 +475,32 @@ class Record(FreeField):
         time_step: float | None = None,
         columns: Sequence[int] | None = None,
         channel: int | None = None,
+        header_lines: int | None = None,
     ) -> Record:
         """Reads a file at ``path``.
 
-        ``format``: "columns" (the default: text, time in s and acceleration), "peer" (.AT2), "cosmos"
-        (.V2) or "k-net". ``unit`` of the acceleration as for the class: needed for columns, that of the
-        file unless given for others. Of columns: ``columns`` are the numbers of time and acceleration
-        from 1, (1, 2) unless given; with ``time_step`` (s) the file has no times, only accelerations.
-        Of "cosmos": ``channel`` from 1, the first unless given.
+        ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "peer"
+        (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k-net" (K-NET and KiK-net), "k-net csv", "esm" (ESM and
+        ITACA), "afad", "smc" or "geonet". ``unit`` of the acceleration as for the class: needed for
+        columns, for old files of "cosmos" that name none; other files have their own. Of columns:
+        ``columns`` are the numbers of time and acceleration from 1, (1, 2) unless given; with
+        ``time_step`` (s) times do not count, and only one column may be there unless ``columns`` is given;
+        ``header_lines`` at the beginning are passed over. ``channel`` is the number of the component from
+        1, for formats that hold several ("cosmos", "k-net csv", "afad", "geonet").
+        """
+    @staticmethod
+    def read_all(
+        path: str | os.PathLike[str],
+        *,
+        format: _RecordFormat = "columns",
+        unit: _AccelerationUnit | None = None,
+        time_step: float | None = None,
+        header_lines: int | None = None,
+    ) -> dict[str, Record]:
+        """Reads all components of the file at ``path``, such as those of a station in three directions: a
+        dict from the name of each to its :class:`Record`, in the order of the file.
+
+        Arguments as for :meth:`read`; of columns all but the one of times are read.
         """
     @property
     def time_step(self) -> float:

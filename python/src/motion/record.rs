@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use basemat::motion::{
-    AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record,
-    RecordFormat, SpectralOrdinate,
+    AccelerationUnit, AfadFormat, Baseline, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
+    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat, SpectralOrdinate,
 };
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use super::PyFreeField;
 use crate::array::{Array, Numbers, whole};
@@ -61,7 +62,7 @@ members! {
                 "acceleration has {samples} samples, but must have 2 or more"
             )));
         }
-        let unit = self::unit(unit)?.in_metres_per_second_squared();
+        let unit = unit_of(unit)?.in_metres_per_second_squared();
         let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
         Self::of(Record::new(time_step, samples))?.initializer()
     };
@@ -91,13 +92,18 @@ members! {
 impl PyRecord {
     /// Reads a file at ``path``.
     ///
-    /// ``format``: "columns" (the default: text, time in s and acceleration), "peer" (.AT2), "cosmos"
-    /// (.V2) or "k-net". ``unit`` of the acceleration as for the class: needed for columns, that of the
-    /// file unless given for others. Of columns: ``columns`` are the numbers of time and acceleration
-    /// from 1, (1, 2) unless given; with ``time_step`` (s) the file has no times, only accelerations.
-    /// Of "cosmos": ``channel`` from 1, the first unless given.
+    /// ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "peer"
+    /// (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k-net" (K-NET and KiK-net), "k-net csv", "esm" (ESM and
+    /// ITACA), "afad", "smc" or "geonet". ``unit`` of the acceleration as for the class: needed for
+    /// columns, for old files of "cosmos" that name none; other files have their own. Of columns:
+    /// ``columns`` are the numbers of time and acceleration from 1, (1, 2) unless given; with
+    /// ``time_step`` (s) times do not count, and only one column may be there unless ``columns`` is given;
+    /// ``header_lines`` at the beginning are passed over. ``channel`` is the number of the component from
+    /// 1, for formats that hold several ("cosmos", "k-net csv", "afad", "geonet").
     #[staticmethod]
-    #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, columns=None, channel=None))]
+    #[pyo3(signature = (
+        path, *, format="columns", unit=None, time_step=None, columns=None, channel=None, header_lines=None
+    ))]
     fn read(
         path: PathBuf,
         format: &str,
@@ -105,41 +111,33 @@ impl PyRecord {
         time_step: Option<f64>,
         #[pyo3(from_py_with = whole)] columns: Option<[usize; 2]>,
         #[pyo3(from_py_with = whole)] channel: Option<usize>,
+        #[pyo3(from_py_with = whole)] header_lines: Option<usize>,
     ) -> PyResult<Self> {
-        let needs_unit = || {
-            self::unit(unit.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?)
-        };
-        let reader: Box<dyn RecordFormat> = match format {
-            "columns" => {
-                let columns = columns.unwrap_or([1, 2]);
-                Box::new(match time_step {
-                    Some(step) => {
-                        let format = ColumnFormat::equally_spaced(needs_unit()?, step);
-                        let other = (columns != [1, 2]).then_some(columns[1]);
-                        ColumnFormat { acceleration_column: other, ..format }
-                    }
-                    None => ColumnFormat {
-                        time_column: columns[0],
-                        acceleration_column: Some(columns[1]),
-                        ..ColumnFormat::new(needs_unit()?)
-                    },
-                })
-            }
-            "peer" => Box::new(PeerFormat),
-            "cosmos" => {
-                let usual = CosmosFormat::default();
-                let unit = unit.map(self::unit).transpose()?.or(usual.unit);
-                let channel = channel.unwrap_or(usual.channel);
-                Box::new(CosmosFormat { channel, unit })
-            }
-            "k-net" => Box::new(KNetFormat),
-            _ => {
-                return Err(refuse(format!(
-                    "format is '{format}', but must be 'columns', 'peer', 'cosmos' or 'k-net'"
-                )));
-            }
-        };
-        Self::of(Record::read(path, reader.as_ref()))
+        let options = FileOptions { unit, time_step, columns, channel, header_lines };
+        Self::of(Record::read(path, options.reader(format)?.as_ref()))
+    }
+
+    /// Reads all components of the file at ``path``, such as those of a station in three directions: a
+    /// dict from the name of each to its :class:`Record`, in the order of the file.
+    ///
+    /// Arguments as for :meth:`read`; of columns all but the one of times are read.
+    #[staticmethod]
+    #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, header_lines=None))]
+    fn read_all<'py>(
+        py: Python<'py>,
+        path: PathBuf,
+        format: &str,
+        unit: Option<&str>,
+        time_step: Option<f64>,
+        #[pyo3(from_py_with = whole)] header_lines: Option<usize>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let options = FileOptions { unit, time_step, header_lines, ..FileOptions::default() };
+        let components = Record::read_all(path, options.reader(format)?.as_ref()).or_raise()?;
+        let records = PyDict::new(py);
+        for (name, record) in components {
+            records.set_item(name, Self::of(Ok(record))?)?;
+        }
+        Ok(records)
     }
 
     /// The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
@@ -231,6 +229,103 @@ impl PyRecord {
     }
 }
 
+/// What is said of a file that is to be read.
+#[derive(Default)]
+struct FileOptions<'a> {
+    unit: Option<&'a str>,
+    time_step: Option<f64>,
+    columns: Option<[usize; 2]>,
+    channel: Option<usize>,
+    header_lines: Option<usize>,
+}
+
+impl FileOptions<'_> {
+    /// The reader of a format by its name, which must take the options.
+    fn reader(&self, format: &str) -> PyResult<Box<dyn RecordFormat>> {
+        use AccelerationUnit::{Gal, MillimetrePerSecondSquared, StandardGravity};
+        let component = self.channel.unwrap_or(1);
+        Ok(match format {
+            "columns" => Box::new(self.column_format()?),
+            "cosmos" => {
+                self.check(format, None, true)?;
+                let unit = self.unit.map(unit_of).transpose()?;
+                Box::new(CosmosFormat { channel: component, unit })
+            }
+            "peer" => self.checked(format, StandardGravity, false, PeerFormat)?,
+            "k-net" => self.checked(format, Gal, false, KNetFormat)?,
+            "k-net csv" => self.checked(format, Gal, true, KNetCsvFormat { component })?,
+            "esm" => self.checked(format, Gal, false, EsmFormat)?,
+            "afad" => self.checked(format, Gal, true, AfadFormat { component })?,
+            "smc" => self.checked(format, Gal, false, SmcFormat)?,
+            "geonet" => {
+                let reader = GeoNetFormat { component };
+                self.checked(format, MillimetrePerSecondSquared, true, reader)?
+            }
+            _ => {
+                return Err(refuse(format!(
+                    "format is '{format}', but must be 'columns', 'peer', 'cosmos', 'k-net', \
+                     'k-net csv', 'esm', 'afad', 'smc' or 'geonet'"
+                )));
+            }
+        })
+    }
+
+    fn column_format(&self) -> PyResult<ColumnFormat> {
+        if self.channel.is_some() {
+            return Err(refuse("a file of columns has no `channel`: give `columns`"));
+        }
+        let unit = self.unit.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?;
+        let format = ColumnFormat {
+            header_lines: self.header_lines.unwrap_or(0),
+            ..ColumnFormat::new(unit_of(unit)?)
+        };
+        Ok(match (self.time_step, self.columns) {
+            (Some(step), columns) => ColumnFormat {
+                time_step: Some(step),
+                acceleration_column: columns.map(|[_, acceleration]| acceleration),
+                ..format
+            },
+            (None, Some([time, acceleration])) => ColumnFormat {
+                time_column: time,
+                acceleration_column: Some(acceleration),
+                ..format
+            },
+            (None, None) => format,
+        })
+    }
+
+    /// The reader of files in a `unit` of their own.
+    fn checked(
+        &self,
+        format: &str,
+        unit: AccelerationUnit,
+        several: bool,
+        reader: impl RecordFormat + 'static,
+    ) -> PyResult<Box<dyn RecordFormat>> {
+        self.check(format, Some(unit), several)?;
+        Ok(Box::new(reader))
+    }
+
+    /// Error for options that files of a format do not take; `own` is their unit.
+    fn check(&self, format: &str, own: Option<AccelerationUnit>, several: bool) -> PyResult<()> {
+        let given = [
+            ("columns", self.columns.is_some()),
+            ("time_step", self.time_step.is_some()),
+            ("header_lines", self.header_lines.is_some()),
+            ("channel", self.channel.is_some_and(|channel| !several && channel != 1)),
+        ];
+        if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(refuse(format!("files of the format '{format}' take no `{name}`")));
+        }
+        match (self.unit, own) {
+            (Some(name), Some(own)) if unit_of(name)? != own => Err(refuse(format!(
+                "unit is '{name}', but files of the format '{format}' are in {own}: leave it out"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
 /// A response spectrum: arrays of shape (m,), one value per natural period.
 #[pyclass(name = "Spectrum", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -280,7 +375,7 @@ impl PySpectrum {
 }
 
 /// A unit of acceleration by its symbol.
-fn unit(symbol: &str) -> PyResult<AccelerationUnit> {
+fn unit_of(symbol: &str) -> PyResult<AccelerationUnit> {
     symbol.parse().or_raise()
 }
 
