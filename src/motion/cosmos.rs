@@ -209,12 +209,11 @@ impl Header {
         let title = line.to_ascii_lowercase();
         let title = title.as_str();
         let points = block::points(title, "number of points")?;
-        let (unit, rest) = match title.split_once("units") {
-            Some((_, text)) => block::unit(line, text.trim_start_matches([' ', '=', ':']))?,
-            None => {
-                let format = title.find("format").map_or("", |at| &title[at..]);
-                (block::unnamed(title, unnamed)?, format)
-            }
+        let (unit, rest) = if let Some((_, text)) = title.split_once("units") {
+            block::unit(line, text.trim_start_matches([' ', '=', ':']))?
+        } else {
+            let format = title.find("format").map_or("", |at| &title[at..]);
+            (block::unnamed(title, unnamed)?, format)
         };
         if let Some(code) = self.code.filter(|&code| block::of_code(code) != Some(unit)) {
             return Err(unclear("unit", &format!("{unit}, and the code {code} of another one")));

@@ -84,7 +84,7 @@ impl Header {
             self.points = after("points");
             self.duration = after("duration");
         } else if lower.starts_with("component") {
-            self.name = words.get(1).copied().unwrap_or("").to_owned();
+            words.get(1).copied().unwrap_or("").clone_into(&mut self.name);
         } else if lower.starts_with("acceleration:") && lower.contains("mm/s/s") {
             self.peak = after("peak").unwrap_or(0.0);
             self.unit.get_or_insert(1.0);

@@ -238,14 +238,13 @@ impl<'a> Fields<'a> {
         clock: &mut Clock,
     ) -> std::result::Result<f64, RecordError> {
         let field = column.checked_sub(1).and_then(|index| self.texts.get(index));
-        match field.filter(|field| field.contains(':')).and_then(|field| clock.read(field)) {
-            Some(time) => Ok(time),
-            None => {
-                let time = self.number(column)?;
-                clock.read(field.unwrap_or(&""));
-                Ok(time)
-            }
+        let of_day = field.filter(|field| field.contains(':'));
+        if let Some(time) = of_day.and_then(|field| clock.read(field)) {
+            return Ok(time);
         }
+        let time = self.number(column)?;
+        clock.read(field.unwrap_or(&""));
+        Ok(time)
     }
 
     /// Finite number in a column, counted from 1.

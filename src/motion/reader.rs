@@ -305,14 +305,15 @@ fn names(
 /// The fault of a line before all numbers, whose first field is no number: a line of a header.
 fn in_header(why: RecordError, fields: &Fields, no_number_yet: bool) -> RecordError {
     let words = |field: &&str| field.contains(char::is_alphabetic) && !is_like_number(field);
-    match (why, fields.texts.first().filter(|field| no_number_yet && words(field))) {
-        (RecordError::NotANumber { .. } | RecordError::Column { .. }, Some(field)) => {
-            RecordError::HeaderLine { text: excerpt(field) }
-        }
-        (RecordError::SeveralColumns { .. }, Some(field)) => {
-            RecordError::HeaderLine { text: excerpt(field) }
-        }
-        (why, _) => why,
+    let of_header = matches!(
+        why,
+        RecordError::NotANumber { .. }
+            | RecordError::Column { .. }
+            | RecordError::SeveralColumns { .. }
+    );
+    match fields.texts.first().filter(|field| of_header && no_number_yet && words(field)) {
+        Some(field) => RecordError::HeaderLine { text: excerpt(field) },
+        None => why,
     }
 }
 

@@ -50,6 +50,11 @@ fn is_signal(record: &Record, component: usize, times: f64, step: f64, digit: f6
     }
 }
 
+/// A file, its reader, the names of its components, the factor of the first, and half of the last digit, gal.
+type Station = (&'static str, Box<dyn RecordFormat>, &'static [&'static str], f64, f64);
+/// A file, its reader, and what is changed in it.
+type Changes = (&'static str, Box<dyn RecordFormat>, &'static [(&'static str, &'static str)]);
+
 fn path(name: &str) -> std::path::PathBuf {
     basemat_problems::data_path(&format!("records/{name}"))
 }
@@ -72,8 +77,7 @@ fn every_agency_is_read() {
 #[test]
 fn components_of_a_station_are_read_at_once() {
     let all = |name, format: &dyn RecordFormat| Record::read_all(path(name), format).unwrap();
-    type Case = (&'static str, Box<dyn RecordFormat>, &'static [&'static str], f64, f64);
-    let cases: [Case; 5] = [
+    let cases: [Station; 5] = [
         (
             "cosmos.v2c",
             Box::new(CosmosFormat::default()),
@@ -118,7 +122,7 @@ fn components_of_a_station_are_read_at_once() {
 /// The interval, the number of samples or the unit changed in one place: the other one speaks against it.
 #[test]
 fn places_that_disagree_are_refused() {
-    let cases: [(&str, Box<dyn RecordFormat>, &[(&str, &str)]); 8] = [
+    let cases: [Changes; 8] = [
         (
             "csmip.v2",
             Box::new(CosmosFormat::default()),
