@@ -10,10 +10,10 @@
 //! Fourier transform from a circle |z| = r of L points with rᴸ = ε: aliases have the size ε, and errors of F
 //! grow like r⁻ⁿ (Lubich 1988).
 //!
-//! A panel of the circle is sampled only if a test predicts that it is resolved. The test replaces the
-//! mobility by the surface compliance at a few wavenumbers, at a hundredth of the cost. This works because
-//! the reflections and resonances of waves that travel vertically are at the branch points of the mobility
-//! (resonances at other wavenumbers are smooth in the integral).
+//! A panel of the circle is sampled only if a test predicts that it is resolved. The test replaces the mobility
+//! by the surface compliance at a few wavenumbers, at a hundredth of the cost. This works because waves that
+//! travel vertically carry the reflections, and their resonances are at the branch points of the mobility.
+//! Resonances at other wavenumbers are smooth in the integral.
 //!
 //! Lags N+1 … 2N always use L = 4N, N a power of two, so that the bits of a lag depend on nothing else.
 

@@ -368,7 +368,7 @@ fn search_finds_what_brute_force_finds() {
             // Brittle adhesion makes the law non-monotone: no method finds a solution with certainty.
             assert_eq!((tally.failed, tally.none), (0, 0), "{count}, friction {friction}");
             assert!(tally.worst < 1e-12, "{count} elements, friction {friction}: {tally:?}");
-            // The solution is unique for friction coefficients below one.
+            // For the coefficients below one that are drawn here, the solution is unique.
             assert!(tally.several == 0 || friction >= 1.0, "{count}, friction {friction}");
         }
     }
