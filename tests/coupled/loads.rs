@@ -140,6 +140,21 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     assert!((moment / WEIGHT + 3.6).abs() < 1e-6, "{moment}");
     assert!((eccentricity - 3.6).abs() < 1e-6 && (ratio - 1.2).abs() < 1e-6, "{eccentricity}");
 
+    // On a base at rest the moment of a rigid block is F h, with P–Δ as without.
+    for (height, force) in [(9.0, 0.4), (0.5, 7.0)] {
+        let block = block().with_p_delta(GRAVITY).unwrap();
+        let load = Load::constant(block.horizontal_at(height), force * WEIGHT);
+        let law = Coulomb::new(f64::INFINITY).unwrap();
+        let StabilityError::Overturning { moment, ratio, .. } =
+            refused(on_half_plane(block).interface(law).load(load))
+        else {
+            panic!()
+        };
+        let known = force * height;
+        assert!((moment / WEIGHT + known).abs() < 1e-5 * known, "{moment}");
+        assert!((ratio - known / 3.0).abs() < 1e-5 * known, "{ratio}");
+    }
+
     let up = Load::constant(block().vertical_at(0.0), 1.5 * WEIGHT);
     let StabilityError::Uplift { upward, .. } =
         refused(on_half_plane(block()).interface(law()).load(up))

@@ -99,9 +99,14 @@ pub(super) struct Regular {
 impl Regular {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
     pub(super) fn held<'a>(at_rest: &AtRest<'a>) -> (HeldBase<'a>, Self) {
+        Self::held_by(at_rest, 1.0)
+    }
+
+    /// The stiffness at rest with springs under the contact nodes, this many times as stiff as its largest entry.
+    pub(super) fn held_by<'a>(at_rest: &AtRest<'a>, factor: f64) -> (HeldBase<'a>, Self) {
         let AtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
-        let spring = if stiffest > 0.0 { stiffest } else { 1.0 };
+        let spring = factor * if stiffest > 0.0 { stiffest } else { 1.0 };
         let held = HeldBase::new(base.nodes(), stiffness, spring);
         let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal());
         (held, regular)
@@ -205,7 +210,7 @@ impl Regular {
 
 /// Springs that hold the base and constraints where they must not give way, relative to the largest
 /// stiffness.
-const HELD: f64 = 1e6;
+pub(super) const FIRMLY: f64 = 1e6;
 /// Remainder of a zero after assembly and factors, relative to the diagonal and to the largest stiffness.
 const ROUNDING: f64 = 1e-12;
 
@@ -215,7 +220,7 @@ pub(crate) fn check_signs(
     [mass, damping, stiffness]: [&SparseMatrix; 3],
 ) -> Result<()> {
     let tie = stiffest(stiffness);
-    let held = HeldBase::new(base.nodes(), stiffness, HELD * tie);
+    let held = HeldBase::new(base.nodes(), stiffness, FIRMLY * tie);
     let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
     if matrix.asymmetry() > ROUNDING {
         return Ok(());
