@@ -42,6 +42,8 @@ impl<T: Structure + Sync> Structure for Shared<T> {
         stiffness(matrix: &mut Triplets) -> Result<()>;
         damping(matrix: &mut Triplets) -> Result<()>;
         has_active_damping() -> bool;
+        has_active_stiffness() -> bool;
+        tallest_storey() -> Option<f64>;
         load(time: f64, load: &mut [f64]) -> Result<()>;
     }
 

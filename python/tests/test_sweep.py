@@ -123,12 +123,12 @@ def test_warnings_are_a_column() -> None:
 
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        table = bm.sweep(shaken, {"peak": [0.5, 60.0]}, steps=400)
+        table = bm.sweep(shaken, {"peak": [0.5, 60.0]}, steps=1000)
     quiet, loud = table["warnings"]
-    own = make(0.05, 60.0).run(400, warn=False)
+    own = make(0.05, 60.0).run(1000, warn=False)
     assert pandas.isna(quiet) and loud == "; ".join(own.warnings) and "slip" in loud
     with pytest.warns(bm.BasematWarning) as caught:
-        make(0.05, 60.0).run(400)
+        make(0.05, 60.0).run(1000)
     assert [str(warning.message) for warning in caught] == own.warnings
     assert {warning.filename for warning in caught} == {__file__}
     with pytest.raises(ValueError, match="'warnings'"):

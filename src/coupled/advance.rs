@@ -101,7 +101,8 @@ impl State {
             sums.area += own.area;
             sums.open += own.open;
             sums.slip += own.slip;
-            let moment = foundation.base_moment - foundation.normal_force * footing.center[0];
+            let lever = foundation.normal_force * footing.center[0];
+            let moment = foundation.base_moment + if foundation.in_plan { lever } else { -lever };
             let forces = [foundation.base_shear, foundation.normal_force, moment];
             total.iter_mut().zip(forces).for_each(|(sum, own)| *sum += own);
             let own = [

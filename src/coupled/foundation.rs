@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use crate::coupled::run::peak::resultant;
-use crate::geometry::{Edge, Footing, Patch};
+use crate::geometry::{Edge, Footing, Patch, SPACE};
 use crate::interface::{ContactState, Mode};
 
 /// Forces of one foundation on the soil, and motion of its base.
@@ -24,7 +24,8 @@ pub struct Foundation {
     pub elements: Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
-    /// Moment on the soil about the middle of its elements, in plan of its outline, counter-clockwise, N·m/m.
+    /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m; in plan about the axis along y
+    /// through the middle of its outline, by the right-hand rule, N·m.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
@@ -32,7 +33,8 @@ pub struct Foundation {
     pub uplifted_fraction: f64,
     /// Slip averaged over its elements, m.
     pub mean_slip: f64,
-    /// Rotation of its chord, counter-clockwise, rad; in plan that of the flat that fits its base best.
+    /// Rotation of its chord, counter-clockwise, rad; in plan the rotation about the axis along y, by the right-hand
+    /// rule, of the flat that fits its base best.
     pub base_rotation: f64,
     /// In plan: force on the soil along y, N; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -52,6 +54,9 @@ pub struct Foundation {
     /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub twist: f64,
+    /// Whether the ground is one in plan: forces are then those of the whole body.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub in_plan: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) derived: Derived,
 }
@@ -83,6 +88,24 @@ pub(super) struct Sums {
 }
 
 impl Foundation {
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and
+    /// towards the reader.
+    pub fn force_vector(&self) -> [f64; SPACE] {
+        force_vector(self.in_plan, [self.base_shear, self.shear_across, self.normal_force])
+    }
+
+    /// Moment on the soil about the middle of the foundation as a vector by the right-hand rule, N·m/m, with axes as in
+    /// [`force_vector`](Foundation::force_vector).
+    pub fn moment_vector(&self) -> [f64; SPACE] {
+        turning_vector(self.in_plan, [self.moment_across, self.base_moment, self.torque])
+    }
+
+    /// Rotation of the base as a vector by the right-hand rule, rad, with axes as in
+    /// [`force_vector`](Foundation::force_vector).
+    pub fn rotation_vector(&self) -> [f64; SPACE] {
+        turning_vector(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
+    }
+
     /// Forces, uplift, slip and factors of safety from the contact of all elements of `patch`, with the shape of this
     /// foundation and the friction coefficients of all elements (one for all, one each, or none).
     pub(super) fn update(
@@ -116,10 +139,13 @@ impl Foundation {
                 sums.open += area;
             }
         }
-        (self.base_shear, self.normal_force, self.base_moment) = (shear, normal, -moment[0]);
+        (self.base_shear, self.normal_force) = (shear, normal);
+        // Counter-clockwise in the plane is by the right-hand rule about the axis towards the reader; y points away.
+        self.in_plan = patch.is_plan();
+        self.base_moment = if self.in_plan { moment[0] } else { -moment[0] };
         self.uplifted_fraction = sums.open / sums.area;
         self.mean_slip = sums.slip / sums.area;
-        if patch.is_plan() {
+        if self.in_plan {
             let [mut across, mut torque, mut slip] = [0.0; 3];
             for ((area, state), [x, y]) in areas.iter().zip(contact).zip(&footing.arms) {
                 across += area * state.shear_across;
@@ -136,6 +162,17 @@ impl Foundation {
         self.derived = Derived { largest_slip, sliding, overturning };
         sums
     }
+}
+
+/// A force as a vector from its components to the right, along y and, as pressure, down.
+pub(super) fn force_vector(in_plan: bool, [along, across, pressure]: [f64; SPACE]) -> [f64; SPACE] {
+    if in_plan { [along, across, -pressure] } else { [along, -pressure, 0.0] }
+}
+
+/// A moment or a rotation as a vector from its components about x, about y and about the vertical; in the plane the
+/// second alone turns, about the axis towards the reader.
+pub(super) fn turning_vector(in_plan: bool, [x, y, vertical]: [f64; SPACE]) -> [f64; SPACE] {
+    if in_plan { [x, y, vertical] } else { [0.0, 0.0, y] }
 }
 
 /// N b over the moment of the pressure about the middle of the base, b the half width. In plan the least of the edges

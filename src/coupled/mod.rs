@@ -94,7 +94,8 @@ mod variation;
 mod warning;
 
 pub use build::SimulationBuilder;
-pub use build::parts::{Coordinates, GravityStage};
+pub use build::gravity_stage::GravityStage;
+pub use build::parts::Coordinates;
 pub use checkpoint::Checkpoint;
 pub use diagnosis::Conditioning;
 pub use energy_balance::{EnergyBalance, EnergyTerm};

@@ -241,6 +241,11 @@ impl Resolution {
         self.last_shear = shear;
     }
 
+    /// The time step, s.
+    pub(crate) fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
     /// Largest component of the ground's acceleration, m/s².
     pub(crate) fn largest_acceleration(&self) -> f64 {
         self.peak / self.time_step.powi(2)

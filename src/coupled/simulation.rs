@@ -37,6 +37,10 @@ pub struct Simulation {
     pub(super) conditioning: Conditioning,
     /// Warnings of the scene before its first step, and of the steps since.
     pub(super) warnings: Vec<Warning>,
+    /// Damping of a rigid translation along the ground over the mass that it moves, 1/s.
+    pub(super) drag: f64,
+    /// Rotation of a base at which a run ends, rad.
+    pub(super) rotation_limit: f64,
 }
 
 short_debug! {
@@ -191,7 +195,11 @@ impl Simulation {
     ///
     /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see
     /// [`Observed`]. It may feed [`TimeSeries`](crate::results::TimeSeries), and a [`Run`] that spans
-    /// several calls or outlives a failure ([`Simulation::begin_run`]). What convolution weights the ground lacks are
+    /// several calls or outlives a failure ([`Simulation::begin_run`]).
+    ///
+    /// The run ends after the step in which a base turns beyond the
+    /// [`rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit), with
+    /// [`Warning::Overturned`]; a further call goes on from there. What convolution weights the ground lacks are
     /// computed before the first step, unseen: [`Simulation::precompute`] does it before, with an observer.
     ///
     /// # Errors
@@ -206,9 +214,12 @@ impl Simulation {
         self.ground.expect_steps(announced, None)?;
         let mut run = self.begin_run();
         for _ in 0..steps {
+            let stood = self.state.tilt() <= self.rotation_limit;
             self.step()?;
             run.record(&self.state);
-            if observe(&self.state).flow()? == ControlFlow::Break(()) {
+            run.is_overturned = stood && self.state.tilt() > self.rotation_limit;
+            run.is_stopped = observe(&self.state).flow()? == ControlFlow::Break(());
+            if run.is_stopped || run.is_overturned {
                 break;
             }
         }
@@ -250,7 +261,8 @@ impl Simulation {
     /// Closes a run of this simulation: its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
         let opens = |element| self.scene.law(element).modes().contains(&Mode::Open);
-        run.finish(self.ground.as_ref(), self.motion.as_ref(), opens, &self.warnings);
+        let (ground, motion) = (self.ground.as_ref(), self.motion.as_ref());
+        run.finish(ground, motion, opens, &self.warnings, [self.drag, self.rotation_limit]);
         run
     }
 

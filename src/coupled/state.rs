@@ -5,12 +5,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::energy_balance::EnergyBalance;
-use super::foundation::Foundation;
+use super::foundation::{Foundation, force_vector, turning_vector};
 use super::motion::{DofResponse, Motion};
 use crate::contact::SearchMethod;
 use crate::coupled::probe_index;
+use crate::coupled::run::Quantity;
+use crate::coupled::run::peak::resultant;
 use crate::error::Result;
-use crate::geometry::{Footing, Patch};
+use crate::geometry::{Footing, Patch, SPACE};
 use crate::interface::{ContactState, Mode, PreviousContacts};
 use crate::structure::probe::Probe;
 
@@ -109,7 +111,7 @@ pub struct State {
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
     /// Moment on the soil, counter-clockwise, N·m/m; about the middle of the base, or the
-    /// builder's moment center.
+    /// builder's moment center. In plan about the axis along y there, by the right-hand rule, N·m.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
@@ -117,7 +119,8 @@ pub struct State {
     pub uplifted_fraction: f64,
     /// Slip averaged over the length of the base, m; positive when the structure moved to the right.
     pub mean_slip: f64,
-    /// Rotation of the base's chord, counter-clockwise, rad; of several foundations the largest.
+    /// Rotation of the base's chord, counter-clockwise, rad, in plan about the axis along y by the right-hand rule; of
+    /// several foundations the largest.
     pub base_rotation: f64,
     /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Foundation>,
@@ -202,6 +205,63 @@ impl State {
         let known = &self.context.probes;
         let known = &known[..known.len().min(self.probes.len())];
         probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
+    }
+
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and
+    /// towards the reader.
+    pub fn force_vector(&self) -> [f64; SPACE] {
+        let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
+        force_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+    }
+
+    /// Moment on the soil as a vector by the right-hand rule, N·m/m, about the point of
+    /// [`base_moment`](State::base_moment), with axes as in [`force_vector`](State::force_vector).
+    ///
+    /// ```
+    /// use basemat::bem::ElasticGround;
+    /// use basemat::interface::Bonded;
+    /// use basemat::motion::STANDARD_GRAVITY;
+    /// use basemat::structure::RigidBody;
+    /// use basemat::{Simulation, Soil};
+    ///
+    /// // The weight W of a machine stands 1 m to the right of the middle of its mat: M = r × F.
+    /// let mat = vec![[-4.0, -3.0], [4.0, -3.0], [4.0, 3.0], [-4.0, 3.0]];
+    /// let inertia = [[2e6, 0.0, 0.0], [0.0, 3e6, 0.0], [0.0, 0.0, 3e6]];
+    /// let block = RigidBody::from_mass(mat, 4e5, inertia, [1.0, 0.0, 2.0])?;
+    /// let weight = STANDARD_GRAVITY * block.total_mass();
+    /// let soil = Soil::from_shear_wave_speed(300.0, 0.3, 1900.0)?;
+    /// let simulation = Simulation::builder(0.01)
+    ///     .ground(ElasticGround::under(soil, &block, 4)?)
+    ///     .structure(block)
+    ///     .interface(Bonded)
+    ///     .build()?;
+    /// let [x, y, vertical] = simulation.state().moment_vector();
+    /// assert!((y / weight - 1.0).abs() < 1e-6);
+    /// assert!(x.abs().max(vertical.abs()) < 1e-6 * weight);
+    /// assert!((simulation.state().force_vector()[2] / weight + 1.0).abs() < 1e-9);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn moment_vector(&self) -> [f64; SPACE] {
+        let quantities = [Quantity::MomentAcross, Quantity::BaseMoment, Quantity::Torque];
+        turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+    }
+
+    /// Rotation of the base as a vector by the right-hand rule, rad, of several foundations the largest of each
+    /// component, with axes as in [`force_vector`](State::force_vector).
+    pub fn rotation_vector(&self) -> [f64; SPACE] {
+        let quantities = [Quantity::RotationAcross, Quantity::BaseRotation, Quantity::Twist];
+        turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+    }
+
+    /// Largest rotation of a foundation about a horizontal axis, rad.
+    pub(crate) fn tilt(&self) -> f64 {
+        let tilts = self.foundations.iter();
+        let tilts = tilts.map(|own| resultant(own.base_rotation, own.rotation_across).abs());
+        tilts.fold(0.0, f64::max)
+    }
+
+    fn is_plan(&self) -> bool {
+        self.context.elements.is_plan()
     }
 
     /// State variables of the law of an element

@@ -270,6 +270,19 @@ pub enum Error {
         /// Entry on the diagonal there.
         diagonal: f64,
     },
+    /// A matrix that must be symmetric.
+    #[error("{matrix} must be symmetric: entry ({row}, {column}) is {:e}, entry ({column}, {row}) {:e}",
+        entries[0], entries[1])]
+    Unsymmetric {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Row of the first of two entries that differ.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// Both entries.
+        entries: [f64; 2],
+    },
     /// A matrix of the step that double precision cannot carry.
     #[error(
         "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; what \

@@ -239,8 +239,8 @@ pub enum StabilityError {
         across: Option<[f64; 2]>,
         /// In plan: `x` if it overturns to the left or the right, `y` if to the front or the back.
         axis: Option<char>,
-        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan positive if it
-        /// lifts the side to which the axis points.
+        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan by the
+        /// right-hand rule about the other axis: about y if it overturns to the left or the right.
         moment: f64,
         /// Normal force, N/m.
         normal: f64,

@@ -174,14 +174,31 @@ impl SparseMatrix {
         let mut difference = 0.0_f64;
         for (row, column, value) in self.entries() {
             largest = largest.max(value.abs());
-            let range = self.row_start[column]..self.row_start[column + 1];
-            let twin = match self.column[range.clone()].binary_search(&row) {
-                Ok(k) => self.value[range.start + k],
-                Err(_) => 0.0,
-            };
-            difference = difference.max((value - twin).abs());
+            difference = difference.max((value - self.entry(column, row)).abs());
         }
         if largest > 0.0 { difference / largest } else { 0.0 }
+    }
+
+    /// Row, column, a_ij and a_ji of the pair that differs most beyond what is `allowed` of its row and column.
+    pub(crate) fn unsymmetric_pair(
+        &self,
+        allowed: impl Fn(usize, usize) -> f64,
+    ) -> Option<(usize, usize, [f64; 2])> {
+        let pairs = self.entries().map(|(row, column, value)| {
+            let pair = [value, self.entry(column, row)];
+            let excess = (pair[0] - pair[1]).abs() - allowed(row, column);
+            (excess, (row, column, pair))
+        });
+        let beyond = pairs.filter(|(excess, _)| *excess > 0.0);
+        // Of equal ones the first.
+        beyond.reduce(|most, own| if own.0 > most.0 { own } else { most }).map(|(_, pair)| pair)
+    }
+
+    /// a_ij.
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        let range = self.row_start[row]..self.row_start[row + 1];
+        let found = self.column[range.clone()].binary_search(&column);
+        found.map_or(0.0, |k| self.value[range.start + k])
     }
 }
 

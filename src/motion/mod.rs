@@ -30,6 +30,7 @@ mod reader;
 mod record;
 mod smc;
 mod spectrum;
+mod travelling_wave;
 mod unit;
 
 pub use afad::AfadFormat;
@@ -38,7 +39,7 @@ pub use cosmos::CosmosFormat;
 pub use esm::EsmFormat;
 pub use format::RecordFormat;
 pub use free_field::{
-    AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
+    AtRest, FreeField, FreeFieldFn, RickerDisplacement, Triaxial, VerticalIncidence,
 };
 pub use geonet::GeoNetFormat;
 pub use integral::Motion;
@@ -52,4 +53,5 @@ pub use reader::{ColumnFormat, el_centro_1940};
 pub use record::Record;
 pub use smc::SmcFormat;
 pub use spectrum::SpectralOrdinate;
+pub use travelling_wave::TravellingWave;
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY};

@@ -51,6 +51,10 @@ impl FreeField for OutOfPhase {
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
         self.both(self.given.at(time).velocity, self.late.at(time)[1])
     }
+
+    fn records(&self) -> Vec<&Record> {
+        vec![&self.given]
+    }
 }
 
 /// W and V at any time: sampled as long before and after the record as it lasts, and beyond, where

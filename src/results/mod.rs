@@ -76,8 +76,8 @@ mod recorder;
 mod time_series;
 
 pub use crate::coupled::run::{
-    Criterion, ElementEnvelope, Extremes, Fallbacks, Peak, ProbeExtremes, Quantity, Run,
-    ServiceCheck, Serviceability, Sliding, SlipEvent, Summary, Uplift,
+    Criterion, ElementEnvelope, Extremes, Fallbacks, GroundMotion, Peak, ProbeExtremes, Quantity,
+    Run, ServiceCheck, Serviceability, Sliding, SlipEvent, Summary, Uplift,
 };
 pub use crate::text::csv::Csv;
 pub use comparison::Comparison;

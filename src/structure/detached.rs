@@ -1,7 +1,7 @@
 //! A structure on its fixed base: the springs that hold it, and parts that nothing holds.
 
 use super::{DofCombination, FaceNode, Structure, Triplets};
-use crate::error::{Error, Result, require_part};
+use crate::error::{Error, Result};
 use crate::geometry::{PLANE, SPACE};
 use crate::linalg::{
     Partition, SparseFactor, SparseMatrix, indefinite_row, largest, sparse_condition,
@@ -219,6 +219,36 @@ pub(crate) fn massless(mass: &SparseMatrix) -> Vec<bool> {
     masses.iter().map(|mass| mass.abs() <= most).collect()
 }
 
+/// Square of a circular frequency (1/s²) that no run notices: a period of a day.
+pub(crate) const UNNOTICED: f64 = 5.29e-9;
+
+/// Refuses a stiffness matrix that is not symmetric. A difference is relative to the diagonal of its row and column,
+/// and to the inertia of `mass` there, so that no scaling of coordinates changes it.
+pub(crate) fn check_stiffness(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<()> {
+    let [diagonal, masses] = [stiffness.diagonal(), mass.diagonal()];
+    let rounding = MASSLESS * stiffness.entries().fold(0.0, |m: f64, (_, _, k)| m.max(k.abs()));
+    let both = |of: &[f64], i: usize, j: usize| (of[i] * of[j]).abs().sqrt();
+    check_symmetric("stiffness matrix", stiffness, |i, j| {
+        SYMMETRIC * both(&diagonal, i, j) + UNNOTICED * both(&masses, i, j) + rounding
+    })
+}
+
+/// Refuses a matrix whose mirrored entries differ by more than 1e-9 of its largest.
+pub(super) fn check_mirrored(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
+    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
+    check_symmetric(name, matrix, |_, _| SYMMETRIC * largest)
+}
+
+fn check_symmetric(
+    name: &'static str,
+    matrix: &SparseMatrix,
+    allowed: impl Fn(usize, usize) -> f64,
+) -> Result<()> {
+    let refused =
+        |(row, column, entries)| Error::Unsymmetric { matrix: name, row, column, entries };
+    matrix.unsymmetric_pair(allowed).map_or(Ok(()), |pair| Err(refused(pair)))
+}
+
 /// Refuses a mass matrix that is not symmetric or not positive semi-definite.
 pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
     check_semi_definite("mass matrix", mass)
@@ -230,7 +260,7 @@ pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
 }
 
 fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
-    require_part(name, matrix.asymmetry() <= SYMMETRIC, "must be symmetric")?;
+    check_mirrored(name, matrix)?;
     let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
     match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
         Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),

@@ -16,8 +16,8 @@ pub use contact_node::{ContactNode, FaceNode};
 pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{
-    HeldBase, check_attached, check_damping, check_mass, massless, numbers as unknown_numbers,
-    stiffest,
+    HeldBase, UNNOTICED, check_attached, check_damping, check_mass, check_stiffness, massless,
+    numbers as unknown_numbers, stiffest,
 };
 pub use dof_combination::DofCombination;
 pub use hysteresis::{
@@ -106,8 +106,9 @@ pub trait Structure: Any + Send {
 
     /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
     ///
-    /// Where it is symmetric and the structure linear, it must be positive semi-definite with the
-    /// base held, up to rounding (10⁻¹² of its largest entry on the diagonal), or no simulation is
+    /// Symmetric, or no simulation is built ([`Error::Unsymmetric`](crate::Error::Unsymmetric));
+    /// [`has_active_stiffness`](Structure::has_active_stiffness) lifts that.
+    /// Of a linear structure it must be positive semi-definite with the base held, up to rounding (10⁻¹² of its largest entry on the diagonal), or no simulation is
     /// built ([`Error::Indefinite`](crate::Error::Indefinite)). Lagrange multipliers are excepted:
     /// a degree of freedom with exactly zero on the diagonal, no mass and no damping, but coefficients cⱼ in
     /// its row and column, is the force that keeps Σ cⱼ uⱼ = 0, and the rest must be positive
@@ -120,7 +121,7 @@ pub trait Structure: Any + Send {
     /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
     ///
     /// Symmetric and positive semi-definite, up to rounding as for the mass, or no simulation is
-    /// built ([`Error::Scene`](crate::Error::Scene), [`Error::Indefinite`](crate::Error::Indefinite));
+    /// built ([`Error::Unsymmetric`](crate::Error::Unsymmetric), [`Error::Indefinite`](crate::Error::Indefinite));
     /// [`has_active_damping`](Structure::has_active_damping) lifts that.
     ///
     /// # Errors
@@ -133,6 +134,17 @@ pub trait Structure: Any + Send {
     /// active dampers do: then it is taken as it is. Default: no.
     fn has_active_damping(&self) -> bool {
         false
+    }
+
+    /// Whether the stiffness matrix is meant to be unsymmetric, as the stiffness of follower forces is: then it is taken
+    /// as it is. Its work is not in the energy balance, which stays open by it. Default: no.
+    fn has_active_stiffness(&self) -> bool {
+        false
+    }
+
+    /// Largest height of a storey (m): a run warns of one above 100 m, which is one in another unit. Default: `None`.
+    fn tallest_storey(&self) -> Option<f64> {
+        None
     }
 
     /// Name of these degrees of freedom in errors, for a person who knows the structure by its nodes or storeys.

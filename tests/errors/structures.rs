@@ -56,7 +56,14 @@ fn damping_that_feeds_energy_in_is_refused() {
     let error = unbuilt("positive semi-definite", with((1, 1, -1.0)));
     assert_eq!(error, Error::Indefinite { matrix: "damping matrix", row: 1, diagonal: -1.0 });
     let error = unbuilt("must be symmetric", with((0, 1, 1.0)));
-    assert!(matches!(error, Error::Scene { quantity: "damping matrix", .. }));
+    assert!(matches!(error, Error::Unsymmetric { matrix: "damping matrix", row: 0, .. }));
+}
+
+#[test]
+fn stiffness_that_is_not_symmetric_is_refused() {
+    let with = |stiffness| Spoilt { stiffness, ..Spoilt::sound() }.scene();
+    let error = unbuilt("entry (2, 1) is 1e3, entry (1, 2) 0e0", with((2, 1, 1e3)));
+    assert!(matches!(error, Error::Unsymmetric { matrix: "stiffness matrix", row: 2, .. }));
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod safety;
 mod serviceability;
 mod spectra;
 mod time_series;
+mod units;
 
 use basemat::Simulation;
 use basemat::coupled::{Probe, State};

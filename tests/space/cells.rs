@@ -205,6 +205,6 @@ pub(crate) fn equal_in_slices(plane: &State, space: &State, rounding: f64) -> [[
         [u[0], v[0]],
         [u[2], -v[4]],
         [plane.base_shear, space.base_shear],
-        [plane.base_moment, space.base_moment],
+        [plane.base_moment, -space.base_moment],
     ]
 }

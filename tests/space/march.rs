@@ -75,7 +75,7 @@ fn resultants_on_the_soil_are_the_inertia_of_the_body() {
             -own.shear_across,
             own.normal_force - weight,
             -own.moment_across,
-            own.base_moment,
+            -own.base_moment,
             -own.torque,
         ];
         assert!(apart(&found, &force) < 1e-9 * weight, "{found:?} {force:?}");
@@ -88,7 +88,7 @@ fn resultants_on_the_soil_are_the_inertia_of_the_body() {
     let sum: f64 =
         contact.iter().enumerate().map(|(e, own)| cells(CUBOID).cell(e).0 * own.shear_across).sum();
     assert!((sum - own.shear_across).abs() < 1e-9 * weight);
-    assert!((rotation + simulation.state().displacement()[4]).abs() < 1e-15);
+    assert!((rotation - simulation.state().displacement()[4]).abs() < 1e-15);
 }
 
 /// A slice one metre deep that moves along x alone is the block of the plane.
@@ -230,7 +230,7 @@ fn an_eccentric_weight_tilts_the_body_about_both_axes() {
     assert!(apart(&u[2..5], &exact) < 1e-9 * exact[0].abs(), "{u:?} {exact:?}");
     let own = &simulation.state().foundations[0];
     assert!((own.moment_across + weight * y).abs() < 1e-8 * weight);
-    assert!((own.base_moment + weight * x).abs() < 1e-8 * weight);
+    assert!((own.base_moment - weight * x).abs() < 1e-8 * weight);
 }
 
 /// A page in plan is of the whole body, not of a metre of it.

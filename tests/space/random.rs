@@ -177,6 +177,15 @@ fn energies_of_random_scenes_close() {
             slid += usize::from(state.modes.iter().any(|mode| mode.is_slip()));
         }
         for warning in simulation.end_run(begun).warnings {
+            let of_units = matches!(
+                warning,
+                Warning::UnusualInterval { .. }
+                    | Warning::LightStructure { .. }
+                    | Warning::UnusualFriction { .. }
+                    | Warning::TallStorey { .. }
+                    | Warning::UnusualGravity { .. }
+            );
+            assert!(!of_units, "{number}: {warning}");
             if let Warning::LessFriction { steps, .. } = warning {
                 println!("{number}: {warning}");
                 lessened += steps;

@@ -79,7 +79,7 @@ fn quantities_are_sums_over_the_cells() {
             let is_open = if state.modes[e] == Mode::Open { areas[e] } else { 0.0 };
             // The soil is pressed down: (x, y, 0) × (fx, fy, −p).
             let moment = [-y * p, x * p, x * fy - y * fx];
-            let more = [fx, fy, moment[0], -moment[1], moment[2], is_open];
+            let more = [fx, fy, moment[0], moment[1], moment[2], is_open];
             let slips = [own.slip, own.slip_across].map(|slip| slip * areas[e] / whole);
             for (sum, value) in sums.iter_mut().zip(more.into_iter().chain(slips)) {
                 *sum += value;
@@ -111,7 +111,7 @@ fn quantities_are_sums_over_the_cells() {
     }
     // Rotations of a rigid body's base are its degrees of freedom.
     for (quantity, dof, sign) in [
-        (Quantity::BaseRotation, 4, -1.0),
+        (Quantity::BaseRotation, 4, 1.0),
         (Quantity::RotationAcross, 3, 1.0),
         (Quantity::Twist, 5, 1.0),
     ] {

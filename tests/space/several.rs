@@ -88,7 +88,7 @@ fn by_hand(
         let [fx, fy, p] = [own.shear, own.shear_across, own.pressure].map(|t| area * t);
         let open = if state.modes[e] == Mode::Open { area } else { 0.0 };
         for (sum, value) in
-            sums.iter_mut().zip([fx, fy, p, -y * p, -x * p, x * fy - y * fx, open, area])
+            sums.iter_mut().zip([fx, fy, p, -y * p, x * p, x * fy - y * fx, open, area])
         {
             *sum += value;
         }
@@ -132,13 +132,19 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
             // The body's own degrees of freedom.
             let u = &state.displacement()[6 * k..6 * k + 6];
             for (found, exact) in
-                [(own.base_rotation, -u[4]), (own.rotation_across, u[3]), (own.twist, u[5])]
+                [(own.base_rotation, u[4]), (own.rotation_across, u[3]), (own.twist, u[5])]
             {
                 assert!((found - exact).abs() < 1e-14, "{k}: {found} {exact}");
             }
+            assert_eq!(own.force_vector(), [own.base_shear, own.shear_across, -own.normal_force]);
+            assert_eq!(own.moment_vector(), [own.moment_across, own.base_moment, own.torque]);
+            assert_eq!(own.rotation_vector(), [own.rotation_across, own.base_rotation, own.twist]);
         }
         let [fx, fy, normal, about_x, moment, torque, open, _] =
             by_hand(&time_series, state, 0..72, whole);
+        for (found, exact) in state.moment_vector().into_iter().zip([about_x, moment, torque]) {
+            assert!((found - exact).abs() < 1e-12 * scale, "{found} {exact}");
+        }
         for (quantity, exact) in [
             (Quantity::BaseShear, fx),
             (Quantity::ShearAcross, fy),
@@ -228,16 +234,16 @@ fn a_turned_scene_has_turned_results() {
         (Q::ShearAcross, Q::BaseShear, 1.0),
         (Q::HorizontalForce, Q::HorizontalForce, 1.0),
         (Q::NormalForce, Q::NormalForce, 1.0),
-        (Q::MomentAcross, Q::BaseMoment, 1.0),
-        (Q::BaseMoment, Q::MomentAcross, -1.0),
+        (Q::MomentAcross, Q::BaseMoment, -1.0),
+        (Q::BaseMoment, Q::MomentAcross, 1.0),
         (Q::Torque, Q::Torque, 1.0),
         (Q::UpliftedFraction, Q::UpliftedFraction, 1.0),
         (Q::UpliftedArea, Q::UpliftedArea, 1.0),
         (Q::MeanSlip, Q::MeanSlipAcross, -1.0),
         (Q::MeanSlipAcross, Q::MeanSlip, 1.0),
         (Q::LargestSlip, Q::LargestSlip, 1.0),
-        (Q::RotationAcross, Q::BaseRotation, 1.0),
-        (Q::BaseRotation, Q::RotationAcross, -1.0),
+        (Q::RotationAcross, Q::BaseRotation, -1.0),
+        (Q::BaseRotation, Q::RotationAcross, 1.0),
         (Q::Twist, Q::Twist, 1.0),
         (Q::FreeFieldHorizontal, Q::FreeFieldAcross, -1.0),
         (Q::FreeFieldAcross, Q::FreeFieldHorizontal, 1.0),

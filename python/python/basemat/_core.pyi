@@ -979,13 +979,13 @@ class Summary:
         """Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`."""
     @property
     def base_moment(self) -> Extremes:
-        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle: its :class:`Extremes`."""
+        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its :class:`Extremes`."""
     @property
     def normal_force(self) -> Extremes:
         """Total pressure on the soil, N/m: its :class:`Extremes`."""
     @property
     def base_rotation(self) -> Extremes:
-        """Rotation, counter-clockwise, rad: its :class:`Extremes`."""
+        """Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its :class:`Extremes`."""
     @property
     def uplifted_fraction(self) -> Peak:
         """Largest ratio of the open length to the length: its :class:`Peak`."""
@@ -1146,6 +1146,19 @@ class Run(Summary):
     @property
     def end(self) -> float:
         """Time at the end, s."""
+    @property
+    def time_step(self) -> float:
+        """Time step, s."""
+    @property
+    def ground_motion(self) -> dict[str, float | None]:
+        """The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
+        record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run."""
+    @property
+    def is_overturned(self) -> bool:
+        """Whether the run ended because a base turned beyond the ``rotation_limit`` of the :class:`Simulation`."""
+    @property
+    def _ground_motion(self) -> str:
+        """The ground motion in words, as on the page of the run."""
     @property
     def time(self) -> NDArray[np.float64]:
         """Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start."""
@@ -1454,6 +1467,8 @@ class Simulation:
         allowable_uplifted_fraction: limit of service of the open length over that of the base, above 0
             to 1; none unless given.
         allowable_rotation: limit of service of the base's |rotation|, rad; none unless given.
+        rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
+            run goes on; infinite: runs end by their steps alone.
         flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
             most so many iterations a step, for comparison with their paper; the robust search unless
             given.
@@ -1485,6 +1500,7 @@ class Simulation:
         allowable_gap: float | None = None,
         allowable_uplifted_fraction: float | None = None,
         allowable_rotation: float | None = None,
+        rotation_limit: float | None = None,
         flow_chart_iterations: int | None = None,
         progress: bool | Callable[[int, int], object] | None = None,
     ) -> Self: ...
@@ -1679,7 +1695,7 @@ class State:
         """Horizontal force on the soil, positive to the right, N/m."""
     @property
     def base_moment(self) -> float:
-        """Moment on the soil, counter-clockwise, N·m/m."""
+        """Moment on the soil, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m."""
     @property
     def normal_force(self) -> float:
         """Total pressure on the soil, N/m."""
@@ -1694,7 +1710,16 @@ class State:
         """Largest |slip| of any element, m."""
     @property
     def base_rotation(self) -> float:
-        """Rotation of the base, counter-clockwise, rad."""
+        """Rotation of the base, counter-clockwise, rad; in plan about y by the right-hand rule."""
+    @property
+    def force_vector(self) -> list[float]:
+        """Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader."""
+    @property
+    def moment_vector(self) -> list[float]:
+        """Moment on the soil as a vector by the right-hand rule, N·m/m, in plan N·m."""
+    @property
+    def rotation_vector(self) -> list[float]:
+        """Rotation of the base as a vector by the right-hand rule, rad."""
     @property
     def foundations(self) -> list[FoundationState]:
         """Each foundation by itself: list of :class:`FoundationState`, from left to right."""
@@ -1753,7 +1778,7 @@ class FoundationState:
         """Horizontal force on the soil, positive to the right, N/m."""
     @property
     def moment(self) -> float:
-        """Moment on the soil about its middle, counter-clockwise, N·m/m."""
+        """Moment on the soil about its middle, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m."""
     @property
     def normal_force(self) -> float:
         """Total pressure, N/m."""
@@ -1765,7 +1790,7 @@ class FoundationState:
         """Slip averaged over the foundation, m."""
     @property
     def rotation(self) -> float:
-        """Rotation of the foundation's chord, rad."""
+        """Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule."""
     @property
     def shear_across(self) -> float:
         """In plan: force on the soil along y, positive away, N."""
@@ -1784,6 +1809,15 @@ class FoundationState:
     @property
     def twist(self) -> float:
         """In plan: rotation about the vertical axis, counter-clockwise from above, rad."""
+    @property
+    def force_vector(self) -> list[float]:
+        """Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader."""
+    @property
+    def moment_vector(self) -> list[float]:
+        """Moment on the soil about its middle as a vector by the right-hand rule, N·m/m, in plan N·m."""
+    @property
+    def rotation_vector(self) -> list[float]:
+        """Rotation as a vector by the right-hand rule, rad."""
 
 @final
 class Soil:
@@ -2239,7 +2273,8 @@ class FemModel(Structure):
     :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
     or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
     unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
-    given. ``active_damping``: whether dashpots may feed energy in, an error by default.
+    given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
+    matrices of elements may be unsymmetric, an error by default.
     """
 
     def __new__(
@@ -2252,6 +2287,7 @@ class FemModel(Structure):
         rigid_links: Sequence[tuple[int, Sequence[int]]] | None = None,
         p_delta: float | None = None,
         active_damping: bool = False,
+        active_stiffness: bool = False,
     ) -> Self: ...
     def row(self, node: int, direction: _Direction) -> DofCombination:
         """The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation"."""
@@ -2390,7 +2426,7 @@ class MatrixModel(Structure):
     points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
     lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-    (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
+    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
     list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
     """
 
@@ -2402,6 +2438,7 @@ class MatrixModel(Structure):
         *,
         damping: _MatrixLike | None = None,
         active_damping: bool = False,
+        active_stiffness: bool = False,
         rayleigh: RayleighDamping | None = None,
         dof_names: Sequence[str] | None = None,
     ) -> Self: ...

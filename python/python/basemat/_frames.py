@@ -37,19 +37,22 @@ _UNITS = {
 _UNIT = {**_ELEMENT_UNITS, **{name: unit for unit, names in _UNITS.items() for name in names.split()}}
 
 
-def _with_units(frame: Any, units: dict[str, str]) -> Any:
-    """The frame, with the units of its columns and its index in ``attrs``."""
+def _with_units(frame: Any, units: dict[str, str], run: Run | None = None) -> Any:
+    """The frame, with the units of its columns and its index in ``attrs``, and with the ground motion of a run."""
     names = [name for name in (frame.index.name, *frame.columns) if name is not None]
     frame.attrs["units"] = {name: units.get(name, "") for name in names}
+    if run is not None:
+        frame.attrs["ground_motion"] = run._ground_motion
     return frame
 
 
 def to_frame(self: Run) -> Any:
     """All time series as a pandas frame, indexed by the time (s).
 
-    Units of the columns of this and of all other frames are in ``frame.attrs["units"]``.
+    Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
+    motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
     """
-    return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units)
+    return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units, self)
 
 
 def contact_frame(self: Run) -> Any:
@@ -67,7 +70,7 @@ def contact_frame(self: Run) -> Any:
         table[name] = np.tile(0.5 * (self.envelope[low] + self.envelope[high]), frames)
     table.update({name: values.ravel() for name, values in columns.items()})
     modes = pandas().Categorical.from_codes(modes.ravel(), categories=MODES)
-    return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT)
+    return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT, self)
 
 
 def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "displacement") -> Any:
@@ -82,13 +85,13 @@ def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "dis
         raise InputError(f"quantity is '{quantity}', but must be 'displacement' or 'velocity'")
     index = pandas().Index(motion["time"], name="time")
     frame = pandas().DataFrame(motion[quantity], index=index, columns=self.dof_names)
-    return _with_units(frame, _UNIT)
+    return _with_units(frame, _UNIT, self)
 
 
 def envelope_frame(self: Run) -> Any:
     """:attr:`Run.envelope` as a pandas frame: a row per element."""
     frame = pandas().DataFrame(self.envelope)
-    return _with_units(frame.rename_axis("element"), _UNIT)
+    return _with_units(frame.rename_axis("element"), _UNIT, self)
 
 
 def foundation_frame(self: Run) -> Any:
@@ -106,13 +109,13 @@ def foundation_frame(self: Run) -> Any:
             row["residual_slip_across"] = own.residual_slip_across
         rows.append(row)
     units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}
-    return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units)
+    return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units, self)
 
 
 def energy_frame(self: Run) -> Any:
     """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     frame = pandas().DataFrame(self.energy_balances).set_index("time")
-    return _with_units(frame, self.units)
+    return _with_units(frame, self.units, self)
 
 
 def floor_spectra(
@@ -134,7 +137,7 @@ def floor_spectra(
     columns = {name: self.floor_spectrum(name, periods, damping).acceleration for name in names}
     index = pandas().Index(np.asarray(periods, dtype=float), name="period")
     frame = pandas().DataFrame(columns, index=index)
-    return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")})
+    return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")}, self)
 
 
 def _of(own: Any, index: str, columns: str) -> Any:

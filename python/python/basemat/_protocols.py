@@ -16,7 +16,7 @@ class UserStructure(Protocol):
 
     If it has them, these are called too: ``damping()`` (n × n), ``load(time)`` (shape (n,), N/m),
     ``foundation_ends()`` (numbers of the contact nodes that end a foundation but the last),
-    ``active_damping`` (a flag: the damping matrix is taken as it is). One for a ground in plan is a
+    ``active_damping`` and ``active_stiffness`` (flags: the matrix is taken as it is). One for a ground in plan is a
     :class:`UserPlanStructure`.
 
     A nonlinear structure has ``force(u)`` (shape (n,), N/m, beyond K u) and ``tangent(u)`` (n × n)

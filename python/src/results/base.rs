@@ -29,11 +29,11 @@ members! {
     static_normal_force: f64 = own.0.static_normal_force;
     /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
     base_shear: PyExtremes = PyExtremes(own.0.base_shear);
-    /// Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle: its :class:`Extremes`.
+    /// Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its :class:`Extremes`.
     base_moment: PyExtremes = PyExtremes(own.0.base_moment);
     /// Total pressure on the soil, N/m: its :class:`Extremes`.
     normal_force: PyExtremes = PyExtremes(own.0.normal_force);
-    /// Rotation, counter-clockwise, rad: its :class:`Extremes`.
+    /// Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its :class:`Extremes`.
     base_rotation: PyExtremes = PyExtremes(own.0.base_rotation);
     /// Largest ratio of the open length to the length: its :class:`Peak`.
     uplifted_fraction: PyPeak = PyPeak(own.0.uplifted_fraction.highest);

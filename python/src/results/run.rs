@@ -89,6 +89,19 @@ members! {
     start: f64 = own.run.start;
     /// Time at the end, s.
     end: f64 = own.run.end;
+    /// Time step, s.
+    time_step: f64 = own.run.time_step;
+    /// The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
+    /// record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run.
+    ground_motion: Named<&'static str, Option<f64>> = {
+        let own = own.run.ground_motion;
+        let numbers = [Some(own.peak), own.duration, own.time_step, own.passed];
+        ["peak", "duration", "time_step", "passed"].into_iter().zip(numbers).collect()
+    };
+    /// Whether the run ended because a base turned beyond the ``rotation_limit`` of the :class:`Simulation`.
+    is_overturned: bool = own.run.is_overturned;
+    /// The ground motion in words, as on the page of the run.
+    _ground_motion: String = own.run.ground_motion.to_string();
     /// Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start.
     time: PyResult<Array> = Ok(Array::from(own.kept()?.times()));
     /// Names of the structure's degrees of freedom: list of n texts; None without names.

@@ -63,6 +63,8 @@ use crate::{error, interface, motion, structure, user};
 ///     allowable_uplifted_fraction: limit of service of the open length over that of the base, above 0
 ///         to 1; none unless given.
 ///     allowable_rotation: limit of service of the base's |rotation|, rad; none unless given.
+///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
+///         run goes on; infinite: runs end by their steps alone.
 ///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
 ///         most so many iterations a step, for comparison with their paper; the robust search unless
 ///         given.
@@ -139,7 +141,7 @@ impl PySimulation {
         initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
         expected_steps=None, moment_center=None, energy_balance=true, safety_friction=None,
         allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
-        allowable_rotation=None, flow_chart_iterations=None, progress=None,
+        allowable_rotation=None, rotation_limit=None, flow_chart_iterations=None, progress=None,
     ))]
     fn new(
         py: Python<'_>,
@@ -164,6 +166,7 @@ impl PySimulation {
         allowable_gap: Option<f64>,
         allowable_uplifted_fraction: Option<f64>,
         allowable_rotation: Option<f64>,
+        rotation_limit: Option<f64>,
         #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
@@ -209,6 +212,7 @@ impl PySimulation {
             coordinates(coordinates.map(|own| build::coordinates(&own)).transpose()?),
             expected_steps(expected_steps),
             moment_center(moment_center),
+            rotation_limit(rotation_limit),
             safety_friction(safety_friction.map(|coefficient| [coefficient])),
         );
         if !energy_balance {

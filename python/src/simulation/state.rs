@@ -29,7 +29,7 @@ members! {
     elements: (usize, usize) = (own.0.elements.start, own.0.elements.end);
     /// Horizontal force on the soil, positive to the right, N/m.
     shear: f64 = own.0.base_shear;
-    /// Moment on the soil about its middle, counter-clockwise, N·m/m.
+    /// Moment on the soil about its middle, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
     moment: f64 = own.0.base_moment;
     /// Total pressure, N/m.
     normal_force: f64 = own.0.normal_force;
@@ -37,7 +37,7 @@ members! {
     uplifted_fraction: f64 = own.0.uplifted_fraction;
     /// Slip averaged over the foundation, m.
     mean_slip: f64 = own.0.mean_slip;
-    /// Rotation of the foundation's chord, rad.
+    /// Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule.
     rotation: f64 = own.0.base_rotation;
     /// In plan: force on the soil along y, positive away, N.
     shear_across: f64 = own.0.shear_across;
@@ -51,6 +51,12 @@ members! {
     rotation_across: f64 = own.0.rotation_across;
     /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.
     twist: f64 = own.0.twist;
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
+    force_vector: [f64; 3] = own.0.force_vector();
+    /// Moment on the soil about its middle as a vector by the right-hand rule, N·m/m, in plan N·m.
+    moment_vector: [f64; 3] = own.0.moment_vector();
+    /// Rotation as a vector by the right-hand rule, rad.
+    rotation_vector: [f64; 3] = own.0.rotation_vector();
 }
 
 members! {
@@ -75,7 +81,7 @@ members! {
     probes: Array = own.0.probes.as_slice().into();
     /// Horizontal force on the soil, positive to the right, N/m.
     base_shear: f64 = own.0.base_shear;
-    /// Moment on the soil, counter-clockwise, N·m/m.
+    /// Moment on the soil, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
     base_moment: f64 = own.0.base_moment;
     /// Total pressure on the soil, N/m.
     normal_force: f64 = own.0.normal_force;
@@ -85,8 +91,14 @@ members! {
     mean_slip: f64 = own.0.mean_slip;
     /// Largest |slip| of any element, m.
     largest_slip: f64 = own.0.value(basemat::results::Quantity::LargestSlip);
-    /// Rotation of the base, counter-clockwise, rad.
+    /// Rotation of the base, counter-clockwise, rad; in plan about y by the right-hand rule.
     base_rotation: f64 = own.0.base_rotation;
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
+    force_vector: [f64; 3] = own.0.force_vector();
+    /// Moment on the soil as a vector by the right-hand rule, N·m/m, in plan N·m.
+    moment_vector: [f64; 3] = own.0.moment_vector();
+    /// Rotation of the base as a vector by the right-hand rule, rad.
+    rotation_vector: [f64; 3] = own.0.rotation_vector();
     /// Mean displacement (to the right, up) of the free field under the base, m.
     free_field: [f64; 2] = own.0.free_field;
     /// The :class:`EnergyBalance` since the start.

@@ -25,7 +25,8 @@ use crate::row::{PyDofCombination, PySectionRows};
 /// :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
 /// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
 /// unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
-/// given. ``active_damping``: whether dashpots may feed energy in, an error by default.
+/// given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
+/// matrices of elements may be unsymmetric, an error by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 
@@ -43,7 +44,7 @@ extracts!(Contact, object => match object.extract() {
 #[pymethods]
 impl PyFemModel {
     #[new]
-    #[pyo3(signature = (mesh, contact=None, *, rayleigh=None, mass="consistent", rigid_links=None, p_delta=None, active_damping=false))]
+    #[pyo3(signature = (mesh, contact=None, *, rayleigh=None, mass="consistent", rigid_links=None, p_delta=None, active_damping=false, active_stiffness=false))]
     fn new(
         mesh: &PyMesh,
         contact: Option<Contact>,
@@ -52,6 +53,7 @@ impl PyFemModel {
         #[pyo3(from_py_with = whole)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
         p_delta: Option<f64>,
         active_damping: bool,
+        active_stiffness: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
         let mesh = mesh.0.clone();
         let model = match contact {
@@ -68,6 +70,9 @@ impl PyFemModel {
         let mut model = model.with(p_delta, FemModel::with_p_delta).or_raise()?;
         if active_damping {
             model = model.with_active_damping();
+        }
+        if active_stiffness {
+            model = model.with_active_stiffness();
         }
         let model = Arc::new(model);
         let base = PyStructure::copied(Shared(Arc::clone(&model), None));

@@ -20,20 +20,21 @@ use crate::recipe::Shared;
 /// points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
 /// lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-/// (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
+/// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
 /// list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
 members! {
     PyMatrixModel, own;
-    #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, rayleigh=None, dof_names=None))]
+    #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, active_stiffness=false, rayleigh=None, dof_names=None))]
     new(
         mass: Matrix,
         stiffness: Matrix,
         contact: Contact<'_>,
         damping: Option<Matrix>,
         active_damping: bool,
+        active_stiffness: bool,
         rayleigh: Option<&PyRayleighDamping>,
         dof_names: Option<Vec<String>>,
     ) = {
@@ -50,6 +51,7 @@ members! {
         let model = model
             .with(damping, |model, matrix| damped(model, matrix.0))
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
+            .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
             .or_raise()?;
         let base = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))

@@ -28,6 +28,7 @@ pub(crate) struct UserStructure {
     ends: Vec<usize>,
     names: Option<DofNames>,
     active_damping: bool,
+    active_stiffness: bool,
     nonlinear: bool,
 }
 
@@ -49,13 +50,17 @@ impl UserStructure {
             _ => base("contact_nodes")?,
         };
         let ends = object.has("foundation_ends").then(|| object.call(py, "foundation_ends", ()));
-        let flag = given.getattr_opt("active_damping")?;
+        let flag = |name: &str| -> PyResult<bool> {
+            let flag = given.getattr_opt(name)?;
+            flag.map_or(Ok(false), |flag| flag.is_truthy())
+        };
         Ok(Self {
             dofs,
             names: DofNames::of(&given, dofs)?,
             contact: contact.of(dofs)?,
             ends: ends.transpose()?.unwrap_or_default(),
-            active_damping: flag.map_or(Ok(false), |flag| flag.is_truthy())?,
+            active_damping: flag("active_damping")?,
+            active_stiffness: flag("active_stiffness")?,
             nonlinear,
             object,
         })
@@ -145,6 +150,10 @@ impl Structure for UserStructure {
 
     fn has_active_damping(&self) -> bool {
         self.active_damping
+    }
+
+    fn has_active_stiffness(&self) -> bool {
+        self.active_stiffness
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {

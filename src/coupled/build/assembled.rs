@@ -12,17 +12,20 @@ use std::sync::Arc;
 use crate::coupled::diagnosis::mechanism::AtRest;
 use crate::coupled::diagnosis::{mechanism, supports};
 use crate::coupled::scene::base::Base;
-use crate::coupled::scene::influence::Influence;
+use crate::coupled::scene::influence::{Influence, UP};
 use crate::error::{Error, Result, at_least};
 use crate::geometry::Patch;
+use crate::linalg::matrix::spread;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     FaceNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
-    stiffest,
+    check_stiffness, stiffest,
 };
 
 /// Passes that refine the influence vectors.
 const REFINEMENTS: usize = 3;
+/// Time (s) in which springs under the base move its inertia, at most: a stiffness that is rounding has no say.
+const SWAY: f64 = 0.1;
 
 /// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
@@ -53,6 +56,9 @@ impl Assembled {
             check_damping(&damping)?;
         }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
+        if !structure.has_active_stiffness() {
+            check_stiffness(&stiffness, &mass)?;
+        }
         let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
         let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
         let sum =
@@ -109,6 +115,36 @@ impl Assembled {
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
     }
 
+    /// Mass over the area of the contact elements, kg/m².
+    pub(crate) fn mass_over_area(&self) -> f64 {
+        let up = self.influence.of(UP, self.dofs());
+        self.mass.form(&up, &up) / self.base.areas().iter().sum::<f64>()
+    }
+
+    /// Damping of a translation along the ground over the mass that it moves, r·C r / r·M r, the largest of all parts and
+    /// directions, 1/s.
+    pub(crate) fn drag(&self) -> f64 {
+        let parts = self.influence.parts().iter();
+        let vectors = parts.flat_map(|part| [&part.vectors[0], &part.vectors[2]]);
+        let drags = vectors.filter(|vector| !vector.is_empty()).map(|vector| {
+            let translation = spread(vector, self.dofs());
+            let form = |matrix: &SparseMatrix| matrix.form(&translation, &translation);
+            form(&self.damping) / form(&self.mass)
+        });
+        drags.fold(0.0, f64::max)
+    }
+
+    /// Largest inertia (kg) that a displacement of a contact node meets by itself.
+    fn base_inertia(&self) -> f64 {
+        let masses = self.mass.diagonal();
+        let rows = self.base.nodes().iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty());
+        let inertia = rows.map(|row| {
+            let square: f64 = row.iter().map(|(_, weight)| weight * weight).sum();
+            row.iter().map(|&(i, weight)| masses[i] * (weight / square).powi(2)).sum()
+        });
+        inertia.fold(0.0, f64::max)
+    }
+
     /// The influence vectors, and the factored stiffness with its base held.
     ///
     /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
@@ -117,7 +153,9 @@ impl Assembled {
     /// sees it: N R is 1 or 0 to rounding, and then so is B R.
     fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
         let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
-        let held = HeldBase::new(self.base.nodes(), stiffness, stiffest(stiffness));
+        let stiffest = stiffest(stiffness);
+        let spring = stiffest.max(self.base_inertia() / (SWAY * SWAY));
+        let held = HeldBase::new(self.base.nodes(), stiffness, spring);
         let mut factor = held.factor()?;
         if self.linear && !factor.is_positive_definite() {
             mechanism::check_signs(&self.base, self.matrices())?;
@@ -138,7 +176,8 @@ impl Assembled {
         if translations.iter().flatten().any(|r| !r.is_finite()) {
             return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
         }
-        supports::check(stiffness, &self.base, &mut translations)?;
+        let firmer = spring / stiffest;
+        supports::check(stiffness, &self.mass, firmer, &self.base, &mut translations)?;
         let mut parts = Partition::new(n);
         for matrix in [stiffness, &self.mass, &self.damping] {
             parts.couple(matrix);

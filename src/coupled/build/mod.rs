@@ -8,6 +8,7 @@
 
 pub(crate) mod assembled;
 pub(crate) mod equilibrium;
+pub(crate) mod gravity_stage;
 mod krylov;
 pub(crate) mod parts;
 mod statics;
@@ -35,8 +36,9 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
+use gravity_stage::GravityStage;
 pub use parts::SimulationBuilder;
-use parts::{Coordinates, GravityStage, Parts};
+use parts::{Coordinates, Parts};
 use stepped::Stepped;
 
 impl Simulation {
@@ -198,6 +200,37 @@ impl SimulationBuilder {
         self
     }
 
+    /// Sets the rotation of a base (rad, about a horizontal axis) at which a run ends, 1 unless given: geometry is that of
+    /// small rotations, and what has overturned would turn for ever. Infinite: runs end by their steps alone.
+    ///
+    /// ```
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Warning;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// let slender = RigidBlock::new(1.0, 10.0, 2000.0)?.with_p_delta(9.81)?;
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .structure(slender)
+    ///     .ground(SpringGround::new(-0.5..0.5, 8, 2e9, 1e9)?.with_dashpots(1e6, 1e6)?)
+    ///     .interface(Coulomb::new(0.6)?)
+    ///     .motion(el_centro_1940().scaled(2.0)?)
+    ///     .build()?;
+    /// let run = simulation.run(2000, |_| {})?;
+    /// assert!(run.is_overturned && run.steps < 2000);
+    /// assert!(run.warnings.iter().any(|own| matches!(own, Warning::Overturned { .. })));
+    /// // A further call goes on.
+    /// assert_eq!(simulation.run(10, |_| {})?.steps, 10);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    #[must_use]
+    pub fn rotation_limit(mut self, limit: f64) -> Self {
+        self.rotation_limit = limit;
+        self
+    }
+
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
@@ -249,7 +282,13 @@ impl SimulationBuilder {
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let period = assembled.period_on_fixed_base(&mut held);
-        let warnings = Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
+        let mut warnings =
+            Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
+        let pressure = given.gravity * assembled.mass_over_area();
+        let storey = structure.tallest_storey();
+        let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
+        let of_units = Warning::of_units(is_to_scale, &scene.laws, given.gravity, pressure, storey);
+        warnings.extend(of_units);
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
@@ -267,6 +306,8 @@ impl SimulationBuilder {
             state,
             conditioning,
             warnings,
+            drag: assembled.drag(),
+            rotation_limit: given.rotation_limit,
         })
     }
 }

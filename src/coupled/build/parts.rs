@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::gravity_stage::GravityStage;
 use crate::bem::{Ground, patch};
 use crate::contact::ContactSearch;
 use crate::coupled::motion::Load;
@@ -25,53 +26,8 @@ use crate::structure::{Structure, is_nonlinear, probe};
 /// one.
 const ROUNDING: f64 = 1e-9;
 
-/// Friction while the structure is placed on the ground.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum GravityStage {
-    /// The base is placed without friction and without cohesion, and sticks from then on. What
-    /// does not touch under weight alone starts open. Where no element's law ever opens, the base
-    /// is bonded from the start.
-    #[default]
-    Frictionless,
-    /// The interface law acts while the weight comes on, in one step.
-    Frictional,
-    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
-    /// For a structure that is dropped, or tilted and let go.
-    ///
-    /// ```
-    /// use basemat::Simulation;
-    /// use basemat::bem::SpringGround;
-    /// use basemat::coupled::GravityStage;
-    /// use basemat::interface::Coulomb;
-    /// use basemat::structure::RigidBlock;
-    ///
-    /// // Tilted by 20 mrad about its left edge.
-    /// let tilt = 0.02;
-    /// let mut simulation = Simulation::builder(0.001)
-    ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
-    ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
-    ///     .interface(Coulomb::new(0.8)?)
-    ///     .gravity_stage(GravityStage::Unloaded)
-    ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
-    ///     .build()?;
-    /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
-    /// let run = simulation.run(1000, |_| {})?;
-    /// // It rocks over to the other edge, and less far.
-    /// let other_side = -run.whole.base_rotation.lowest.value;
-    /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    Unloaded,
-}
-
-words! { pub(crate) GravityStage, "gravity stage", {
-    Frictionless = "frictionless",
-    Frictional = "frictional",
-    Unloaded = "unloaded",
-} }
+/// Rotation of a base at which a run ends unless another is given, rad.
+const ROTATION_LIMIT: f64 = 1.0;
 
 /// Parts of a [`Simulation`](crate::Simulation): a structure, a ground and an interface law are needed, the rest has
 /// defaults (no motion, standard gravity, midpoint rule, no probes).
@@ -97,6 +53,8 @@ pub struct SimulationBuilder {
     pub(crate) energy_balance: bool,
     pub(crate) safety_friction: Vec<f64>,
     pub(crate) serviceability: Serviceability,
+    /// Rotation of a base at which a run ends, rad.
+    pub(crate) rotation_limit: f64,
 }
 
 short_debug! {
@@ -135,6 +93,7 @@ impl SimulationBuilder {
             energy_balance: true,
             safety_friction: Vec::new(),
             serviceability: Serviceability::default(),
+            rotation_limit: ROTATION_LIMIT,
         }
     }
 
@@ -176,6 +135,8 @@ impl Parts {
         positive("square of the time step", time_step * time_step)?;
         not_negative("gravity", given.gravity)?;
         given.serviceability = given.serviceability.checked()?;
+        let limit = given.rotation_limit;
+        require("rotation limit", limit, limit > 0.0, "above zero (infinite: none)")?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
         let mut structure = given
             .structure

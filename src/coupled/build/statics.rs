@@ -2,7 +2,8 @@
 
 use super::assembled::Assembled;
 use super::equilibrium::{Standing, StaticState};
-use super::parts::{GravityStage, Parts, SimulationBuilder};
+use super::gravity_stage::GravityStage;
+use super::parts::{Parts, SimulationBuilder};
 use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;

@@ -20,7 +20,7 @@ use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
 };
 use crate::linalg::{dense_condition, dot};
-use mechanism::{Regular, unresisted};
+use mechanism::{FIRMLY, Regular, unresisted};
 
 // Why a structure cannot stand: resultants that its base does not carry, or a mechanism.
 //
@@ -61,7 +61,8 @@ fn resultants(
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
     let is_plan = base.layout().is_plan();
-    let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
+    // Firmly: under springs of its own stiffness a structure with P–Δ turns further than they are pulled.
+    let (held, regular) = Regular::held_by(&assembled.at_rest(stage.structure), FIRMLY);
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
         let [along, upward, away] = part.resultants(load);
@@ -115,7 +116,9 @@ fn resultants(
         } else {
             (part_of(0), 0)
         };
-        let [moment, eccentricity] = [moments[axis], eccentricities[axis]];
+        // By the right-hand rule about y, what lifts the right side is negative.
+        let sign = if is_plan && axis == 0 { -1.0 } else { 1.0 };
+        let [moment, eccentricity] = [sign * moments[axis], eccentricities[axis]];
         if ratio >= 1.0 && opens {
             let axis = axis_name(is_plan, axis);
             let error = StabilityError::Overturning {

@@ -21,14 +21,16 @@
 //! | the same on a wall 200 times as high as wide | 7e-10 | 0.09 |
 //!
 //! The reduced walls meet a force of 2e-10 of the largest stiffness in all, the springs one of 1e-9.
-//! A support is what is above all of the limits below.
+//! A support is what is above all of the limits below, and lets the structure sway to a fixed point with a period that a
+//! run could notice: r·K r over r·M r, which no scaling of coordinates changes, tells it from rounding in a stiffness
+//! of a rigid base alone, where there is nothing stiff to compare with.
 
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
-use crate::structure::{Structure, Tangent};
+use crate::structure::{Structure, Tangent, UNNOTICED};
 
 /// Largest lag: far above rounding, and what a weight may be off.
 const LAG: f64 = 1e-6;
@@ -55,20 +57,24 @@ const DIRECTIONS: [&str; 3] = ["to the right", "upwards", "along y"];
 
 /// Refuses a structure that does not translate freely, and rounds its translations (to the right,
 /// upwards, in plan away) to whole numbers where these are what they are meant to be, exactly so at the contact
-/// nodes. `stiffness` without what ties these.
+/// nodes. `stiffness` without what ties these, springs `firmer` times as stiff as its largest entry on the diagonal.
 pub(crate) fn check(
     stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    firmer: f64,
     base: &Base,
     translations: &mut [Vec<f64>],
 ) -> Result<()> {
     let lag = base.translation_error(translations);
     for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
         let resistance = Resistance::new(stiffness, translation);
-        if resistance.holds(lag) {
+        let square = stiffness.form(translation, translation).abs();
+        let is_noticed = square > UNNOTICED * mass.form(translation, translation);
+        if is_noticed && resistance.holds(lag, firmer) {
             let Resistance { force, dof, ratio, .. } = resistance;
             return Err(Error::Restrained { direction, force, dof, ratio });
         }
-        if resistance.is_free {
+        if resistance.is_free || !is_noticed && resistance.bent <= LAG {
             for r in translation.iter_mut() {
                 *r = r.round();
             }
@@ -201,9 +207,11 @@ impl Resistance {
         }
     }
 
-    fn holds(&self, lag: f64) -> bool {
-        let is_rounding = self.reaction <= FORCE || self.bent <= BENT || self.is_free;
-        self.work > WORK && (lag > LAG || !is_rounding)
+    /// Whether the structure is held, at contact nodes that stay behind by `lag` under springs `firmer` times as stiff as
+    /// its largest stiffness.
+    fn holds(&self, lag: f64, firmer: f64) -> bool {
+        let is_rounding = self.reaction <= FORCE || firmer * self.bent <= BENT || self.is_free;
+        self.work > WORK && (firmer * lag > LAG || !is_rounding)
     }
 }
 

@@ -167,6 +167,11 @@ impl Sliding {
         self.in_event = slides;
     }
 
+    /// Duration of the longest event, s.
+    pub(crate) fn longest(&self) -> f64 {
+        self.events.iter().map(|event| event.end - event.start).fold(0.0, f64::max)
+    }
+
     /// The event with the largest |slip|.
     pub(crate) fn largest_event(&self) -> Option<SlipEvent> {
         let larger = |a: &SlipEvent, b: &SlipEvent| a.size().total_cmp(&b.size());

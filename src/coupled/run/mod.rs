@@ -3,12 +3,14 @@
 use std::time::{Duration, Instant};
 
 pub(crate) mod base;
+mod ground_motion;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
 mod serviceability;
 
 pub use base::{ElementEnvelope, Sliding, SlipEvent, Uplift};
+pub use ground_motion::GroundMotion;
 pub use peak::{Extremes, Peak, ProbeExtremes};
 pub use quantity::{Quantity, Summary};
 pub use serviceability::{Criterion, ServiceCheck, Serviceability};
@@ -66,6 +68,16 @@ pub struct Run {
     pub start: f64,
     /// Time at its end, s.
     pub end: f64,
+    /// The ground motion; zeros before the run is closed.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub ground_motion: GroundMotion,
+    /// The time step, s.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub time_step: f64,
+    /// Whether the run ended because a base turned beyond the rotation limit
+    /// ([`SimulationBuilder::rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit)).
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub is_overturned: bool,
     /// The base as a whole.
     pub whole: Summary,
     /// The probes, in the order they were given to the builder.
@@ -103,6 +115,9 @@ pub struct Run {
     elements: Vec<ContactElement>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
     sequence: Sequence,
+    /// Whether an observer ended the run.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) is_stopped: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
     /// Least algorithmic energy of the energy balance at any time.
@@ -131,6 +146,9 @@ impl Run {
             steps: 0,
             start: time,
             end: time,
+            ground_motion: GroundMotion::default(),
+            time_step: resolution.time_step(),
+            is_overturned: false,
             whole: Summary::start(state, None),
             probes: probes.iter().zip(&state.probes).map(probe).collect(),
             foundations: (0..state.foundations.len())
@@ -150,6 +168,7 @@ impl Run {
             in_plan: elements.is_plan(),
             elements: elements.to_vec(),
             sequence: Sequence::new(state),
+            is_stopped: false,
             resolution,
             least_algorithmic: state.energy_balance.algorithmic,
             begin: clock(),
@@ -195,13 +214,15 @@ impl Run {
     }
 
     /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can;
-    /// `of_scene` are the warnings that the scene itself calls for.
+    /// `of_scene` are the warnings that the scene itself calls for, `drag` (1/s) its damping of a rigid translation over
+    /// its mass, `rotation_limit` (rad) what ends a run.
     pub(crate) fn finish(
         &mut self,
         ground: &dyn Ground,
         motion: &dyn FreeField,
         opens: impl Fn(usize) -> bool,
         of_scene: &[Warning],
+        [drag, rotation_limit]: [f64; 2],
     ) {
         // A run that was read from a file is closed.
         if self.elements.is_empty() {
@@ -227,7 +248,12 @@ impl Run {
         self.warnings.extend_from_slice(of_scene);
         let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
         let acceleration = self.resolution.largest_acceleration();
-        self.warnings.extend(Warning::of_motion(acceleration).filter(|_| is_to_scale));
+        self.ground_motion = GroundMotion::new(motion, self.end, acceleration);
+        let of_motion = Warning::of_motion(acceleration, &self.ground_motion);
+        self.warnings.extend(of_motion.into_iter().filter(|_| is_to_scale));
+        self.warnings.extend(Warning::of_end(self, acceleration, rotation_limit));
+        let slides = self.foundations.iter().chain([&self.whole]).map(|own| own.sliding.longest());
+        self.warnings.extend(Warning::of_drag(drag, slides.fold(0.0, f64::max)));
         self.resolution.warn(&mut self.warnings);
     }
 

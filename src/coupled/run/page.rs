@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::ground_motion::seconds;
 use super::peak::resultant;
 use super::quantity::Place;
 use super::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
@@ -18,7 +19,9 @@ const ENOUGH: f64 = 0.93;
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { steps, start, end, .. } = self;
-        writeln!(f, "Run of {steps} steps from t = {start:.3} s to {end:.3} s")?;
+        let step = seconds(self.time_step);
+        writeln!(f, "Run of {steps} steps of {step} s from t = {start:.3} s to {end:.3} s")?;
+        writeln!(f, "{}", self.ground_motion)?;
         let weight = self.whole.static_normal_force;
         if weight > 0.0 {
             writeln!(

@@ -162,7 +162,8 @@ quantities! {
     /// Horizontal force on the soil, positive to the right, N/m.
     BaseShear base_shear, "base shear", "N/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
         |base| base.pick(base.state.base_shear, |own| own.base_shear);
-    /// Moment on the soil, counter-clockwise, static part included, N·m/m.
+    /// Moment on the soil, counter-clockwise, static part included, N·m/m; in plan about the axis along y, by the
+    /// right-hand rule.
     BaseMoment base_moment, "base moment", "N·m/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
         |base| base.pick(base.state.base_moment, |own| own.base_moment);
     /// Pressure on the soil, summed, N/m.
@@ -177,7 +178,8 @@ quantities! {
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
         |base| base.largest(|own| own.derived.largest_slip);
-    /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
+    /// Rotation of the base, counter-clockwise, rad, in plan about the axis along y by the right-hand rule; of several
+    /// foundations the largest.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.pick(base.state.base_rotation, |own| own.base_rotation);
     /// Mean horizontal displacement of the free field under the base, m.

@@ -168,8 +168,8 @@ impl Base {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan then those about x and
-    /// the vertical, by the right-hand rule.
+    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan the rotations about y,
+    /// about x and about the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }

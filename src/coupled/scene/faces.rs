@@ -30,7 +30,9 @@ impl Base {
         let mut first = 0;
         for mat in &mats {
             let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let rotations = FaceNode::mean_rotations(&nodes[own.clone()]);
+            let [rise, about_x, twist] = FaceNode::mean_rotations(&nodes[own.clone()]);
+            // By the right-hand rule about y a rise to the right is negative.
+            let rotations = [-rise, about_x, twist];
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
             first = own.end;
             let corners = hull(nodes[own.clone()].iter());

@@ -3,6 +3,8 @@
 mod rules;
 mod text;
 
+use super::run::Quantity;
+
 /// Warning that assumptions of a run are strained, or that its time step or elements are too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -134,10 +136,69 @@ pub enum Warning {
         /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
         period: f64,
     },
-    /// Ground acceleration above any that was recorded: a motion in another unit, unless the model is not to scale.
+    /// Ground acceleration above any that was recorded, or of a record so weak that its numbers are likely to be in g: a
+    /// motion in another unit, unless the model is not to scale.
     UnusualMotion {
-        /// Largest component at any step, m/s².
+        /// Largest component at any step, of a weak record at any sample, m/s².
         acceleration: f64,
+    },
+    /// A record with a time step that no recorder has: an interval in another unit, unless the model is not to scale.
+    UnusualInterval {
+        /// Time step of the record, s.
+        time_step: f64,
+    },
+    /// A structure that presses on the ground less than any building does: masses in another unit.
+    LightStructure {
+        /// Weight over the area of the contact elements, Pa.
+        pressure: f64,
+    },
+    /// A friction coefficient that no material has: an angle in degrees, or a percentage.
+    UnusualFriction {
+        /// The coefficient.
+        friction: f64,
+    },
+    /// A storey above 100 m: a height in another unit, or in the place of the mass.
+    TallStorey {
+        /// Height of the storey, m.
+        height: f64,
+    },
+    /// An acceleration of gravity that no planet has: one in another unit, unless the model is not to scale.
+    UnusualGravity {
+        /// Acceleration of gravity, m/s².
+        gravity: f64,
+    },
+    /// The run ended before most of its record: more than a third of the Arias intensity was still to come.
+    EndsEarly {
+        /// Time at the end of the run, s.
+        end: f64,
+        /// Time of the last sample of the record, s.
+        duration: f64,
+        /// Fraction of the record's Arias intensity until the end of the run.
+        passed: f64,
+    },
+    /// A response to the ground motion was largest in the last step: it may grow further.
+    PeakAtEnd {
+        /// The response.
+        quantity: Quantity,
+        /// Time at the end of the run, s.
+        end: f64,
+    },
+    /// The run ended because a base turned beyond the rotation limit
+    /// ([`SimulationBuilder::rotation_limit`](super::SimulationBuilder::rotation_limit)): it has overturned, or what
+    /// small rotations cannot describe. A further run goes on.
+    Overturned {
+        /// Rotation limit, rad.
+        limit: f64,
+        /// Time at which it was passed, s.
+        time: f64,
+    },
+    /// Damping of the structure resists a rigid translation, as mass-proportional damping does, and has braked a base that
+    /// slid.
+    DampedSliding {
+        /// Damping of the translation over the mass that it moves, 1/s.
+        rate: f64,
+        /// Estimated loss of the longest slip event, relative: of a block that slides to rest.
+        loss: f64,
     },
     /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear, where waves run
     /// along the base; in plan cells longer than a twelfth.

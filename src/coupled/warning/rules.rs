@@ -4,7 +4,9 @@ use super::Warning;
 use super::text::within;
 use crate::bem::Ground;
 use crate::coupled::energy_balance::EnergyBalance;
+use crate::coupled::run::{GroundMotion, Quantity, Run};
 use crate::coupled::scene::Scene;
+use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -30,6 +32,60 @@ impl Warning {
     const LONGEST_PERIOD: f64 = 8.0;
     /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
     const LARGEST_ACCELERATION: f64 = 60.0;
+
+    /// Acceleration of a record (m/s²) that is more likely one in g: weaker than strong motions, and not zero.
+    const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
+    /// Time steps of records, s.
+    const INTERVALS: [f64; 2] = [1e-4, 0.2];
+    /// Weight over the area of a base below which masses are likely in another unit, Pa: a timber floor has as much.
+    const LEAST_PRESSURE: f64 = 2e3;
+    /// Friction coefficients that are likely angles in degrees or percentages.
+    const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
+    /// Height above which a storey is none, m.
+    const TALLEST_STOREY: f64 = 100.0;
+    /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
+    const GRAVITIES: [f64; 2] = [1.5, 30.0];
+    /// Least fraction of a record's intensity that a run should see.
+    const PASSED: f64 = 2.0 / 3.0;
+    /// Loss of a slip event by damping above which a run warns.
+    const BRAKED: f64 = 0.1;
+    /// Ground acceleration of a run over that of its records from which on the run shakes.
+    const SHAKING: f64 = 0.01;
+    /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that are rounding.
+    const ROUNDING: f64 = 1e-9;
+    /// Fewest steps after which a peak in the last one counts.
+    const LEAST_STEPS: usize = 8;
+    /// Responses that should not be largest at the end of a run.
+    const RESPONSES: [Quantity; 4] =
+        [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
+
+    /// Warnings of numbers of a scene that are usual in another unit: of its laws, its gravity (m/s²), its weight over the
+    /// area of its base (Pa) and the height of its tallest storey (m); of one that is not to scale of its laws alone.
+    pub(crate) fn of_units(
+        is_to_scale: bool,
+        laws: &[Box<dyn InterfaceLaw>],
+        gravity: f64,
+        pressure: f64,
+        storey: Option<f64>,
+    ) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        let frictions = laws.iter().filter_map(InterfaceLaw::friction_coefficient);
+        let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
+        warnings
+            .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
+        if !is_to_scale {
+            return warnings;
+        }
+        if gravity > 0.0 && !within(Self::GRAVITIES, gravity) {
+            warnings.push(Self::UnusualGravity { gravity });
+        }
+        if gravity > 0.0 && pressure < Self::LEAST_PRESSURE {
+            warnings.push(Self::LightStructure { pressure });
+        }
+        let tall = storey.filter(|height| *height > Self::TALLEST_STOREY);
+        warnings.extend(tall.map(|height| Self::TallStorey { height }));
+        warnings
+    }
 
     /// Warnings of a scene before its first step, of a structure with this `period` on a fixed base (s).
     pub(crate) fn of_scene(
@@ -60,9 +116,57 @@ impl Warning {
         warnings
     }
 
-    /// Warning of a largest ground acceleration (m/s²) above any recorded.
-    pub(crate) fn of_motion(acceleration: f64) -> Option<Self> {
-        (acceleration > Self::LARGEST_ACCELERATION).then_some(Self::UnusualMotion { acceleration })
+    /// Warnings of a largest ground acceleration (m/s²) that a run saw, and of the records of its motion.
+    pub(crate) fn of_motion(acceleration: f64, motion: &GroundMotion) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        if acceleration > Self::LARGEST_ACCELERATION {
+            warnings.push(Self::UnusualMotion { acceleration });
+        }
+        let Some(time_step) = motion.time_step else { return warnings };
+        if within(Self::WEAK_ACCELERATIONS, motion.peak) {
+            warnings.push(Self::UnusualMotion { acceleration: motion.peak });
+        }
+        if !within(Self::INTERVALS, time_step) {
+            warnings.push(Self::UnusualInterval { time_step });
+        }
+        warnings
+    }
+
+    /// Warnings of the end of a run that saw this largest ground acceleration (m/s²): too early, unless an observer ended
+    /// it, or of a base that has overturned.
+    pub(crate) fn of_end(run: &Run, seen: f64, rotation_limit: f64) -> Vec<Self> {
+        let (end, motion) = (run.end, &run.ground_motion);
+        if run.is_overturned {
+            return vec![Self::Overturned { limit: rotation_limit, time: end }];
+        }
+        let mut warnings = Vec::new();
+        if run.is_stopped {
+            return warnings;
+        }
+        if let (Some(duration), Some(passed)) = (motion.duration, motion.passed)
+            && passed < Self::PASSED
+        {
+            warnings.push(Self::EndsEarly { end, duration, passed });
+        }
+        let moves = seen > Self::SHAKING * motion.peak && run.steps >= Self::LEAST_STEPS;
+        let last = |quantity: &Quantity| {
+            let peak = run.whole.peak(*quantity);
+            let is_force = matches!(quantity, Quantity::BaseShear | Quantity::BaseMoment);
+            let scale = if is_force { run.whole.static_normal_force } else { 1.0 };
+            peak.time == end && peak.magnitude() > Self::ROUNDING * scale
+        };
+        let at_end = Self::RESPONSES.into_iter().find(last).filter(|_| moves);
+        warnings.extend(at_end.map(|quantity| Self::PeakAtEnd { quantity, end }));
+        warnings
+    }
+
+    /// Warning of damping that brakes a sliding base at `rate` (1/s), by the duration of the longest slip event (s).
+    pub(crate) fn of_drag(rate: f64, longest: f64) -> Option<Self> {
+        // Sliding to rest against friction takes ln(1 + x)/rate, x the force of damping over friction at its beginning,
+        // and goes as far as 2 (1 − ln(1 + x)/x)/x of the distance without damping.
+        let x = (rate * longest).exp_m1();
+        let loss = 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x;
+        (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
     }
 
     /// Warnings of `soils` with unusual numbers.

@@ -80,8 +80,42 @@ impl fmt::Display for Warning {
                 "structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?"
             ),
             Self::UnusualMotion { acceleration } => {
-                write!(f, "ground acceleration of {acceleration:.3} m/s²: motion in cm/s²?")
+                let unit = if *acceleration > 1.0 { "cm/s²" } else { "g" };
+                write!(f, "ground acceleration of {acceleration:.3} m/s²: motion in {unit}?")
             }
+            Self::UnusualInterval { time_step } => {
+                write!(f, "record in steps of {time_step:.2e} s: interval in another unit?")
+            }
+            Self::LightStructure { pressure } => write!(
+                f,
+                "weight of {pressure:.3} Pa over the area of the base: masses in t, or gravity in another unit?"
+            ),
+            Self::UnusualFriction { friction } => {
+                write!(f, "friction coefficient of {friction}: in degrees, or in per cent?")
+            }
+            Self::TallStorey { height } => {
+                write!(f, "storey of {height:.1} m: in another unit, or in place of the mass?")
+            }
+            Self::UnusualGravity { gravity } => {
+                write!(f, "gravity of {gravity} m/s²: in another unit?")
+            }
+            Self::EndsEarly { end, duration, passed } => write!(
+                f,
+                "run ends at {end:.2} s, its record at {duration:.2} s: {:.0} % of the record's intensity until then",
+                100.0 * passed
+            ),
+            Self::PeakAtEnd { quantity, end } => {
+                write!(f, "{} largest in the last step, at {end:.2} s: run longer", quantity.name())
+            }
+            Self::Overturned { limit, time } => write!(
+                f,
+                "run ended at {time:.2} s: base turned by more than {limit} rad (`rotation_limit`)"
+            ),
+            Self::DampedSliding { rate, loss } => write!(
+                f,
+                "damping brakes a sliding base at {rate:.2} 1/s: longest slip event short by about {:.0} %;                  take damping without the mass",
+                100.0 * loss
+            ),
             Self::LongElements { element_length, wavelength, needed } => write!(
                 f,
                 "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \

@@ -191,6 +191,8 @@ impl Structure for WithSprings {
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
+        fn has_active_stiffness(&self) -> bool;
+        fn tallest_storey(&self) -> Option<f64>;
         fn describe(&self, dofs: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
     }

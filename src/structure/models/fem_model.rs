@@ -43,6 +43,7 @@ pub struct FemModel {
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
     active_damping: bool,
+    active_stiffness: bool,
     /// Acceleration of gravity of the weight whose axial forces make P–Δ.
     pub(super) p_delta: Option<f64>,
 }
@@ -85,6 +86,7 @@ impl FemModel {
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
             active_damping: false,
+            active_stiffness: false,
             p_delta: None,
         })
     }
@@ -157,6 +159,13 @@ impl FemModel {
     #[must_use]
     pub fn with_active_damping(self) -> Self {
         Self { active_damping: true, ..self }
+    }
+
+    /// Allows elements whose stiffness matrices are unsymmetric ([`Structure::has_active_stiffness`]); no simulation
+    /// takes such a one otherwise.
+    #[must_use]
+    pub fn with_active_stiffness(self) -> Self {
+        Self { active_stiffness: true, ..self }
     }
 
     /// Connects the nodes `followers` with `leader` so that they move as one rigid body: stiff
@@ -311,6 +320,10 @@ impl Structure for FemModel {
 
     fn has_active_damping(&self) -> bool {
         self.active_damping
+    }
+
+    fn has_active_stiffness(&self) -> bool {
+        self.active_stiffness
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {

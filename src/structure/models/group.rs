@@ -272,6 +272,15 @@ impl Structure for StructureGroup {
         self.members.iter().any(|member| member.structure.has_active_damping())
     }
 
+    /// Whether the stiffness of a member is active.
+    fn has_active_stiffness(&self) -> bool {
+        self.members.iter().any(|member| member.structure.has_active_stiffness())
+    }
+
+    fn tallest_storey(&self) -> Option<f64> {
+        self.members.iter().filter_map(|member| member.structure.tallest_storey()).reduce(f64::max)
+    }
+
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         for member in &self.members {
             if let Some(load) = load.get_mut(member.range()) {

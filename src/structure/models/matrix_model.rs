@@ -20,7 +20,7 @@ const DAMPING: &str = "damping matrix";
 /// reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
-/// checked here; a symmetric stiffness matrix must be so where the base is held, Lagrange
+/// checked here; the stiffness matrix must be symmetric, and positive semi-definite where the base is held, Lagrange
 /// multipliers excepted (see [`Structure::stiffness`]), which is checked when a simulation is built.
 ///
 /// ```
@@ -45,6 +45,8 @@ pub struct MatrixModel {
     faces: Vec<Vec<FaceNode>>,
     /// Whether the damping may feed energy in, and is not checked.
     active: bool,
+    /// Whether the stiffness may be unsymmetric.
+    active_stiffness: bool,
 }
 
 impl MatrixModel {
@@ -54,13 +56,14 @@ impl MatrixModel {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for fewer than two
     /// contact nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
-    /// coordinates or weights out of range or not finite, [`Error::Scene`](crate::Error::Scene) for a mass matrix that
+    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a mass matrix that
     /// is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for one with a negative mass, more than
     /// rounding.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
         let damping = Triplets::new(mass.order());
         let faces = Vec::new();
-        Self { mass, damping, stiffness, contact, faces, active: false }.checked()
+        Self { mass, damping, stiffness, contact, faces, active: false, active_stiffness: false }
+            .checked()
     }
 
     /// Structure with mass (kg) and stiffness (N/m) that touches a ground in plan with `faces`, as
@@ -87,7 +90,8 @@ impl MatrixModel {
     pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<FaceNode>>) -> Result<Self> {
         let damping = Triplets::new(mass.order());
         let contact = Vec::new();
-        Self { mass, damping, stiffness, contact, faces, active: false }.checked()
+        Self { mass, damping, stiffness, contact, faces, active: false, active_stiffness: false }
+            .checked()
     }
 
     /// The model, if its matrices and the points of its base are those of a structure.
@@ -105,7 +109,7 @@ impl MatrixModel {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for another order, [`Error::Index`](crate::Error::Index) and
     /// [`Error::Input`](crate::Error::Input) for entries out of range or not finite,
-    /// [`Error::Scene`](crate::Error::Scene) for a matrix that is not symmetric,
+    /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a matrix that is not symmetric,
     /// [`Error::Indefinite`](crate::Error::Indefinite) for one with negative damping, more than rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
         check_damping(&check(DAMPING, &damping, self.mass.order())?)?;
@@ -122,6 +126,13 @@ impl MatrixModel {
     pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
         check(DAMPING, &damping, self.mass.order())?;
         Ok(Self { damping, active: true, ..self })
+    }
+
+    /// Allows a stiffness matrix that is not symmetric ([`Structure::has_active_stiffness`]); no simulation takes it
+    /// otherwise.
+    #[must_use]
+    pub fn with_active_stiffness(self) -> Self {
+        Self { active_stiffness: true, ..self }
     }
 
     /// Replaces the damping by Rayleigh damping.
@@ -182,5 +193,9 @@ impl Structure for MatrixModel {
 
     fn has_active_damping(&self) -> bool {
         self.active
+    }
+
+    fn has_active_stiffness(&self) -> bool {
+        self.active_stiffness
     }
 }

@@ -347,6 +347,10 @@ impl Structure for ShearBuilding {
         3 + self.storeys.len()
     }
 
+    fn tallest_storey(&self) -> Option<f64> {
+        self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
+    }
+
     fn contact_nodes(&self) -> Vec<ContactNode> {
         let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
         ContactNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])

@@ -283,6 +283,10 @@ impl Structure for StoreyBuilding {
         6 + 3 * self.storeys.len()
     }
 
+    fn tallest_storey(&self) -> Option<f64> {
+        self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
+    }
+
     fn contact_nodes(&self) -> Vec<ContactNode> {
         Vec::new()
     }

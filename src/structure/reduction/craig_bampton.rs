@@ -14,7 +14,7 @@ use crate::error::{
     Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
 };
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{MASSLESS, SYMMETRIC, check_attached, numbers, restricted};
+use crate::structure::detached::{MASSLESS, check_attached, check_mirrored, numbers, restricted};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 
@@ -99,7 +99,7 @@ impl CraigBampton {
     /// for each of them and each degree of freedom of the full model.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a nonlinear structure or matrices that are not symmetric,
+    /// [`Error::Scene`] for a nonlinear structure, [`Error::Unsymmetric`] for matrices that are not symmetric,
     /// [`Error::Detached`] for a part that no stiffness joins to a kept degree of freedom, [`Error::Index`] for a
     /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than
     /// degrees of freedom are left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or its
@@ -110,7 +110,7 @@ impl CraigBampton {
         require_part("structure to be reduced", !is_nonlinear(&mut structure)?, needed)?;
         let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| -> Result<SparseMatrix> {
             let matrix = SparseMatrix::assembled(name, n, fill)?;
-            require_part(name, matrix.asymmetry() <= SYMMETRIC, "must be symmetric")?;
+            check_mirrored(name, &matrix)?;
             Ok(matrix)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
@@ -334,6 +334,16 @@ impl Structure for ReducedModel {
 
     fn has_active_damping(&self) -> bool {
         self.active
+    }
+
+    fn has_active_stiffness(&self) -> bool {
+        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        full.structure.has_active_stiffness()
+    }
+
+    fn tallest_storey(&self) -> Option<f64> {
+        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        full.structure.tallest_storey()
     }
 
     /// Kept degrees of freedom as the full model describes them, and modes.

@@ -12,7 +12,7 @@ mod run_checks;
 mod shaking;
 mod tally;
 
-use basemat::coupled::State;
+use basemat::coupled::{State, Warning};
 use proptest::prelude::*;
 use recipe::{Recipe, recipes};
 use run_checks::Scales;
@@ -44,6 +44,39 @@ fn every_run_is_finite_balanced_and_admissible() {
     let scenes = tally.counted("scenes");
     assert!(tally.counted("refused") < scenes / 4, "{tally}");
     assert!(tally.counted("changes of mode") > 5 * scenes, "{tally}");
+}
+
+/// Warnings of numbers in another unit, and of a run's end, are for those only: random scenes of usual weight under
+/// usual shaking earn none.
+#[test]
+fn sensible_scenes_earn_no_warning_of_units() {
+    let is_usual = |recipe: &Recipe| {
+        recipe.strength < 3.0 && recipe.weight() > 2e3 * recipe::WIDTH && !recipe.weightless
+    };
+    let strategy = recipes(1.0).prop_filter("usual weight and shaking", is_usual);
+    let tally = for_all("units", 40, &strategy, |recipe, tally| {
+        let Ok(mut simulation) = recipe.build(SI, 0) else { return Ok(()) };
+        let Ok(run) = simulation.run(200, |_| {}) else { return Ok(()) };
+        tally.count("runs", 1);
+        for warning in &run.warnings {
+            prop_assert!(!is_of_units(warning), "{warning}");
+        }
+        Ok(())
+    });
+    assert!(tally.counted("runs") > 20, "{tally}");
+}
+
+fn is_of_units(warning: &Warning) -> bool {
+    matches!(
+        warning,
+        Warning::UnusualMotion { .. }
+            | Warning::UnusualInterval { .. }
+            | Warning::LightStructure { .. }
+            | Warning::UnusualFriction { .. }
+            | Warning::TallStorey { .. }
+            | Warning::UnusualGravity { .. }
+            | Warning::EndsEarly { .. }
+    )
 }
 
 /// Forces and moments of the static state, against the weight that the pressures carry.

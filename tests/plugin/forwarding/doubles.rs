@@ -271,6 +271,11 @@ impl FreeField for Double {
         true
     }
 
+    fn records(&self) -> Vec<&Record> {
+        self.0.asked("records");
+        Vec::new()
+    }
+
     fn velocity(&self, x: f64, _: f64) -> [f64; 2] {
         self.0.asked("velocity");
         [CORRECT, x]

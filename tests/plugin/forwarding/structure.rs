@@ -75,6 +75,16 @@ impl Structure for Double {
         true
     }
 
+    fn has_active_stiffness(&self) -> bool {
+        self.log.asked("has_active_stiffness");
+        true
+    }
+
+    fn tallest_storey(&self) -> Option<f64> {
+        self.log.asked("tallest_storey");
+        Some(CORRECT)
+    }
+
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         self.log.asked("describe");
         Some(format!("places {dofs:?}"))
@@ -148,6 +158,8 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert_eq!(diagonal(&|m| part.stiffness(m)), 2.0 * CORRECT);
     assert!((diagonal(&|m| part.damping(m)) - damping).abs() < 1e-12);
     assert!(part.has_active_damping());
+    assert!(part.has_active_stiffness());
+    assert_eq!(part.tallest_storey(), Some(CORRECT));
     assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
     let mut load = [0.0; 4];
     part.load(0.25, &mut load).unwrap();

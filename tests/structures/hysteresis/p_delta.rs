@@ -131,6 +131,7 @@ fn a_collapse_ends_the_run() {
         .ground(SpringGround::new(-5.0..5.0, 4, 1.0e9, 1.0e9).unwrap())
         .interface(Bonded)
         .motion(el_centro_1940())
+        .rotation_limit(f64::INFINITY)
         .build()
         .unwrap();
     let Err(Error::Step { step, source, .. }) = simulation.run(2000, |_| {}) else {

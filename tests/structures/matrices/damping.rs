@@ -62,11 +62,11 @@ fn damping_that_feeds_energy_in_is_refused() {
         (matrix(&[(0, 3, 2e4), (3, 0, 2e4)]), indefinite(3, 0.0)),
         (
             matrix(&[(0, 3, 2e4), (3, 0, -2e4)]),
-            Error::Scene { quantity: name, needed: "must be symmetric" },
+            Error::Unsymmetric { matrix: name, row: 0, column: 3, entries: [2e4, -2e4] },
         ),
         (
             matrix(&[(3, 3, 1e4), (0, 0, 1e4), (0, 3, -1e4)]),
-            Error::Scene { quantity: name, needed: "must be symmetric" },
+            Error::Unsymmetric { matrix: name, row: 0, column: 3, entries: [-1e4, 0.0] },
         ),
     ] {
         let same = |found: Error| match (&found, &expected) {

@@ -80,7 +80,10 @@ fn bad_matrices_are_refused() {
     assert!(matches!(new(one(), diagonal(3, f64::INFINITY), contact()), Err(Error::Input { .. })));
     let mut skew = one();
     skew.add(0, 1, 0.5);
-    assert!(matches!(new(skew, one(), contact()), Err(Error::Scene { .. })));
+    assert!(matches!(
+        new(skew, one(), contact()),
+        Err(Error::Unsymmetric { row: 0, column: 1, entries: [0.5, 0.0], .. })
+    ));
     let mut outside = one();
     outside.add(0, 3, 0.5);
     assert!(matches!(new(one(), outside, contact()), Err(Error::Index { .. })));

@@ -8,7 +8,8 @@ use basemat::Error;
 use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::Coulomb;
-use basemat::structure::{CraigBampton, FemModel, MatrixModel, Structure, Triplets};
+use basemat::motion::el_centro_1940;
+use basemat::structure::{ContactNode, CraigBampton, FemModel, MatrixModel, Structure, Triplets};
 use basemat::{Result, Simulation, Soil};
 
 /// The model by its matrices: every entry of K through `change`, and a spring to a fixed point, of a
@@ -121,5 +122,86 @@ fn matrices_of_few_digits_are_refused() {
             }
             other => panic!("{count}: {other:?}"),
         }
+    }
+}
+
+/// A tower on a rigid mat after Craig and Bampton: x, y, rotation and one mode in a `unit` of its own, with
+/// `interface` stiffness where there is none but for rounding.
+fn craig_bampton(unit: f64, interface: [[f64; 2]; 2]) -> MatrixModel {
+    let (weight, participation, height, circular) =
+        (4.0e5, 2.0e2, 40.0, 2.4 * std::f64::consts::PI);
+    let mass = [
+        [weight, 0.0, -5.0 * weight, participation],
+        [0.0, weight, 0.0, 0.0],
+        [-5.0 * weight, 0.0, 300.0 * weight, -participation * height],
+        [participation, 0.0, -participation * height, 1.0],
+    ];
+    let units = [1.0, 1.0, 1.0, unit];
+    let mut scaled = Triplets::new(4);
+    for (i, row) in mass.iter().enumerate() {
+        for (j, value) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            scaled.add(i, j, units[i] * units[j] * value);
+        }
+    }
+    let mut stiffness = Triplets::new(4);
+    stiffness.add(3, 3, (circular * unit).powi(2));
+    for (i, row) in interface.iter().enumerate() {
+        row.iter().enumerate().for_each(|(j, value)| stiffness.add(i, j, *value));
+    }
+    let contact = ContactNode::rigid_base(-7.0, 7.0, [0, 1, 2]);
+    MatrixModel::new(scaled, stiffness, contact).unwrap()
+}
+
+fn on_stiff_soil(structure: MatrixModel) -> Result<Simulation> {
+    let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap();
+    Simulation::builder(0.005)
+        .ground(ElasticGround::under(soil, &structure, 8).unwrap())
+        .structure(structure)
+        .interface(Coulomb::new(0.6).unwrap())
+        .motion(el_centro_1940())
+        .build()
+}
+
+/// Rounding of the interface is a period of days under the tower's mass, whatever the unit of its mode.
+#[test]
+fn rounding_beside_a_rigid_base_is_no_support() {
+    let shear = |unit: f64, interface: [[f64; 2]; 2]| {
+        let mut simulation = on_stiff_soil(craig_bampton(unit, interface)).unwrap();
+        simulation.run(400, |_| {}).unwrap().whole.base_shear.magnitude()
+    };
+    let exact = shear(1.0, [[0.0; 2]; 2]);
+    for unit in [1.0, 1e2, 1e4] {
+        for interface in
+            [[[1e-6, 0.0], [0.0; 2]], [[1e-3, 3e-4], [2e-4, -1e-3]], [[-1e-3, 0.0], [0.0, 1e-3]]]
+        {
+            let found = shear(unit, interface);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{unit:e} {interface:?}: {found} {exact}");
+        }
+    }
+    // 1 N/m is none.
+    let built = on_stiff_soil(craig_bampton(1.0, [[1.0, 0.0], [0.0; 2]]));
+    assert!(matches!(built, Err(Error::Restrained { .. })), "{:?}", built.err());
+}
+
+/// Stiffness of one half of a matrix only is an error that names its place, in any unit, unless it is meant.
+#[test]
+fn unsymmetric_stiffness_is_refused_unless_active() {
+    for unit in [1.0, 1e2, 1e4] {
+        let mut stiffness = Triplets::new(4);
+        craig_bampton(unit, [[0.0; 2]; 2]).stiffness(&mut stiffness).unwrap();
+        // Follows the mode, and presses on the base without a reaction.
+        stiffness.add(2, 3, 1e2 * unit);
+        let mut mass = Triplets::new(4);
+        let symmetric = craig_bampton(unit, [[0.0; 2]; 2]);
+        symmetric.mass(&mut mass).unwrap();
+        let model = MatrixModel::new(mass, stiffness, symmetric.contact_nodes()).unwrap();
+        match on_stiff_soil(model.clone()).err() {
+            Some(Error::Unsymmetric { matrix: "stiffness matrix", row: 2, column: 3, entries }) => {
+                assert_eq!(entries, [1e2 * unit, 0.0]);
+            }
+            other => panic!("{other:?}"),
+        }
+        let active = model.with_active_stiffness();
+        assert!(active.has_active_stiffness() && on_stiff_soil(active).is_ok());
     }
 }

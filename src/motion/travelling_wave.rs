@@ -1,0 +1,116 @@
+//! Free fields that run along the surface.
+
+use super::Record;
+use super::free_field::{FreeField, differenced};
+use crate::error::{Result, finite, require};
+
+/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c); in plan in any direction.
+///
+/// ```
+/// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
+/// // 800 m/s along x, first at x = −5 m.
+/// let wave = TravellingWave::new(el_centro_1940(), 800.0, -5.0)?;
+/// let first = wave.displacement(-5.0, 2.0);
+/// let later = wave.displacement(3.0, 2.01);
+/// assert!((first[0] - later[0]).abs() < 1e-15 && first[0] != 0.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct TravellingWave {
+    field: Box<dyn FreeField>,
+    slowness: f64,
+    origin: f64,
+    /// Cosine and sine of the azimuth.
+    direction: [f64; 2],
+}
+
+short_debug! {
+    TravellingWave; self; apparent_velocity: 1.0 / self.slowness, origin: self.origin
+}
+
+impl TravellingWave {
+    /// `field` as it is at `origin` (m), running along x with the apparent velocity c
+    /// (`apparent_velocity`, m/s): to the right if positive, everywhere at once if infinite.
+    ///
+    /// Points reached before `origin` would have moved before t = 0, and start with a jump: let it be
+    /// the edge of the base that the wave reaches first.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a velocity of zero or NaN, or an origin that is not finite.
+    pub fn new(
+        field: impl FreeField + 'static,
+        apparent_velocity: f64,
+        origin: f64,
+    ) -> Result<Self> {
+        let slowness = 1.0 / apparent_velocity;
+        let needed = "not zero (infinite: everywhere at once)";
+        require("apparent velocity", apparent_velocity, slowness.is_finite(), needed)?;
+        let origin = finite("origin of a wave", origin)?;
+        Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
+    }
+
+    /// This wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
+    /// counter-clockwise from x as seen from above, and its components along and across that direction turn with it.
+    /// `origin` counts from (0, 0) in that direction. A ground in the plane moves with its components along x and up,
+    /// at y = 0.
+    ///
+    /// ```
+    /// use basemat::motion::{FreeField, PlaneWave, el_centro_1940};
+    /// use basemat::Soil;
+    /// use std::f64::consts::FRAC_PI_2;
+    /// // SH at 30° from the vertical, running away from the reader: it moves the ground to the left.
+    /// let soil = Soil::from_shear_wave_speed(250.0, 0.3, 1900.0)?;
+    /// let wave = PlaneWave::sh(soil, 30.0_f64.to_radians())?;
+    /// let field = wave.field_from_across(&el_centro_1940(), -10.0)?.with_azimuth(FRAC_PI_2)?;
+    /// let [x, y, up] = field.displacement_at([3.0, -10.0], 4.0);
+    /// assert!((x + el_centro_1940().at(4.0).displacement).abs() < 1e-15);
+    /// assert!(y.abs() < 1e-15 && up == 0.0);
+    /// // It passes a mat of 20 m in 40 ms, and turns it.
+    /// let later = field.displacement_at([3.0, 10.0], 4.04);
+    /// assert!((x - later[0]).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `azimuth` is finite.
+    pub fn with_azimuth(self, azimuth: f64) -> Result<Self> {
+        let (sin, cos) = finite("azimuth of a wave", azimuth)?.sin_cos();
+        Ok(Self { direction: [cos, sin], ..self })
+    }
+
+    /// Time (s) at which the motion of `origin` reaches a place.
+    fn delay(&self, [x, y]: [f64; 2]) -> f64 {
+        let [cos, sin] = self.direction;
+        self.slowness * (cos * x + sin * y - self.origin)
+    }
+}
+
+impl FreeField for TravellingWave {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        let [along, _, up] = self.displacement_at([x, 0.0], time);
+        [along, up]
+    }
+
+    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
+        let ([cos, sin], [x, y]) = (self.direction, place);
+        let own = [self.origin, cos * y - sin * x];
+        let [along, across, up] = self.field.displacement_at(own, time - self.delay(place));
+        [cos * along - sin * across, sin * along + cos * across, up]
+    }
+
+    fn moves_across(&self) -> bool {
+        // The sine of π is a rounding.
+        self.direction[1].abs() > f64::EPSILON || self.field.moves_across()
+    }
+
+    fn records(&self) -> Vec<&Record> {
+        self.field.records()
+    }
+
+    fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
+        if self.direction == [1.0, 0.0] {
+            self.field.velocity(self.origin, time - self.delay([x, 0.0]))
+        } else {
+            differenced(self, x, time)
+        }
+    }
+}
