@@ -186,6 +186,10 @@ impl Table {
             let refuse = |why| lines.refuse(in_header(why, &fields, columns.is_none()));
             if columns.is_none() {
                 chosen = chosen_columns(format, all, found);
+                // Without times nothing else tells `Station 7` from a sample.
+                if let Some(field) = first_word(&fields).filter(|_| format.time_step.is_some()) {
+                    return Err(lines.refuse(RecordError::HeaderLine { text: excerpt(field) }));
+                }
             }
             if format.time_step.is_none() {
                 table
@@ -304,17 +308,22 @@ fn names(
 
 /// The fault of a line before all numbers, whose first field is no number: a line of a header.
 fn in_header(why: RecordError, fields: &Fields, no_number_yet: bool) -> RecordError {
-    let words = |field: &&str| field.contains(char::is_alphabetic) && !is_like_number(field);
     let of_header = matches!(
         why,
         RecordError::NotANumber { .. }
             | RecordError::Column { .. }
             | RecordError::SeveralColumns { .. }
     );
-    match fields.texts.first().filter(|field| of_header && no_number_yet && words(field)) {
+    match first_word(fields).filter(|_| of_header && no_number_yet) {
         Some(field) => RecordError::HeaderLine { text: excerpt(field) },
         None => why,
     }
+}
+
+/// The first field of a line, if it is a word.
+fn first_word<'a>(fields: &Fields<'a>) -> Option<&'a str> {
+    let first = fields.texts.first().copied();
+    first.filter(|field| field.contains(char::is_alphabetic) && !is_like_number(field))
 }
 
 /// `value` rounded to twelve digits: differences of printed decimals are decimals.

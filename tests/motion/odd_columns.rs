@@ -212,6 +212,14 @@ fn lines_of_header_are_passed_over() {
     for lines in [0, 1] {
         assert!(Record::from_reader("text", text.as_bytes(), &after(lines)).is_err(), "{lines}");
     }
+    // A number of the header in the column of the accelerations is no sample.
+    let second = ColumnFormat { acceleration_column: Some(2), ..alone() };
+    let text_alone = "Station 7\nPGA 0.3\n9 1\n9 2\n";
+    assert_eq!(
+        refusal(text_alone, &second),
+        (1, RecordError::HeaderLine { text: "Station".into() })
+    );
+    is_read(text_alone, &ColumnFormat { header_lines: 2, ..second }, &[1.0, 2.0]);
     let (_, reason) = refusal(text, &after(9));
     assert_eq!(reason, RecordError::TooShort { found: 0, needed: 2 });
     let (_, reason) = refusal("one\nt (ms),a\n0,1\n0.02,2\n", &after(2));
