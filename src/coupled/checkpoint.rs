@@ -284,6 +284,7 @@ impl Simulation {
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         state.update_resultants(scene);
         (self.state, self.books) = (state, books);
+        self.scene.loads.iter_mut().for_each(|load| load.set(None));
         Ok(())
     }
 

@@ -143,6 +143,12 @@ impl std::fmt::Debug for Motion {
 /// thickness), for that of a rotation a moment. Its value at t = 0 belongs to the static state, after
 /// the weight; what acts suddenly is zero there.
 ///
+/// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once, at
+/// the time at which the scheme writes the equation of motion: t + Δt/2 for [`Midpoint`](super::Midpoint) and
+/// [`DissipativeMidpoint`](super::DissipativeMidpoint), t + Δt for [`Newmark`](super::Newmark). The iterations of a
+/// nonlinear structure use this one value; a step that failed and is tried again evaluates the load again. A force that
+/// follows from the state, as a controller's does, is [set](crate::Simulation::set_load) between the steps.
+///
 /// ```
 /// use basemat::Simulation;
 /// use basemat::bem::ElasticGround;
@@ -262,18 +268,25 @@ pub(crate) struct SteppedLoad {
     row: Weights,
     /// Force in the static state.
     at_start: f64,
+    /// Force that was set in place of the load's own.
+    set: Option<f64>,
 }
 
 impl SteppedLoad {
     pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
         let row = transformation.row(&load.row);
         let at_start = if is_static { load.value(0.0) } else { 0.0 };
-        Self { load, row, at_start }
+        Self { load, row, at_start, set: None }
+    }
+
+    /// Sets the force from now on; `None` returns to the load's own.
+    pub(crate) fn set(&mut self, value: Option<f64>) {
+        self.set = value;
     }
 
     /// Adds the force at `time`, less that of the static state, to `force`; returns its value.
     pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
-        let value = self.load.value(time) - self.at_start;
+        let value = self.set.unwrap_or_else(|| self.load.value(time)) - self.at_start;
         if value != 0.0 {
             self.row.add(value, force);
         }

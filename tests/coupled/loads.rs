@@ -592,3 +592,42 @@ fn glued_bases_are_not_said_to_slide() {
     let error = glued(9.0, 1.5).build().map(|_| ()).unwrap_err();
     assert!(!error.to_string().contains("pushes it off"), "{error}");
 }
+
+/// A load that is set before every step is one by a function; a checkpoint returns to the function.
+#[test]
+fn a_load_that_is_set_acts_from_then_on() {
+    let push = |time: f64| 200.0e3 * (12.0 * time).sin();
+    let scene = |value: fn(f64) -> f64| {
+        let block = block();
+        let roof = block.horizontal_at(9.0);
+        let loads = [Load::constant(roof.clone(), 30.0e3), Load::new(roof, value)];
+        let builder = on_half_plane(block).interface(Coulomb::new(0.5).unwrap());
+        loads.into_iter().fold(builder, SimulationBuilder::load).build().unwrap()
+    };
+    let mut known = scene(push);
+    let mut set = scene(|_| 0.0);
+    let start = set.checkpoint().unwrap();
+    for _ in 0..200 {
+        let middle = known.state().time + 0.5 * known.time_step();
+        set.set_load(1, push(middle)).unwrap();
+        known.step().unwrap();
+        set.step().unwrap();
+    }
+    assert_eq!(set.state().displacement(), known.state().displacement());
+    assert!(known.state().base_shear.abs() > 50.0e3);
+
+    // Its own function again, by `None` and by a checkpoint.
+    let mut rest = scene(|_| 0.0);
+    set.resume(&start).unwrap();
+    let mut other = scene(|_| 0.0);
+    other.set_load(1, 1e6).unwrap();
+    other.set_load(1, None).unwrap();
+    for simulation in [&mut set, &mut other, &mut rest] {
+        simulation.run(20, |_| {}).unwrap();
+    }
+    assert_eq!(set.state().displacement(), rest.state().displacement());
+    assert_eq!(other.state().displacement(), rest.state().displacement());
+    let unknown = rest.set_load(2, 1.0).unwrap_err();
+    assert!(matches!(unknown, Error::Index { index: 2, bound: 2, .. }), "{unknown}");
+    assert!(matches!(rest.set_load(0, f64::NAN), Err(Error::NotFinite { index: 0, .. })));
+}
