@@ -80,13 +80,17 @@ mod diagnosis;
 mod energy_accumulator;
 mod energy_balance;
 pub(crate) mod foundation;
+mod free_vibration;
+mod interaction;
 mod motion;
 
 mod refine;
+mod refine_each;
 mod resolution;
 pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
+mod sensitivity;
 pub(crate) mod simulation;
 mod state;
 mod step;
@@ -94,8 +98,8 @@ mod variation;
 mod warning;
 
 pub use build::SimulationBuilder;
+pub use build::coordinates::Coordinates;
 pub use build::gravity_stage::GravityStage;
-pub use build::parts::Coordinates;
 pub use checkpoint::Checkpoint;
 pub use diagnosis::Conditioning;
 pub use energy_balance::{EnergyBalance, EnergyTerm};
@@ -105,11 +109,14 @@ pub(crate) use run::peak::probe_index;
 
 pub use crate::structure::probe::Probe;
 pub use foundation::Foundation;
+pub use interaction::{Interaction, SystemMode, interaction};
 pub use refine::{Refinement, Setting, largest_convergent_step, refine};
+pub use refine_each::{Refinements, refine_each};
 pub(crate) use resolution::Resolution;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
+pub use sensitivity::{PeakTwins, Sensitivity, sensitivity};
 pub use simulation::Observed;
 pub(crate) use state::{Context, Sequence};
 pub use state::{State, Transition};

@@ -74,7 +74,16 @@ pub struct Refinement {
 /// and all that hangs on the instant of an impact, do so less.
 ///
 /// The last run, twice the elements with half the step, checks the estimate
-/// ([`Refinement::mismatch`]).
+/// ([`Refinement::mismatch`]). An estimate that passes the check may still be too low where the base slides or opens:
+/// 2.4 times for one of six settings of a sliding block. [`sensitivity`](super::sensitivity()) finds peaks that no
+/// setting determines.
+///
+/// On layered ground [`Stages::for_profile`](crate::bem::layered::Stages::for_profile) chooses two or three Runge–Kutta
+/// stages by the error at 15 Hz, a frequency that is not scaled with the scene. A refined or rescaled scene may
+/// therefore change its number of stages, and its results then do not converge evenly:
+/// [`with_stages`](crate::bem::ElasticGround::with_stages) keeps it.
+///
+/// [`refine_each`](super::refine_each) estimates the errors of several peaks in one call.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
@@ -115,6 +124,15 @@ pub fn refine(
     time_step: f64,
     mut scene: impl FnMut(usize, f64) -> Result<Vec<f64>>,
 ) -> Result<Refinement> {
+    settings(elements, time_step, &mut scene).map(Refinement::of)
+}
+
+/// Runs the scene at the six settings, their errors still unknown.
+pub(super) fn settings(
+    elements: usize,
+    time_step: f64,
+    scene: &mut dyn FnMut(usize, f64) -> Result<Vec<f64>>,
+) -> Result<Vec<Setting>> {
     const NAME: &str = "list of a scene's results";
     positive("number of elements", elements as f64)?;
     positive("time step", time_step)?;
@@ -132,7 +150,7 @@ pub fn refine(
         all_finite(NAME, &results)?;
         settings.push(Setting { elements, time_step, error: f64::NAN, wall, results });
     }
-    Ok(Refinement::of(settings))
+    Ok(settings)
 }
 
 /// Errors of three results, the length halved from each to the next, and their order.
@@ -159,7 +177,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl Refinement {
-    fn of(mut settings: Vec<Setting>) -> Self {
+    pub(super) fn of(mut settings: Vec<Setting>) -> Self {
         let of = |k: usize| &settings[k].results[..];
         let (steps, step_order) = errors([of(0), of(1), of(2)]);
         let (meshes, mesh_order) = errors([of(0), of(3), of(4)]);
@@ -193,29 +211,59 @@ impl Refinement {
     }
 }
 
-impl fmt::Display for Refinement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let row = |setting: &Setting| {
-            vec![
-                setting.elements.to_string(),
-                format!("{:.3e}", setting.time_step),
-                format!("{:.1e}", setting.error),
-                format!("{:.3}", setting.wall.as_secs_f64()),
-            ]
-        };
-        let heading = ["elements", "step, s", "error", "run time, s"].map(String::from).to_vec();
-        let rows = self.settings.iter().map(row).collect();
-        writeln!(f, "{}", Table { heading, repeated: 1, rows }.text())?;
+impl Refinement {
+    /// Orders of convergence, and the advice of an irregular one.
+    pub(super) fn notes(&self) -> String {
         let Self { mesh_order, step_order, mismatch, .. } = self;
-        write!(
-            f,
+        let mut notes = format!(
             "order of convergence: {mesh_order:.1} in the element length, {step_order:.1} in the \
              time step; mismatch {mismatch:.1e}"
-        )?;
+        );
         if !self.is_regular() {
-            write!(f, "\nnot regular: refine further before you trust these errors")?;
+            notes += "\nnot regular: refine further before you trust these errors (on layers, fix the number of \
+                      stages: by rule it changes with the step)";
         }
-        Ok(())
+        notes
+    }
+}
+
+/// Settings in rows, with value and error of each refinement; a name for each.
+pub(super) fn table(refinements: &[(&str, &Refinement)]) -> String {
+    let mut heading = ["elements", "step, s", "run time, s"].map(String::from).to_vec();
+    let settings = refinements.first().map_or(&[][..], |(_, first)| &first.settings);
+    let row = |setting: &Setting| {
+        let Setting { elements, time_step, wall, .. } = setting;
+        let wall = format!("{:.3}", wall.as_secs_f64());
+        vec![elements.to_string(), format!("{time_step:.3e}"), wall]
+    };
+    let mut rows: Vec<_> = settings.iter().map(row).collect();
+    let mut last = vec!["extrapolated".to_owned(), String::new(), String::new()];
+    let mut has_values = false;
+    for (name, refinement) in refinements {
+        // A time series has no place in a cell.
+        if let [extrapolated] = refinement.extrapolated[..] {
+            has_values = true;
+            heading.push((*name).to_owned());
+            last.push(format!("{extrapolated:.4e}"));
+            for (row, setting) in rows.iter_mut().zip(&refinement.settings) {
+                row.extend(setting.results.iter().map(|value| format!("{value:.4e}")));
+            }
+        }
+        heading.push("error".to_owned());
+        last.push(String::new());
+        for (row, setting) in rows.iter_mut().zip(&refinement.settings) {
+            row.push(format!("{:.1e}", setting.error));
+        }
+    }
+    if has_values {
+        rows.push(last);
+    }
+    Table { heading, repeated: 2, rows }.text()
+}
+
+impl fmt::Display for Refinement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", table(&[("result", self)]), self.notes())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::build::held::holds;
 use super::diagnosis::Conditioning;
 use super::energy_accumulator::EnergyAccumulator;
 use super::resolution::Resolution;
@@ -12,7 +13,7 @@ use super::step::{Forcing, Increment, StepData};
 use super::warning::Warning;
 use crate::bem::Ground;
 use crate::coupled::run::Run;
-use crate::error::{Error, Observer, Result, StepError};
+use crate::error::{Error, Observer, Result, StepError, in_bounds};
 use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
@@ -162,6 +163,59 @@ impl Simulation {
         self.ground.as_ref()
     }
 
+    /// Sets the force of the load number `index` (from 0, in the order given to the builder) for all steps from now on.
+    ///
+    /// `value` is the whole force, the static one included, in place of the load's function of time; `None` returns to
+    /// that function. A controller computes it from the last state and sets it before each step:
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::{Load, Probe};
+    /// use basemat::interface::Bonded;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::{ShearBuilding, Storey};
+    /// use basemat::{Result, Simulation};
+    ///
+    /// // A roof that moves at 1 m/s relative to the base is held back by 800 kN/m.
+    /// let largest_drift = |gain: f64| -> Result<f64> {
+    ///     let building =
+    ///         ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 20.0e6); 4])?;
+    ///     let drift = building.total_drift(3)?;
+    ///     let mut simulation = Simulation::builder(0.005)
+    ///         .ground(SpringGround::under(&building, 8, 4e7, 3e7)?)
+    ///         .interface(Bonded)
+    ///         .motion(el_centro_1940())
+    ///         .probe(Probe::velocity("drift", drift.clone()))
+    ///         .probe(Probe::displacement("total drift", drift.clone()))
+    ///         .load(Load::constant(drift, 0.0))
+    ///         .structure(building)
+    ///         .build()?;
+    ///     let mut run = simulation.begin_run();
+    ///     for _ in 0..1000 {
+    ///         let velocity = simulation.state().probes[0];
+    ///         simulation.set_load(0, -gain * velocity)?;
+    ///         run.record(simulation.step()?);
+    ///     }
+    ///     Ok(run.probe("total drift")?.magnitude())
+    /// };
+    /// assert!(largest_drift(800.0e3)? < 0.8 * largest_drift(0.0)?);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// A checkpoint does not hold the value: [`resume`](Simulation::resume) returns every load to its own function.
+    ///
+    /// # Errors
+    /// [`Error::Index`] unless the builder was given such a load, [`Error::NotFinite`] for a value that is not finite.
+    pub fn set_load(&mut self, index: usize, value: impl Into<Option<f64>>) -> Result<()> {
+        let (bound, value) = (self.scene.loads.len(), value.into());
+        in_bounds("load", index, bound)?;
+        if let Some(value) = value.filter(|value| !value.is_finite()) {
+            return Err(Error::NotFinite { quantity: "external load", index, value });
+        }
+        self.scene.loads[index].set(value);
+        Ok(())
+    }
+
     /// The probes, in the order of [`State::probes`].
     pub fn probes(&self) -> &[Probe] {
         &self.scene.context.probes
@@ -260,7 +314,9 @@ impl Simulation {
 
     /// Closes a run of this simulation: its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
-        let opens = |element| self.scene.law(element).modes().contains(&Mode::Open);
+        // A base that is held is meant to be pulled.
+        let held = holds(self.ground.as_ref());
+        let opens = |element| held || self.scene.law(element).modes().contains(&Mode::Open);
         let (ground, motion) = (self.ground.as_ref(), self.motion.as_ref());
         run.finish(ground, motion, opens, &self.warnings, [self.drag, self.rotation_limit]);
         run

@@ -6,6 +6,7 @@ mod conveniences;
 mod coordinates;
 mod energy_balance;
 mod forms;
+mod interaction;
 mod layered;
 mod layered_scenes;
 mod loads;

@@ -127,3 +127,16 @@ fn pages_and_tables() {
     let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
     assert_eq!(last[1].parse(), Ok(time_series.series(Quantity::BaseShear)[STEPS]));
 }
+
+#[test]
+fn a_page_says_where_most_of_the_base_opens() {
+    let mut seen = Vec::new();
+    for strength in [0.1, 2.5] {
+        let builder = scene(SI, strength).structure(block(SI)).interface(friction(0.8));
+        let run = builder.build().unwrap().run(STEPS, |_| {}).unwrap();
+        let is_open = run.whole.uplifted_fraction.highest.value > 0.5;
+        assert_eq!(run.to_string().contains("most of the base opens"), is_open, "{run}");
+        seen.push(is_open);
+    }
+    assert_eq!(seen, [false, true]);
+}

@@ -5,6 +5,7 @@
 mod cells;
 mod elastic;
 mod equations;
+mod interaction;
 mod march;
 mod mast;
 mod motions;

@@ -7,8 +7,10 @@
 //! 5. the scene, and again in `statics.rs` the motion at t = 0.
 
 pub(crate) mod assembled;
+pub(crate) mod coordinates;
 pub(crate) mod equilibrium;
 pub(crate) mod gravity_stage;
+pub(crate) mod held;
 mod krylov;
 pub(crate) mod parts;
 mod statics;
@@ -36,9 +38,10 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
+use coordinates::Coordinates;
 use gravity_stage::GravityStage;
+use parts::Parts;
 pub use parts::SimulationBuilder;
-use parts::{Coordinates, Parts};
 use stepped::Stepped;
 
 impl Simulation {
@@ -228,6 +231,37 @@ impl SimulationBuilder {
     #[must_use]
     pub fn rotation_limit(mut self, limit: f64) -> Self {
         self.rotation_limit = limit;
+        self
+    }
+
+    /// Holds the base: each foundation keeps its shape and moves with the free field under it, as codes and fixed-base
+    /// models have it. Ground and interface law are left out, but for the places of the contact elements; base shear,
+    /// moment and tractions are those of the support. [`interaction`](crate::coupled::interaction()) compares the run
+    /// with that on the ground.
+    ///
+    /// ```
+    /// use basemat::bem::ElasticGround;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::{ShearBuilding, Storey};
+    /// use basemat::{Simulation, Soil};
+    ///
+    /// let building = ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 20.0e6); 4])?;
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &building, 8)?)
+    ///     .structure(building)
+    ///     .interface(Coulomb::new(0.5)?)
+    ///     .motion(el_centro_1940())
+    ///     .on_fixed_base()
+    ///     .build()?;
+    /// let run = simulation.run(500, |_| {})?;
+    /// assert!(run.whole.base_rotation.magnitude() < 1e-7);
+    /// assert!(run.whole.base_shear.magnitude() > 0.0);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    #[must_use]
+    pub fn on_fixed_base(mut self) -> Self {
+        self.held = true;
         self
     }
 

@@ -1,9 +1,10 @@
 //! The structure in the coordinates that are stepped: the choice between degrees of freedom, modes and Ritz modes.
 
 use super::assembled::Assembled;
+use super::coordinates::Coordinates;
 use super::equilibrium::StaticState;
 use super::krylov::Reduction;
-use super::parts::{Coordinates, Parts};
+use super::parts::Parts;
 use super::subspace::{DECOUPLED, transpose};
 use crate::coupled::diagnosis::mechanism::unresisted;
 use crate::coupled::scene::base::Base;

@@ -15,6 +15,8 @@ use crate::text::table::Table;
 const MOST_ROWS: usize = 12;
 /// Lever of the outermost elements in plan, of half the width, that needs no advice.
 const ENOUGH: f64 = 0.93;
+/// Open part of the base above which small changes of a scene may change its peaks.
+const MOSTLY_OPEN: f64 = 0.5;
 
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -174,6 +176,12 @@ impl Run {
             "  {:.3} s in {} intervals, the longest {:.3} s; {:.3} s without contact",
             uplift.duration, uplift.count, uplift.longest, uplift.flight
         )?;
+        if uplifted.value > MOSTLY_OPEN {
+            writeln!(
+                f,
+                "  most of the base opens: not every digit of a peak may hold (`sensitivity` counts them)"
+            )?;
+        }
         let (sliding, mean) = (&self.whole.sliding, self.whole.mean_slip.largest());
         writeln!(f, "Sliding")?;
         writeln!(

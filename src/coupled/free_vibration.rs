@@ -1,0 +1,234 @@
+//! The first mode on a fixed base, and the free vibration of the structure on its ground that begins in its shape.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | φ, ω | mode on the fixed base, circular frequency |
+//! | p = K φ | load that deflects the structure by φ, in balance with the reactions of its base |
+//! | η = pᵀu/(φᵀK φ) | part of the mode in the displacement; rigid motions of the base have none, since K r = 0 |
+//!
+//! Under p the ground carries nothing. When the load is released, inertia takes its place and moves the base.
+
+use std::f64::consts::TAU;
+
+use super::build::SimulationBuilder;
+use super::build::gravity_stage::GravityStage;
+use super::motion::Load;
+use super::scheme::Midpoint;
+use crate::error::{Error, Result};
+use crate::interface::Bonded;
+use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
+use crate::motion::{AtRest, STANDARD_GRAVITY};
+use crate::structure::probe::Probe;
+use crate::structure::{
+    DofCombination, HeldBase, Structure, base_nodes, check_base_nodes, stiffest,
+};
+
+/// Springs that hold the base, over the largest stiffness.
+const HELD: f64 = 1e6;
+/// Modes among which the one with the most mass is sought.
+const MODES: usize = 12;
+/// Part of the stiffness that springs of the base may have in a mode of the structure.
+const OF_THE_BASE: f64 = 0.5;
+/// Part of the mass that a mode moves at least.
+const LEAST_MASS: f64 = 1e-3;
+/// Base shear in the deflected shape, over the weight: small, so that nothing yields.
+const DEFLECTION: f64 = 1e-3;
+/// Steps of the free vibration in a period T, at least.
+const STEPS: f64 = 40.0;
+/// Half periods that are looked at, and most periods T that they may take.
+const HALF_PERIODS: usize = 10;
+const MOST_PERIODS: f64 = 60.0;
+/// Amplitude, relative to the first, below which nothing is looked at.
+const DECAYED: f64 = 1e-3;
+/// Misfit of one decaying mode, relative to the amplitude, that counts as none.
+const MISFIT: f64 = 0.1;
+
+/// Vibration mode of a structure with its contact nodes held.
+pub(super) struct FixedBaseMode {
+    /// 2π/ω, s.
+    pub(super) period: f64,
+    /// φᵀC φ/(2ω φᵀM φ).
+    pub(super) damping: f64,
+    /// η of displacements.
+    row: DofCombination,
+    /// Load p of the deflection.
+    load: DofCombination,
+}
+
+impl FixedBaseMode {
+    /// The mode of `structure` with the most mass along x (0) or y (1); `None` of one that is rigid.
+    pub(super) fn of(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
+        let n = structure.dofs();
+        let mass = SparseMatrix::assembled("mass matrix", n, &|m| structure.mass(m))?;
+        let damping = SparseMatrix::assembled("damping matrix", n, &|m| structure.damping(m))?;
+        let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|m| {
+            structure.stiffness(m)?;
+            structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], m))
+        })?;
+        let nodes = base_nodes(structure);
+        check_base_nodes(&nodes, n)?;
+        let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
+        let mut factor = held.factor()?;
+        let Some(mut along) = held.pulls().into_iter().nth([0, 2][axis]) else { return Ok(None) };
+        factor.solve(&mut along);
+        let total = mass.form(&along, &along);
+        let Some((squares, modes)) = lowest_modes(&factor, &mass, MODES) else { return Ok(None) };
+        let mut momentum = vec![0.0; n];
+        mass.multiply_add(1.0, &along, &mut momentum);
+        let own = squares
+            .iter()
+            .zip(modes.chunks_exact(n))
+            .filter(|(square, mode)| stiffness.form(mode, mode) > OF_THE_BASE * **square);
+        let moved = own.map(|(square, mode)| (dot(mode, &momentum), *square, mode));
+        let most = moved.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let Some((part, square, mode)) = most.filter(|own| own.0.powi(2) > LEAST_MASS * total)
+        else {
+            return Ok(None);
+        };
+        let mut force = vec![0.0; n];
+        stiffness.multiply_add(1.0, mode, &mut force);
+        let energy = dot(mode, &force);
+        let circular = square.sqrt();
+        // Base shear ω² φᵀM r of a unit amplitude.
+        let amplitude = DEFLECTION * STANDARD_GRAVITY * total / (square * part.abs());
+        let scaled = |factor: f64| force.iter().map(|own| factor * own).enumerate().collect();
+        Ok(Some(Self {
+            period: TAU / circular,
+            damping: damping.form(mode, mode) / (2.0 * circular),
+            row: scaled(1.0 / (energy * amplitude)),
+            load: scaled(amplitude),
+        }))
+    }
+}
+
+/// Period (s) and damping ratio of the free vibration on the ground that begins in the shape of `mode`.
+pub(super) fn free_vibration(
+    mut builder: SimulationBuilder,
+    mode: &FixedBaseMode,
+) -> Result<[f64; 2]> {
+    let step = builder.time_step.min(mode.period / STEPS);
+    builder.time_step = step;
+    builder.loads = vec![Load::released(mode.load.clone(), 1.0)];
+    builder.probes = vec![Probe::displacement("mode", mode.row.clone())];
+    builder.steps = 0;
+    builder.displacement.clear();
+    builder.velocity.clear();
+    if builder.gravity == 0.0 {
+        builder.gravity = STANDARD_GRAVITY;
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let most = (MOST_PERIODS * mode.period / step) as usize;
+    let builder = builder
+        .gravity_stage(GravityStage::Frictionless)
+        .motion(AtRest)
+        .interface(Bonded)
+        .scheme(Midpoint)
+        .without_energy_balance();
+    let mut simulation = builder.build()?;
+    // Probes are measured from the static state, in which the load acts.
+    let mut values = vec![1.0];
+    // Steps of the changes of sign, and the largest amplitude since the last.
+    let (mut changes, mut amplitude) = (Vec::new(), 0.0_f64);
+    while values.len() <= most && changes.len() < HALF_PERIODS {
+        let (last, now) = (values[values.len() - 1], 1.0 + simulation.step()?.probes[0]);
+        values.push(now);
+        amplitude = amplitude.max(now.abs());
+        if last.signum() != now.signum() {
+            changes.push(values.len() - 1);
+            if amplitude < DECAYED {
+                break;
+            }
+            amplitude = 0.0;
+        }
+    }
+    decay(&values, &changes, step).ok_or(Error::Scene {
+        quantity: "free vibration of the soil–structure system",
+        needed: "must be that of one decaying mode (does a load of the structure's own act, or is the soil too soft to \
+                 let it vibrate?)",
+    })
+}
+
+/// Period and damping ratio of a decaying vibration, from values at every step and the places where they change sign.
+///
+/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares from the first change of sign on: until then
+/// the base and the soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), and the midpoint rule has made σ
+/// of the pole s = (2/Δt) tanh(σΔt/2).
+fn decay(values: &[f64], changes: &[usize], step: f64) -> Option<[f64; 2]> {
+    let ([first, ..], [.., last]) = (changes, changes) else { return None };
+    let halves = changes.len() - 1;
+    if halves == 0 {
+        return None;
+    }
+    // A sixth of a period.
+    let apart = ((last - first) / (3 * halves)).max(1);
+    let used = &values[*first..];
+    let triples = || {
+        used.iter()
+            .zip(&used[apart.min(used.len())..])
+            .zip(used.get(2 * apart..).unwrap_or_default())
+    };
+    let mut sums = [0.0; 5];
+    for ((before, now), after) in triples() {
+        let products = [now * now, now * before, before * before, now * after, before * after];
+        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+    }
+    let [nn, nb, bb, na, ba] = sums;
+    let determinant = nn * bb - nb * nb;
+    let (a, b) = ((na * bb - ba * nb) / determinant, (ba * nn - na * nb) / determinant);
+    let misfit: f64 =
+        triples().map(|((before, now), after)| (after - a * now - b * before).powi(2)).sum();
+    if misfit.sqrt() > MISFIT * (nn + bb).sqrt() || a * a + 4.0 * b >= 0.0 {
+        return None;
+    }
+    let [decay, angle] = [0.5 * (-b).ln(), (-a * a - 4.0 * b).sqrt().atan2(a)];
+    // σΔt/2.
+    let per_step = 0.5 / apart as f64;
+    let half = Complex::new(decay * per_step, angle * per_step);
+    let growth = (half * 2.0).exp();
+    let one = Complex::new(1.0, 0.0);
+    let pole = (growth - one) / (growth + one) * (2.0 / step);
+    let circular = pole.abs();
+    Some([TAU / circular, -pole.re / circular])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A vibration as the midpoint rule makes it of its pole, with and without a second one that dies out.
+    #[test]
+    fn a_decaying_vibration_is_read_back() {
+        let (step, steps) = (0.01, 2000);
+        for (period, ratio) in [(0.7_f64, 0.0_f64), (0.7, 0.05), (1.3, 0.2)] {
+            let circular = TAU / period;
+            let march = |circular: f64, ratio: f64| {
+                let (mut u, mut v, mut values) = (1.0, 0.0, vec![1.0]);
+                for _ in 0..steps {
+                    // Δu of the midpoint rule.
+                    let stiffness = 2.0 / (step * step)
+                        + ratio * 2.0 * circular / step
+                        + 0.5 * circular.powi(2);
+                    let du = (2.0 * v / step - circular.powi(2) * u) / stiffness;
+                    v = 2.0 * du / step - v;
+                    u += du;
+                    values.push(u);
+                }
+                values
+            };
+            let own = march(circular, ratio);
+            let dying = march(3.3 * circular, 0.6);
+            for (part, tolerance) in [(0.0, 1e-9), (0.2, 3e-3)] {
+                let values: Vec<f64> = own.iter().zip(&dying).map(|(x, y)| x + part * y).collect();
+                let changes: Vec<usize> = (1..values.len())
+                    .filter(|k| values[*k].signum() != values[k - 1].signum())
+                    .take(HALF_PERIODS)
+                    .collect();
+                let end = changes[changes.len() - 1];
+                let [found, damping] = decay(&values[..=end], &changes, step).unwrap();
+                assert!((found / period - 1.0).abs() < tolerance, "{found} for {period}");
+                assert!((damping - ratio).abs() < tolerance, "{damping} for {ratio}");
+            }
+        }
+        assert_eq!(decay(&[1.0; 50], &[], step), None);
+    }
+}

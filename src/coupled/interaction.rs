@@ -1,0 +1,192 @@
+//! Soil–structure interaction: a scene on its ground and on a fixed base, and what the ground does to its first mode.
+
+use std::fmt;
+
+use super::build::SimulationBuilder;
+use super::free_vibration::{FixedBaseMode, free_vibration};
+use super::run::quantity::Place;
+use super::run::{Extremes, Quantity, Run};
+use crate::error::{Result, not_negative};
+use crate::geometry::axis_name;
+use crate::text::column::{number, of_body, printed};
+use crate::text::table::Table;
+
+/// Vibration mode of a structure on a fixed base and on its ground: period lengthening and damping (ASCE 7, ch. 19).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct SystemMode {
+    /// In plan: axis along which the mode moves the most mass, `x` or `y`.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub axis: Option<char>,
+    /// Period T on a fixed base, s.
+    pub fixed_period: f64,
+    /// Damping ratio β on a fixed base.
+    pub fixed_damping: f64,
+    /// Period T̃ of the soil–structure system, s.
+    pub period: f64,
+    /// Damping ratio β₀ of the soil–structure system.
+    pub damping: f64,
+}
+
+impl SystemMode {
+    /// Period lengthening T̃/T.
+    pub fn period_ratio(&self) -> f64 {
+        self.period / self.fixed_period
+    }
+
+    /// Foundation damping β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil.
+    pub fn foundation_damping(&self) -> f64 {
+        self.damping - self.fixed_damping / self.period_ratio().powi(2)
+    }
+}
+
+/// A scene on its ground and on a fixed base, made by [`interaction`]. Printed, a table for a report.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Interaction {
+    /// The run on the ground.
+    pub on_ground: Run,
+    /// The run of the same structure, loads and motion on a fixed base.
+    pub on_fixed_base: Run,
+    /// The mode with the most mass along x, in plan also that along y; none of a structure that is rigid.
+    pub modes: Vec<SystemMode>,
+}
+
+/// Runs a scene on its ground and on a fixed base, and finds T̃/T and the damping of the soil–structure system.
+///
+/// `scene` makes the builder of the same scene whenever it is called; both runs last `duration` (s). The second is that
+/// of [`SimulationBuilder::on_fixed_base`]: its model, loads and motion are the same.
+///
+/// T and β are those of the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
+/// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and let
+/// go: they are the period and the decay of the free vibration that follows, by Midpoint steps of T/40 or shorter. The
+/// soil is linear: give it the moduli of the design motion (ASCE 7, table 19.3-2). Springs in series confirm the
+/// period: T̃/T = √(1 + k/k_x + k h²/k_θ).
+///
+/// ```
+/// use basemat::bem::ElasticGround;
+/// use basemat::coupled::{Probe, interaction};
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::results::Quantity;
+/// use basemat::structure::{ShearBuilding, Storey};
+/// use basemat::{Simulation, Soil};
+///
+/// let found = interaction(6.0, || {
+///     let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+///     let building =
+///         ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
+///     Ok(Simulation::builder(0.01)
+///         .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &building, 10)?)
+///         .probe(Probe::displacement("drift", building.drift(0)?))
+///         .structure(building)
+///         .interface(Coulomb::new(0.5)?)
+///         .motion(el_centro_1940()))
+/// })?;
+/// println!("{found}");
+/// let mode = &found.modes[0];
+/// assert!(mode.period_ratio() > 1.05 && mode.damping > mode.fixed_damping);
+/// assert!(found.ratio(Quantity::BaseShear) < 1.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) unless the duration is finite and not negative; [`Error::Scene`](crate::Error::Scene) if the vibration that follows the
+/// deflection is not that of one decaying mode, as under a load of the structure's own; as for
+/// [`SimulationBuilder::build`] and [`Simulation::run`](crate::Simulation::run).
+pub fn interaction(
+    duration: f64,
+    mut scene: impl FnMut() -> Result<SimulationBuilder>,
+) -> Result<Interaction> {
+    not_negative("duration", duration)?;
+    let run = |builder: SimulationBuilder| {
+        let mut simulation = builder.build()?;
+        simulation.run(simulation.steps_for(duration), |_| {})
+    };
+    let on_ground = run(scene()?)?;
+    let on_fixed_base = run(scene()?.on_fixed_base())?;
+    let axes: &[usize] = if on_ground.in_plan { &[0, 1] } else { &[0] };
+    let mut modes = Vec::new();
+    for &axis in axes {
+        let builder = scene()?;
+        let Some(structure) = builder.structure.as_deref() else { continue };
+        let Some(fixed) = FixedBaseMode::of(structure, axis)? else { continue };
+        let (fixed_period, fixed_damping) = (fixed.period, fixed.damping);
+        let [period, damping] = free_vibration(builder, &fixed)?;
+        let axis = axis_name(on_ground.in_plan, axis);
+        modes.push(SystemMode { axis, fixed_period, fixed_damping, period, damping });
+    }
+    Ok(Interaction { on_ground, on_fixed_base, modes })
+}
+
+/// Ratio of largest magnitudes; NaN of zeros.
+fn ratio([on_ground, fixed]: [&Extremes; 2]) -> f64 {
+    on_ground.magnitude() / fixed.magnitude()
+}
+
+impl Interaction {
+    /// Largest magnitude of a quantity on the ground over that on the fixed base; NaN where both are zero.
+    pub fn ratio(&self, quantity: Quantity) -> f64 {
+        let of = |run: &Run| run.whole.extremes(quantity);
+        ratio([&of(&self.on_ground), &of(&self.on_fixed_base)])
+    }
+
+    /// Largest magnitude of a probe on the ground over that on the fixed base.
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if no probe is called `name`.
+    pub fn probe_ratio(&self, name: &str) -> Result<f64> {
+        Ok(ratio([&self.on_ground.probe(name)?, &self.on_fixed_base.probe(name)?]))
+    }
+
+    /// Rows of forces and of probes: name, unit, largest on the ground and on the fixed base, ratio.
+    fn table(&self) -> Table {
+        let Self { on_ground, on_fixed_base, .. } = self;
+        let in_plan = on_ground.in_plan;
+        let row = |name: &str, (factor, unit): (f64, &str), pair: [&Extremes; 2]| {
+            let value = |own: &Extremes| number(factor * own.magnitude());
+            let ratio = ratio(pair);
+            let ratio = if ratio.is_finite() { format!("{ratio:.3}") } else { "–".to_owned() };
+            vec![name.to_owned(), unit.to_owned(), value(pair[0]), value(pair[1]), ratio]
+        };
+        let forces = Quantity::shown(Place::ComparisonTime, in_plan).map(|quantity| {
+            let [ground, fixed] =
+                [on_ground, on_fixed_base].map(|run| run.whole.extremes(quantity));
+            row(quantity.name(), quantity.printed(in_plan), [&ground, &fixed])
+        });
+        let mut rows: Vec<_> = forces.collect();
+        for (ground, fixed) in on_ground.probes.iter().zip(&on_fixed_base.probes) {
+            let unit = of_body(&ground.unit, in_plan);
+            rows.push(row(&ground.name, printed(unit), [&ground.extremes, &fixed.extremes]));
+        }
+        let heading = ["Largest", "unit", "on the ground", "fixed base", "ratio"];
+        Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }
+    }
+}
+
+impl fmt::Display for Interaction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.table().text())?;
+        for mode in &self.modes {
+            let axis = mode.axis.map_or(String::new(), |axis| format!(" along {axis}"));
+            let SystemMode { fixed_period, period, .. } = mode;
+            write!(
+                f,
+                "\nFirst mode{axis}: T = {fixed_period:.3} s, T̃ = {period:.3} s, T̃/T = {:.3}; damping {:.1} % on a fixed \
+                 base, {:.1} % on the ground, of it {:.1} % by the foundation",
+                mode.period_ratio(),
+                100.0 * mode.fixed_damping,
+                100.0 * mode.damping,
+                100.0 * mode.foundation_damping()
+            )?;
+        }
+        if self.modes.is_empty() {
+            write!(f, "\nNo first mode: the structure is rigid on its base")?;
+        }
+        Ok(())
+    }
+}

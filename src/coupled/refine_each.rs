@@ -1,0 +1,172 @@
+//! Error against run time of several peaks of one scene.
+
+use std::fmt;
+
+use super::refine::{Refinement, Setting, settings, table};
+use crate::error::{Error, Result, at_least, same_length};
+
+/// Error against run time of several peaks, made by [`refine_each`]. Printed, one table.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Refinements {
+    /// Name and refinement of each peak, in the order of the scene.
+    pub peaks: Vec<(String, Refinement)>,
+}
+
+/// Names of a scene's peaks, which every run must give in the same order.
+#[derive(Default)]
+pub(super) struct Names(pub(super) Vec<String>);
+
+impl Names {
+    /// Values of the peaks of one run, whose names are checked against those of the first run.
+    pub(super) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
+        const NAME: &str = "list of a scene's peaks";
+        at_least(NAME, peaks.len(), 1)?;
+        let (names, values): (Vec<String>, Vec<f64>) =
+            peaks.into_iter().map(|(name, value)| (name.into(), value)).unzip();
+        if self.0.is_empty() {
+            for (k, name) in names.iter().enumerate() {
+                if names[..k].contains(name) {
+                    return Err(Error::DuplicateName { quantity: "peak", name: name.clone() });
+                }
+            }
+            self.0 = names;
+            return Ok(values);
+        }
+        same_length(NAME, names.len(), self.0.len())?;
+        match names.iter().zip(&self.0).find(|(name, first)| name != first) {
+            None => Ok(values),
+            Some((name, _)) => Err(Error::no_name("peak", name, self.0.iter())),
+        }
+    }
+}
+
+/// Estimates the errors of several peaks of a scene from six settings, as [`refine`](super::refine()) does for one.
+///
+/// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each is
+/// extrapolated by itself, so that units may differ and a peak that converges is not spoilt by one that does not.
+///
+/// ```
+/// use basemat::bem::ElasticGround;
+/// use basemat::interface::Bonded;
+/// use basemat::motion::RickerDisplacement;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Simulation, Soil, coupled};
+///
+/// let refinements = coupled::refine_each(4, 0.02, |elements, time_step| {
+///     let block = RigidBlock::new(4.0, 6.0, 2000.0)?;
+///     let mut simulation = Simulation::builder(time_step)
+///         .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, elements)?)
+///         .structure(block)
+///         .interface(Bonded)
+///         .motion(RickerDisplacement::new(0.05, 1.0, 2.0)?)
+///         .build()?;
+///     let run = simulation.run(simulation.steps_for(4.0), |_| {})?;
+///     let peaks = [&run.whole.base_shear, &run.whole.base_moment].map(|own| own.magnitude());
+///     Ok(vec![("shear, N/m", peaks[0]), ("moment, N·m/m", peaks[1])])
+/// })?;
+/// println!("{refinements}");
+/// let shear = refinements.peak("shear, N/m")?;
+/// assert!(shear.is_regular() && shear.settings[5].error < 0.02);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// As for [`refine`](super::refine()); [`Error::DuplicateName`] for a name that comes twice, [`Error::Name`] for one
+/// that another setting did not give.
+pub fn refine_each<N: Into<String>>(
+    elements: usize,
+    time_step: f64,
+    mut scene: impl FnMut(usize, f64) -> Result<Vec<(N, f64)>>,
+) -> Result<Refinements> {
+    let mut names = Names::default();
+    let mut run = |elements: usize, step: f64| names.values(scene(elements, step)?);
+    let all = settings(elements, time_step, &mut run)?;
+    Ok(Refinements::each(names.0, &all))
+}
+
+impl Refinements {
+    /// The results of a refinement, each refined by itself and called by one of the `names`.
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there are as many names as results.
+    pub fn of(names: Vec<String>, refinement: &Refinement) -> Result<Self> {
+        same_length("list of names", names.len(), refinement.extrapolated.len())?;
+        Ok(Self::each(names, &refinement.settings))
+    }
+
+    fn each(names: Vec<String>, settings: &[Setting]) -> Self {
+        let of = |k: usize| {
+            let only = |own: &Setting| Setting { results: vec![own.results[k]], ..own.clone() };
+            Refinement::of(settings.iter().map(only).collect())
+        };
+        Self { peaks: names.into_iter().enumerate().map(|(k, name)| (name, of(k))).collect() }
+    }
+
+    /// The refinement of a peak, by its name.
+    ///
+    /// # Errors
+    /// [`Error::Name`] if no peak has it.
+    pub fn peak(&self, name: &str) -> Result<&Refinement> {
+        let found = self.peaks.iter().find(|(own, _)| own == name);
+        let unknown = || Error::no_name("peak", name, self.peaks.iter().map(|(own, _)| own));
+        found.map(|(_, refinement)| refinement).ok_or_else(unknown)
+    }
+}
+
+impl fmt::Display for Refinements {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all: Vec<_> = self.peaks.iter().map(|(name, own)| (name.as_str(), own)).collect();
+        f.write_str(&table(&all))?;
+        all.iter().try_for_each(|(name, own)| write!(f, "\n{name}: {}", own.notes()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each peak has the refinement that `refine` finds for it alone.
+    #[test]
+    fn peaks_are_refined_one_by_one() {
+        let value = |k: usize, elements: usize, step: f64| match k {
+            0 => 1e6 * (7.0 + 3.0 / (elements as f64).powi(2) - 0.5 * step),
+            _ => 1e-3 * (2.0 - (elements as f64).recip() + step * step),
+        };
+        let found = refine_each(10, 0.1, |elements, step| {
+            Ok([0, 1].map(|k| (format!("peak {k}"), value(k, elements, step))).to_vec())
+        })
+        .unwrap();
+        for k in 0..2 {
+            let alone =
+                super::super::refine(10, 0.1, |elements, step| Ok(vec![value(k, elements, step)]));
+            let (mut own, mut alone) = (found.peaks[k].1.clone(), alone.unwrap());
+            for setting in own.settings.iter_mut().chain(&mut alone.settings) {
+                setting.wall = std::time::Duration::ZERO;
+            }
+            assert_eq!(own, alone);
+        }
+        let page = found.to_string();
+        for text in ["peak 0", "peak 1", "extrapolated", "peak 1: order of convergence: 1.0"] {
+            assert!(page.contains(text), "{page}");
+        }
+        assert!(found.peak("peak 1").is_ok() && found.peak("peak").is_err());
+    }
+
+    #[test]
+    fn names_must_be_one_list() {
+        let mut calls = 0;
+        let mut next = |_, _| {
+            calls += 1;
+            Ok(vec![(["a", "a", "b"][calls.min(2)], 1.0)])
+        };
+        assert!(matches!(refine_each(1, 0.1, &mut next), Err(Error::Name { .. })));
+        let twice = refine_each(1, 0.1, |_, _| Ok(vec![("a", 1.0), ("a", 2.0)]));
+        assert!(matches!(twice, Err(Error::DuplicateName { .. })));
+        assert!(refine_each(1, 0.1, |_, _| Ok(Vec::<(&str, f64)>::new())).is_err());
+        let count = |n: usize, _| Ok((0..n).map(|k| (k.to_string(), 1.0)).collect());
+        assert!(matches!(refine_each(1, 0.1, count), Err(Error::Size { .. })));
+    }
+}

@@ -1,0 +1,210 @@
+//! Digits of a scene's peaks that hold: the run beside twins that should give the same.
+
+use std::fmt;
+
+use super::refine_each::Names;
+use crate::error::{Error, Result, all_finite, at_least, positive};
+use crate::text::table::Table;
+
+/// Time step of the first twin over that of the run.
+const SHORTER: f64 = 0.99;
+/// Most digits of a peak that twins may vouch for.
+const MOST_DIGITS: u32 = 6;
+
+/// Value of a peak in a run and in its twins.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct PeakTwins {
+    /// Name of the peak.
+    pub name: String,
+    /// Value of the run.
+    pub value: f64,
+    /// Value with a time step shorter by 1 %.
+    pub shorter_step: f64,
+    /// Value on three quarters of the elements, rounded up.
+    pub three_quarters: f64,
+    /// Value on half the elements, rounded up.
+    pub half: f64,
+}
+
+impl PeakTwins {
+    /// Largest difference between a twin and the run, in the unit of the peak.
+    pub fn spread(&self) -> f64 {
+        let twins = [self.shorter_step, self.three_quarters, self.half];
+        twins.into_iter().fold(0.0, |most, twin| f64::max(most, (twin - self.value).abs()))
+    }
+
+    /// Significant digits that hold: half a unit of the last one is the spread or more. Six at most; with none, twins
+    /// do not agree on the first digit.
+    pub fn digits(&self) -> u32 {
+        let spread = self.spread();
+        if spread == 0.0 {
+            return MOST_DIGITS;
+        }
+        // Power of ten of the first digit.
+        let first = self.value.abs().log10().floor();
+        let digits = (first + 1.0 - (2.0 * spread).log10()).floor();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let digits = digits.clamp(0.0, f64::from(MOST_DIGITS)) as u32;
+        digits
+    }
+
+    /// The value in as many digits as hold; "–" with none.
+    fn quoted(&self) -> String {
+        match self.digits() {
+            0 => "–".to_owned(),
+            digits => format!("{:.*e}", digits as usize - 1, self.value),
+        }
+    }
+}
+
+/// Peaks of a run beside those of its twins, made by [`sensitivity`]. Printed, a table.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Sensitivity {
+    /// The peaks, in the order of the scene.
+    pub peaks: Vec<PeakTwins>,
+}
+
+/// Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
+/// and half of the elements.
+///
+/// `scene` builds and runs for a duration with a number of elements (in plan that of cells along the shorter side) and
+/// a time step (s), and returns peaks by name, as for [`refine_each`](super::refine_each). Where a peak converges, its
+/// twins differ from it by about its error. A body that rocks on its corners, and twists on them, may lose the memory
+/// of its start: a change too small to matter decides on which corner it lands. Its peaks are then those of one motion
+/// out of many, and no finer setting makes them converge; quote the range over many motions. The twins cost less than
+/// two further runs, in plan about one and a half, where the six settings of `refine_each` cost tens of them. Changes in
+/// the last bits of a scene alone take many impacts to grow, and show less.
+///
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Simulation, coupled};
+///
+/// let found = coupled::sensitivity(16, 0.005, |elements, time_step| {
+///     let mut simulation = Simulation::builder(time_step)
+///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?.with_dashpots(4e5, 2e5)?)
+///         .interface(Coulomb::new(0.4)?)
+///         .motion(el_centro_1940())
+///         .build()?;
+///     let run = simulation.run(simulation.steps_for(8.0), |_| {})?;
+///     Ok(vec![("shear, N/m", run.whole.base_shear.magnitude())])
+/// })?;
+/// println!("{found}");
+/// assert!(found.peak("shear, N/m")?.digits() >= 1);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`] unless there are two elements or more and the time step is above zero, [`Error::Size`] unless every
+/// run gives as many peaks, at least one, [`Error::NotFinite`] if one of them is not finite, [`Error::DuplicateName`]
+/// for a name that comes twice, [`Error::Name`] for one that a twin gives and the run does not, and whatever `scene`
+/// returns.
+pub fn sensitivity<N: Into<String>>(
+    elements: usize,
+    time_step: f64,
+    mut scene: impl FnMut(usize, f64) -> Result<Vec<(N, f64)>>,
+) -> Result<Sensitivity> {
+    at_least("list of elements", elements, 2)?;
+    positive("time step", time_step)?;
+    let mut names = Names::default();
+    let mut run = |elements: usize, step: f64| -> Result<Vec<f64>> {
+        let values = names.values(scene(elements, step)?)?;
+        all_finite("list of a scene's peaks", &values)?;
+        Ok(values)
+    };
+    let value = run(elements, time_step)?;
+    let shorter_step = run(elements, SHORTER * time_step)?;
+    let three_quarters = run(elements - elements / 4, time_step)?;
+    let half = run(elements.div_ceil(2), time_step)?;
+    let of = |(k, name)| PeakTwins {
+        name,
+        value: value[k],
+        shorter_step: shorter_step[k],
+        three_quarters: three_quarters[k],
+        half: half[k],
+    };
+    Ok(Sensitivity { peaks: names.0.into_iter().enumerate().map(of).collect() })
+}
+
+impl Sensitivity {
+    /// A peak and its twins, by its name.
+    ///
+    /// # Errors
+    /// [`Error::Name`] if no peak has it.
+    pub fn peak(&self, name: &str) -> Result<&PeakTwins> {
+        let found = self.peaks.iter().find(|own| own.name == name);
+        found.ok_or_else(|| Error::no_name("peak", name, self.peaks.iter().map(|own| &own.name)))
+    }
+}
+
+impl fmt::Display for Sensitivity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let heading =
+            ["Peak", "run", "step − 1 %", "¾ elements", "½ elements", "digits", "to quote"];
+        let row = |own: &PeakTwins| {
+            let PeakTwins { value, shorter_step, three_quarters, half, .. } = own;
+            let values = [value, shorter_step, three_quarters, half];
+            let mut cells = vec![own.name.clone()];
+            cells.extend(values.map(|value| format!("{value:.4e}")));
+            cells.extend([own.digits().to_string(), own.quoted()]);
+            cells
+        };
+        let (heading, rows) =
+            (heading.map(str::to_owned).to_vec(), self.peaks.iter().map(row).collect());
+        f.write_str(&Table { heading, repeated: 1, rows }.text())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn twins(value: f64, twin: f64) -> PeakTwins {
+        let name = String::new();
+        PeakTwins { name, value, shorter_step: twin, three_quarters: value, half: value }
+    }
+
+    #[test]
+    fn digits_are_those_that_twins_share() {
+        for (value, twin, digits, quoted) in [
+            (3478.0, 3717.0, 1, "3e3"),
+            (3478.0, 5916.0, 0, "–"),
+            (-3478.0, -3500.0, 2, "-3.5e3"),
+            (1.0, 1.0004, 4, "1.000e0"),
+            (0.02, 0.02, 6, "2.00000e-2"),
+            (0.0, 1e-9, 0, "–"),
+        ] {
+            let found = twins(value, twin);
+            assert_eq!((found.digits(), found.quoted().as_str()), (digits, quoted), "{value}");
+        }
+    }
+
+    #[test]
+    fn twins_change_step_and_elements_by_little() {
+        let mut runs = Vec::new();
+        let found = sensitivity(9, 0.1, |elements, step| {
+            runs.push((elements, step));
+            Ok(vec![("sum", elements as f64 + step)])
+        })
+        .unwrap();
+        let elements: Vec<usize> = runs.iter().map(|run| run.0).collect();
+        assert_eq!(elements, [9, 9, 7, 5]);
+        assert_eq!((runs[0].1, runs[1].1, runs[2].1), (0.1, 0.99 * 0.1, 0.1));
+        let own = found.peak("sum").unwrap();
+        assert_eq!((own.value, own.three_quarters, own.half, own.digits()), (9.1, 7.1, 5.1, 0));
+        assert!(found.to_string().contains("½ elements") && found.peak("none").is_err());
+        for bad in [(1, 0.1), (4, 0.0), (4, f64::NAN)] {
+            assert!(sensitivity(bad.0, bad.1, |_, _| Ok(vec![("a", 1.0)])).is_err());
+        }
+        assert!(sensitivity(4, 0.1, |_, _| Ok(vec![("a", f64::NAN)])).is_err());
+    }
+}
