@@ -133,9 +133,12 @@ mod _core {
         },
         probe::PyProbe,
         profile::{PyDampingLaw, PySoilLayer, PySoilProfile},
-        refine::{PyRefinement, refine},
+        refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity, refine, sensitivity},
         restored::restored,
-        results::{PyEnergyBalance, PyExtremes, PyPeak, PyRun, PyServiceCheck, PySummary},
+        results::{
+            PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun, PyServiceCheck, PySummary,
+            PySystemMode,
+        },
         row::{PyDofCombination, PySectionRows},
         simulation::{
             PyCheckpoint, PyFoundation, PyLoad, PySimulation, PyState, PySteps, PyTimeScheme,

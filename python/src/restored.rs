@@ -10,8 +10,11 @@ use serde::de::DeserializeOwned;
 use crate::error::refuse;
 use crate::ground::PyImpedances;
 use crate::motion::PySpectrum;
-use crate::refine::PyRefinement;
-use crate::results::{PyEnergyBalance, PyExtremes, PyPeak, PyRun, PyServiceCheck, PySummary};
+use crate::refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity};
+use crate::results::{
+    PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun, PyServiceCheck, PySummary,
+    PySystemMode,
+};
 use crate::row::PyDofCombination;
 use crate::simulation::PyFoundation;
 use crate::soil::PySoil;
@@ -60,5 +63,6 @@ macro_rules! results {
 
 results! {
     PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
+    PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode
     PySoil PyContactNode PyFaceNode PyDofCombination PyCondition PyLimits PyTolerance
 }

@@ -215,6 +215,79 @@ def test_refinement_finds_the_order_and_the_error(soil: bm.Soil) -> None:
         bm.refine(0, 0.1, lambda n, step: 1.0)
 
 
+def test_several_peaks_are_refined_in_one_call() -> None:
+    found = bm.refine(8, 0.1, lambda n, step: {"a": 5.0 + 3.0 / n**2, "b": 1e6 * (2.0 - 0.5 * step)})
+    alone = bm.refine(8, 0.1, lambda n, step: 5.0 + 3.0 / n**2)
+    assert found.names == ["a", "b"]
+    assert list(found["a"].errors) == list(alone.errors)
+    assert found["a"].extrapolated == alone.extrapolated
+    assert abs(found["b"].step_order - 1.0) < 1e-6
+    page = str(found)
+    assert "extrapolated" in page and "b: order of convergence" in page
+    with pytest.raises(bm.InputError, match="no peak called 'c'"):
+        found["c"]
+    with pytest.raises(bm.InputError, match="same names"):
+        bm.refine(8, 0.1, lambda n, step: {str(n): 1.0})
+    with pytest.raises(bm.InputError, match="dict of numbers"):
+        bm.refine(8, 0.1, lambda n, step: {"a": 1.0} if n == 8 else 1.0)
+
+
+def test_twins_tell_the_digits_that_hold() -> None:
+    found = bm.sensitivity(9, 0.1, lambda n, step: {"sum": n + step, "same": 2.0})
+    own = found["sum"]
+    assert (own.value, own.three_quarters, own.half, own.digits) == (9.1, 7.1, 5.1, 0)
+    assert abs(own.shorter_step - 9.099) < 1e-12
+    assert own.spread == 4.0 and found["same"].digits == 6
+    assert [peak.name for peak in found.peaks] == ["sum", "same"]
+    assert "½ elements" in str(found)
+    with pytest.raises(ZeroDivisionError):
+        bm.sensitivity(8, 0.1, lambda n, step: 1 / 0)
+    with pytest.raises(bm.InputError, match="list of elements"):
+        bm.sensitivity(1, 0.1, lambda n, step: {"a": 1.0})
+
+
+def test_a_load_is_set_by_a_controller(rocking) -> None:
+    block = bm.RigidBlock(6.0, 9.0, 1000.0)
+    row = block.horizontal_at(9.0)
+    by_function = rocking(structure=block, loads=[bm.Load(row, lambda t: 1e4 if t > 0 else 0.0)])
+    by_hand = rocking(structure=block, loads=[bm.Load.constant(row, 0.0)])
+    by_hand.set_load(0, 1e4)
+    assert by_hand.run(50)["base_shear"].tolist() == by_function.run(50)["base_shear"].tolist()
+    by_hand.reset()
+    assert by_hand.run(50)["base_shear"].tolist() == rocking(structure=block).run(50)["base_shear"].tolist()
+    by_hand.set_load(0, None)
+    with pytest.raises(bm.InputError, match="load: index 1"):
+        by_hand.set_load(1, 0.0)
+    with pytest.raises(bm.InputError, match="not finite"):
+        by_hand.set_load(0, float("nan"))
+
+
+def test_a_fixed_base_and_the_system_on_its_ground(soil: bm.Soil) -> None:
+    storeys = [bm.Storey(3.0, 20.0e3, 40.0e6)] * 5
+    building = bm.ShearBuilding(10.0, 50.0e3, 4.0e5, storeys, damping=0.05)
+    ground = bm.ElasticGround.under(soil, building, 8)
+    parts = (0.01, building, ground, bm.Coulomb(0.5))
+    given = {"motion": bm.el_centro_1940(), "probes": [bm.Probe.displacement("drift", building.drift(0))]}
+    simulation = bm.Simulation(*parts, **given)
+    found = simulation.interaction(4.0)
+    assert simulation.state.step == 0
+    run = simulation.run(duration=4.0)
+    held = bm.Simulation(*parts, **given, fixed_base=True).run(duration=4.0)
+    assert found.on_ground.base_shear == run.base_shear
+    assert found.on_fixed_base.base_shear == held.base_shear
+    assert held.base_rotation.magnitude < 1e-7 and not any("pulled" in text for text in held.warnings)
+    ratio = run.base_shear.magnitude / held.base_shear.magnitude
+    assert found.ratio("base_shear") == ratio
+    assert found.probe_ratios["drift"] == run.probes["drift"].magnitude / held.probes["drift"].magnitude
+    (mode,) = found.modes
+    assert mode.axis is None and abs(mode.fixed_damping - 0.05) < 1e-6
+    assert mode.period_ratio == mode.period / mode.fixed_period > 1.05
+    assert 0.0 < mode.foundation_damping < mode.damping < 0.2
+    assert "T̃/T = " in str(found)
+    with pytest.raises(bm.InputError, match="duration"):
+        simulation.interaction(-1.0)
+
+
 def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil, block) -> None:
     for word in ("frictional", "Frictional", " FRICTIONAL"):
         rocking(gravity_stage=word)

@@ -2,12 +2,14 @@
 
 mod base;
 mod energy_balance;
+mod interaction;
 mod peak;
 mod run;
 mod series;
 
 pub(crate) use base::{PyServiceCheck, PySummary, preformatted};
 pub(crate) use energy_balance::PyEnergyBalance;
+pub(crate) use interaction::{PyInteraction, PySystemMode};
 pub(crate) use peak::{PyExtremes, PyPeak};
 pub(crate) use run::PyRun;
 pub(crate) use series::element_units;

@@ -9,19 +9,18 @@ use basemat::results::{Recorder, Serviceability};
 use pyo3::prelude::*;
 
 use super::build;
+use super::given::{Given, Made};
 use super::watched::{Watched, prepared, settled};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
 use crate::array::{Array, Numbers, whole};
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, locked, raise, refuse, take_raised};
+use crate::error;
+use crate::error::{OrRaise, kept, locked, raise, refuse, take_raised};
 use crate::ground::PyGround;
-use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
-use crate::recipe::Recipe;
-use crate::results::PyRun;
+use crate::results::{PyInteraction, PyRun};
 use crate::several::{Several, no_such};
 use crate::ticker::{progress_function, watched};
-use crate::{error, interface, motion, structure, user};
 
 /// A structure on a ground, ready to march: from the static state under its weight, step by step.
 ///
@@ -68,6 +67,9 @@ use crate::{error, interface, motion, structure, user};
 ///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
 ///         most so many iterations a step, for comparison with their paper; the robust search unless
 ///         given.
+///     fixed_base: whether the base is held: each foundation keeps its shape and moves with the free field
+///         under it. Ground and interface are then left out, but for the places of the contact elements.
+///         False by default; :meth:`interaction` compares both.
 ///     progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
 ///         layered ground are computed for the expected steps; none unless given.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
@@ -81,6 +83,8 @@ pub(crate) struct PySimulation {
     duration: Option<f64>,
     /// Checkpoint of the simulation's start, or why it cannot go back there.
     start: PyResult<Checkpoint>,
+    /// Parts and settings, of which the same scene is made again.
+    given: Given,
 }
 
 impl PySimulation {
@@ -88,20 +92,6 @@ impl PySimulation {
     fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
         self.simulation.try_lock().map_err(locked)
     }
-}
-
-/// Calls methods of a builder with the arguments that were given.
-macro_rules! with_given {
-    ($builder:ident, $($method:ident($given:expr)),+ $(,)?) => {
-        $(if let Some(given) = $given {
-            $builder = $builder.$method(given);
-        })+
-    };
-}
-
-/// A part for one simulation.
-fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
-    recipe().or_raise()
 }
 
 members! {
@@ -141,7 +131,8 @@ impl PySimulation {
         initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
         expected_steps=None, moment_center=None, energy_balance=true, safety_friction=None,
         allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
-        allowable_rotation=None, rotation_limit=None, flow_chart_iterations=None, progress=None,
+        allowable_rotation=None, rotation_limit=None, flow_chart_iterations=None, fixed_base=false,
+        progress=None,
     ))]
     fn new(
         py: Python<'_>,
@@ -168,62 +159,55 @@ impl PySimulation {
         allowable_rotation: Option<f64>,
         rotation_limit: Option<f64>,
         #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
+        fixed_base: bool,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         take_raised();
         let ground = ground
             .cast::<PyGround>()
-            .map_err(|_| no_such(&ground, "an ElasticGround or a SpringGround"))?
-            .get();
-        let ground = made(&ground.make)?;
-        let laws = interface::recipes(&interface, ground.directions() == 3)?;
-        let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
-        user::made_springs();
-        let (structure, object) = structure::made(&structure)?;
-        let hysteresis = user::made_springs();
-        let dofs = structure.dofs();
-        let names = DofNames::of(&object, dofs)?;
-        let mut builder = Simulation::builder(time_step)
-            .structure(structure)
-            .ground(ground)
-            .interfaces(laws)
-            .gravity_stage(gravity_stage.parse().or_raise()?)
-            .serviceability(Serviceability {
+            .map_err(|_| no_such(&ground, "an ElasticGround or a SpringGround"))?;
+        let progress = progress.as_ref();
+        let given = Given {
+            time_step,
+            structure: structure.unbind(),
+            ground: ground.clone().unbind(),
+            interface: interface.unbind(),
+            motion: motion.map(Bound::unbind),
+            probes: probes
+                .iter()
+                .flat_map(|own| own.iter())
+                .map(|own| own.clone().unbind())
+                .collect(),
+            loads: loads
+                .iter()
+                .flat_map(|own| own.iter())
+                .map(|own| own.clone().unbind())
+                .collect(),
+            gravity,
+            gravity_stage: gravity_stage.parse().or_raise()?,
+            initial_displacement: initial_displacement.map(|numbers| numbers.0),
+            initial_velocity: initial_velocity.map(|numbers| numbers.0),
+            scheme: scheme.map(Bound::unbind),
+            coordinates: coordinates.map(|own| build::coordinates(&own)).transpose()?,
+            expected_steps,
+            moment_center,
+            energy_balance,
+            safety_friction,
+            serviceability: Serviceability {
                 slip: allowable_slip,
                 gap: allowable_gap,
                 uplifted_fraction: allowable_uplifted_fraction,
                 rotation: allowable_rotation,
-            })
-            .probes(build::probes(probes.iter().flat_map(|own| own.iter()), dofs)?);
-        for load in loads.iter().flat_map(|own| own.iter()) {
-            load.get().order.check("a load", dofs)?;
-            builder = builder.load((load.get().make)().or_raise()?);
-        }
-        with_given!(
-            builder,
-            motion(motion.as_ref().map(|own| made(&motion::given(own)?.get().make)).transpose()?),
-            gravity(gravity),
-            initial_displacement(initial_displacement.map(|numbers| numbers.0)),
-            initial_velocity(initial_velocity.map(|numbers| numbers.0)),
-            scheme(scheme.map(|own| made(&own.get().make)).transpose()?),
-            contact_search(
-                flow_chart_iterations.map(|iterations| ContactSearch::FlowChart { iterations })
-            ),
-            coordinates(coordinates.map(|own| build::coordinates(&own)).transpose()?),
-            expected_steps(expected_steps),
-            moment_center(moment_center),
-            rotation_limit(rotation_limit),
-            safety_friction(safety_friction.map(|coefficient| [coefficient])),
-        );
-        if !energy_balance {
-            builder = builder.without_energy_balance();
-        }
-        let simulation = build::build(py, builder, progress.as_ref())?;
-        let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
-        let duration = motion.and_then(|motion| motion.get().duration);
+            },
+            search: flow_chart_iterations.map(|iterations| ContactSearch::FlowChart { iterations }),
+            rotation_limit,
+            fixed_base,
+        };
+        let Made { builder, structure, hysteresis, names, duration } = given.made(py)?;
+        let simulation = build::build(py, builder, progress)?;
         let start = build::start(&simulation);
-        let (simulation, structure) = (Mutex::new(simulation), object.unbind());
-        Ok(Self { simulation, structure, hysteresis, names, duration, start })
+        let simulation = Mutex::new(simulation);
+        Ok(Self { simulation, structure, hysteresis, names, duration, start, given })
     }
 
     /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
@@ -325,6 +309,39 @@ impl PySimulation {
         let own = slf.get();
         let left = build::count(slf.py(), &*own.lock()?, own.duration, steps, duration)?;
         Ok(PySteps { simulation: slf.into_any().unbind(), left })
+    }
+
+    /// Sets the force of the load number ``index`` (from 0, in the order of ``loads``) for all steps from now on.
+    ///
+    /// ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
+    /// None returns to that function. A controller computes it from the last state and sets it before each
+    /// :meth:`step`. A checkpoint does not hold it: :meth:`resume` and :meth:`reset` return to the functions.
+    fn set_load(
+        &self,
+        #[pyo3(from_py_with = whole)] index: usize,
+        value: Option<f64>,
+    ) -> PyResult<()> {
+        self.lock()?.set_load(index, value).or_raise()
+    }
+
+    /// The :class:`Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that
+    /// of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its
+    /// first mode (ASCE 7, chapter 19). This simulation stays where it is.
+    ///
+    /// T and β are those of the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
+    /// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
+    /// let go. The soil is linear: give it the moduli of the design motion.
+    #[pyo3(signature = (duration=None))]
+    fn interaction(&self, py: Python<'_>, duration: Option<f64>) -> PyResult<PyInteraction> {
+        let needed = "give a duration: no record says how long to run";
+        let duration = duration.or(self.duration).ok_or_else(|| refuse(needed))?;
+        take_raised();
+        let scene = || {
+            let made = Python::attach(|py| self.given.made(py));
+            made.map(|made| made.builder).map_err(|error| kept("scene", error))
+        };
+        let found = py.detach(|| settled(basemat::coupled::interaction(duration, scene)))?;
+        Ok(PyInteraction { found, names: self.names.as_ref().map(DofNames::to_vec) })
     }
 
     /// Number of steps that last ``duration`` (s), rounded up.

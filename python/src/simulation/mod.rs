@@ -2,6 +2,7 @@
 
 mod build;
 mod class;
+mod given;
 mod load;
 mod scheme;
 mod state;
