@@ -35,6 +35,8 @@ const LEAST_MASS: f64 = 1e-3;
 const DEFLECTION: f64 = 1e-3;
 /// Steps of the free vibration in a period T, at least.
 const STEPS: f64 = 40.0;
+/// Moving averages in a period T.
+const WINDOW: f64 = 6.0;
 /// Half periods that are looked at, and most periods T that they may take.
 const HALF_PERIODS: usize = 10;
 const MOST_PERIODS: f64 = 60.0;
@@ -102,6 +104,7 @@ impl FixedBaseMode {
 }
 
 /// Period (s) and damping ratio of the free vibration on the ground that begins in the shape of `mode`.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, not negative")]
 pub(super) fn free_vibration(
     mut builder: SimulationBuilder,
     mode: &FixedBaseMode,
@@ -116,7 +119,6 @@ pub(super) fn free_vibration(
     if builder.gravity == 0.0 {
         builder.gravity = STANDARD_GRAVITY;
     }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let most = (MOST_PERIODS * mode.period / step) as usize;
     let builder = builder
         .gravity_stage(GravityStage::Frictionless)
@@ -125,13 +127,17 @@ pub(super) fn free_vibration(
         .scheme(Midpoint)
         .without_energy_balance();
     let mut simulation = builder.build()?;
+    // Two moving averages leave the pole and take out a light base that rings on its springs.
+    let window = 2 * (mode.period / (2.0 * WINDOW * step)).round().max(1.0) as usize;
     // Probes are measured from the static state, in which the load acts.
-    let mut values = vec![1.0];
+    let (mut raw, mut once, mut values) = (vec![1.0], Vec::new(), Vec::new());
     // Steps of the changes of sign, and the largest amplitude since the last.
     let (mut changes, mut amplitude) = (Vec::new(), 0.0_f64);
-    while values.len() <= most && changes.len() < HALF_PERIODS {
-        let (last, now) = (values[values.len() - 1], 1.0 + simulation.step()?.probes[0]);
-        values.push(now);
+    while raw.len() <= most && changes.len() < HALF_PERIODS {
+        raw.push(1.0 + simulation.step()?.probes[0]);
+        once.extend(mean_of_last(&raw, window));
+        values.extend(mean_of_last(&once, window));
+        let [.., last, now] = values[..] else { continue };
         amplitude = amplitude.max(now.abs());
         if last.signum() != now.signum() {
             changes.push(values.len() - 1);
@@ -141,19 +147,25 @@ pub(super) fn free_vibration(
             amplitude = 0.0;
         }
     }
-    decay(&values, &changes, step).ok_or(Error::Scene {
+    decay(&values, &changes, 2 * window, step).ok_or(Error::Scene {
         quantity: "free vibration of the soil–structure system",
         needed: "must be that of one decaying mode (does a load of the structure's own act, or is the soil too soft to \
                  let it vibrate?)",
     })
 }
 
+/// Mean of the last `window` values; `None` of fewer.
+fn mean_of_last(values: &[f64], window: usize) -> Option<f64> {
+    let last = values.len().checked_sub(window)?;
+    Some(values[last..].iter().sum::<f64>() / window as f64)
+}
+
 /// Period and damping ratio of a decaying vibration, from values at every step and the places where they change sign.
 ///
-/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares from the first change of sign on: until then
-/// the base and the soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), and the midpoint rule has made σ
+/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares from `settled` steps after the first change of
+/// sign on: until then the base and the soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), and the midpoint rule has made σ
 /// of the pole s = (2/Δt) tanh(σΔt/2).
-fn decay(values: &[f64], changes: &[usize], step: f64) -> Option<[f64; 2]> {
+fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option<[f64; 2]> {
     let ([first, ..], [.., last]) = (changes, changes) else { return None };
     let halves = changes.len() - 1;
     if halves == 0 {
@@ -161,7 +173,7 @@ fn decay(values: &[f64], changes: &[usize], step: f64) -> Option<[f64; 2]> {
     }
     // A sixth of a period.
     let apart = ((last - first) / (3 * halves)).max(1);
-    let used = &values[*first..];
+    let used = values.get(first + settled..)?;
     let triples = || {
         used.iter()
             .zip(&used[apart.min(used.len())..])
@@ -224,11 +236,11 @@ mod tests {
                     .take(HALF_PERIODS)
                     .collect();
                 let end = changes[changes.len() - 1];
-                let [found, damping] = decay(&values[..=end], &changes, step).unwrap();
+                let [found, damping] = decay(&values[..=end], &changes, 0, step).unwrap();
                 assert!((found / period - 1.0).abs() < tolerance, "{found} for {period}");
                 assert!((damping - ratio).abs() < tolerance, "{damping} for {ratio}");
             }
         }
-        assert_eq!(decay(&[1.0; 50], &[], step), None);
+        assert_eq!(decay(&[1.0; 50], &[], 0, step), None);
     }
 }

@@ -29,7 +29,7 @@ fn building(stiffness: [f64; 2]) -> Result<StoreyBuilding> {
 #[test]
 fn periods_on_a_half_space_are_those_of_its_static_stiffnesses() {
     let soil = Soil::from_shear_wave_speed(180.0, 0.33, 1900.0).unwrap();
-    let stiffness = [1.2, 2.0].map(|period: f64| MASS * (TAU / period).powi(2));
+    let stiffness = [0.8, 1.2].map(|period: f64| MASS * (TAU / period).powi(2));
     let scene = || {
         let building = building(stiffness)?;
         let record = el_centro_1940();
@@ -50,7 +50,7 @@ fn periods_on_a_half_space_are_those_of_its_static_stiffnesses() {
             (1.0 + own / springs[k][k] + own * HEIGHT.powi(2) / springs[4 - k][4 - k]).sqrt();
         println!("{axis}: {:.4} for {known:.4}, {mode:?}", mode.period_ratio());
         assert_eq!(mode.axis, Some(axis));
-        assert!(known > 1.05 && (mode.period_ratio() / known - 1.0).abs() < 0.02, "{mode:?}");
+        assert!(known > 1.03 && (mode.period_ratio() / known - 1.0).abs() < 0.02, "{mode:?}");
         assert!(mode.damping > 0.0 && mode.damping < 0.1, "{mode:?}");
     }
 }
