@@ -83,7 +83,7 @@ fn peaks(value: &Bound<'_, PyAny>) -> PyResult<Vec<(String, f64)>> {
 /// and half of the elements.
 ///
 /// ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. A body that
-/// rocks on its corners may lose the memory of its start; its peaks are then those of one motion out of many, and no
+/// rocks on its corners may lose the memory of its start; its peaks then belong to one motion out of many, and no
 /// finer setting makes them converge. The twins tell how many digits of a peak can be quoted, and cost less than two
 /// further runs.
 #[pyfunction]
@@ -189,7 +189,7 @@ impl PyPeakTwins {
     }
 }
 
-/// Peaks of a run beside those of its twins: what :func:`sensitivity` returns. Printed, it is a table.
+/// Peaks of a run and of its twins: what :func:`sensitivity` returns. Printed, it is a table.
 #[pyclass(name = "Sensitivity", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySensitivity(Sensitivity);

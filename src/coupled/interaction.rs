@@ -61,7 +61,7 @@ pub struct Interaction {
 /// `scene` makes the builder of the same scene whenever it is called; both runs last `duration` (s). The second is that
 /// of [`SimulationBuilder::on_fixed_base`]: its model, loads and motion are the same.
 ///
-/// T and β are those of the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
+/// T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
 /// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and let
 /// go: they are the period and the decay of the free vibration that follows, by Midpoint steps of T/40 or shorter. The
 /// soil is linear: give it the moduli of the design motion (ASCE 7, table 19.3-2). Springs in series confirm the

@@ -20,7 +20,7 @@ pub struct Refinements {
 pub(super) struct Names(pub(super) Vec<String>);
 
 impl Names {
-    /// Values of the peaks of one run, whose names are checked against those of the first run.
+    /// Values of the peaks of one run, whose names are checked against the names of the first run.
     pub(super) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
         const NAME: &str = "list of a scene's peaks";
         at_least(NAME, peaks.len(), 1)?;

@@ -6,7 +6,7 @@ use super::refine_each::Names;
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
-/// Time step of the first twin over that of the run.
+/// Time step of the first twin over the run's.
 const SHORTER: f64 = 0.99;
 /// Most digits of a peak that twins may vouch for.
 const MOST_DIGITS: u32 = 6;
@@ -60,7 +60,7 @@ impl PeakTwins {
     }
 }
 
-/// Peaks of a run beside those of its twins, made by [`sensitivity`]. Printed, a table.
+/// Peaks of a run and of its twins, made by [`sensitivity`]. Printed, a table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -73,10 +73,10 @@ pub struct Sensitivity {
 /// Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
 /// and half of the elements.
 ///
-/// `scene` builds and runs for a duration with a number of elements (in plan that of cells along the shorter side) and
+/// `scene` builds and runs for a duration with a number of elements (in plan of cells along the shorter side) and
 /// a time step (s), and returns peaks by name, as for [`refine_each`](super::refine_each). Where a peak converges, its
 /// twins differ from it by about its error. A body that rocks on its corners, and twists on them, may lose the memory
-/// of its start: a change too small to matter decides on which corner it lands. Its peaks are then those of one motion
+/// of its start: a change too small to matter decides on which corner it lands. Its peaks then belong to one motion
 /// out of many, and no finer setting makes them converge; quote the range over many motions. The twins cost less than
 /// two further runs, in plan about one and a half, where the six settings of `refine_each` cost tens of them. Changes in
 /// the last bits of a scene alone take many impacts to grow, and show less.

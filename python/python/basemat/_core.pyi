@@ -164,7 +164,7 @@ class PeakTwins:
 
 @final
 class Sensitivity:
-    """Peaks of a run beside those of its twins: what :func:`sensitivity` returns. Printed, it is a table."""
+    """Peaks of a run and of its twins: what :func:`sensitivity` returns. Printed, it is a table."""
 
     @property
     def peaks(self) -> list[PeakTwins]:
@@ -1690,7 +1690,7 @@ class Simulation:
         of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its
         first mode (ASCE 7, chapter 19). This simulation stays where it is.
 
-        T and β are those of the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
+        T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
         structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
         let go. The soil is linear: give it the moduli of the design motion.
         """
@@ -2900,7 +2900,7 @@ def sensitivity(
     and half of the elements.
 
     ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. A body that
-    rocks on its corners may lose the memory of its start; its peaks are then those of one motion out of many, and no
+    rocks on its corners may lose the memory of its start; its peaks then belong to one motion out of many, and no
     finer setting makes them converge. The twins tell how many digits of a peak can be quoted, and cost less than two
     further runs.
     """

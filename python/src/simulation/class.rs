@@ -328,7 +328,7 @@ impl PySimulation {
     /// of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its
     /// first mode (ASCE 7, chapter 19). This simulation stays where it is.
     ///
-    /// T and β are those of the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
+    /// T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
     /// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
     /// let go. The soil is linear: give it the moduli of the design motion.
     #[pyo3(signature = (duration=None))]

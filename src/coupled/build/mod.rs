@@ -236,7 +236,7 @@ impl SimulationBuilder {
 
     /// Holds the base: each foundation keeps its shape and moves with the free field under it, as codes and fixed-base
     /// models have it. Ground and interface law are left out, but for the places of the contact elements; base shear,
-    /// moment and tractions are those of the support. [`interaction`](crate::coupled::interaction()) compares the run
+    /// moment and tractions then act on the support. [`interaction`](crate::coupled::interaction()) compares the run
     /// with that on the ground.
     ///
     /// ```
