@@ -159,6 +159,8 @@ impl Structure for RigidBase {
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
+        fn has_active_stiffness(&self) -> bool;
+        fn tallest_storey(&self) -> Option<f64>;
         fn describe(&self, dofs: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
         fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
