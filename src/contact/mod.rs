@@ -211,7 +211,7 @@ impl ContactProblem {
             laws,
             static_traction: vec![0.0; layout.len()],
             solver: ContactSolver::new(layout),
-            search: ModeSearch::new(layout, &[], ContactSearch::default()),
+            search: ModeSearch::new(layout, &[], true, ContactSearch::default()),
             modes: vec![Mode::Stick; count],
             steps: 0,
         })
@@ -292,6 +292,7 @@ impl ContactProblem {
             laws: &self.laws,
             length_scale: largest(free_jump),
             bonds: &[],
+            frictionless: false,
         };
         let step = self.steps + 1;
         let time = step as f64 * start.time_step();

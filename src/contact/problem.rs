@@ -46,6 +46,8 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
+    /// In plan, whether friction and cohesion are left out, as while the weight comes on.
+    pub(crate) frictionless: bool,
 }
 
 impl ContactInput<'_> {
@@ -205,15 +207,22 @@ impl ContactSolver {
         start: &PreviousContacts,
         laws: &[Box<dyn InterfaceLaw>],
     ) -> Result<f64, LawError> {
-        let (free_jump, length_scale, bonds) = (static_traction, 0.0, &[]);
-        let input =
-            ContactInput { delassus, free_jump, static_traction, start, laws, length_scale, bonds };
+        if self.is_plan() {
+            return Ok(dense_condition(delassus, self.layout.len()));
+        }
+        let input = ContactInput {
+            delassus,
+            free_jump: static_traction,
+            static_traction,
+            start,
+            laws,
+            length_scale: 0.0,
+            bonds: &[],
+            frictionless: false,
+        };
         for (e, conditions) in self.conditions.iter_mut().enumerate() {
             let at_rest = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
             *conditions = input.conditions(e, at_rest)?;
-        }
-        if self.is_plan() {
-            return Ok(dense_condition(delassus, self.layout.len()));
         }
         let regular = self.assemble(&input);
         self.valid = false;

@@ -55,12 +55,18 @@ pub(crate) struct ModeSearch {
 }
 
 impl ModeSearch {
-    /// Search for elements with these areas (m²); a ground in the plane does not need the areas.
-    pub(crate) fn new(layout: ContactLayout, areas: &[f64], search: ContactSearch) -> Self {
+    /// Search for elements with these areas (m²), under a structure that `is_linear` or not; a ground in the plane needs
+    /// neither.
+    pub(crate) fn new(
+        layout: ContactLayout,
+        areas: &[f64],
+        is_linear: bool,
+        search: ContactSearch,
+    ) -> Self {
         let is_plan = layout.components() != PLANE;
         let count = if is_plan { 0 } else { layout.elements() };
         Self {
-            cone: is_plan.then(|| Box::new(Cone::new(areas))),
+            cone: is_plan.then(|| Box::new(Cone::new(areas, is_linear))),
             search,
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],

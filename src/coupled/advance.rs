@@ -112,6 +112,7 @@ impl State {
             ];
             let rotations = scene.base.rotations(k, displacement);
             own.into_iter().zip(rotations).for_each(|(own, rotation)| *own = rotation);
+            foundation.derived.settlement = scene.base.settlement(k, displacement);
             if foundation.base_rotation.abs() > state.base_rotation.abs() {
                 state.base_rotation = foundation.base_rotation;
             }

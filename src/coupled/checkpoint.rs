@@ -2,6 +2,9 @@
 
 use super::energy_accumulator::EnergyAccumulator;
 use super::energy_balance::EnergyBalance;
+#[cfg(feature = "serde")]
+use super::identity::bits;
+use super::identity::{Change, Identity};
 use super::motion::Translation;
 use super::scene::Scene;
 use super::state::State;
@@ -14,14 +17,12 @@ use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 8;
+const FORMAT: u32 = 9;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
-/// Allowed difference of numbers of the same scene (other processors round differently).
-const SAME: f64 = 1e-9;
 
 /// A run between two steps: see [`Simulation::checkpoint`](crate::Simulation::checkpoint).
 ///
@@ -36,7 +37,7 @@ pub struct Checkpoint {
     format: u32,
     identity: Identity,
     steps: usize,
-    /// Number of each element's mode among those of its law, and whether the element has been open.
+    /// Number of each element's mode among all, and whether the element has been open.
     modes: Vec<(usize, bool)>,
     /// State variables of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -50,34 +51,6 @@ pub struct Checkpoint {
     /// Check sum over all of the above; checkpoints of formats before the eighth have none.
     #[cfg_attr(feature = "serde", serde(default))]
     sum: u64,
-}
-
-/// Numbers that differ between scenes.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-struct Identity {
-    dofs: usize,
-    /// Whether an energy balance is kept.
-    energy_balance: bool,
-    probes: Vec<String>,
-    /// Ends of the state variables of each element's law; empty if no law has any.
-    laws: Vec<usize>,
-    /// Time step and coefficients of the scheme.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    steps: Vec<f64>,
-    /// Ends of the elements.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    elements: Vec<f64>,
-    /// Sums over the structure's matrices, and one that depends on the signs of its modes.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    structure: Vec<f64>,
-    /// Sum over the ground's step compliance.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    ground: Vec<f64>,
-    /// Sum over the static tractions.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    static_contact: Vec<f64>,
 }
 
 impl Checkpoint {
@@ -102,57 +75,6 @@ impl Checkpoint {
             sum.add_numbers(list);
         }
         sum.value()
-    }
-}
-
-impl Identity {
-    fn add_to(&self, sum: &mut CheckSum) {
-        let Self {
-            dofs,
-            energy_balance,
-            probes,
-            laws,
-            steps,
-            elements,
-            structure,
-            ground,
-            static_contact,
-        } = self;
-        sum.add(*dofs as u64);
-        sum.add(u64::from(*energy_balance));
-        sum.add(probes.len() as u64);
-        for name in probes {
-            sum.add_text(name);
-        }
-        sum.add_list(laws.iter().map(|end| *end as u64));
-        for list in [steps, elements, structure, ground, static_contact] {
-            sum.add_numbers(list);
-        }
-    }
-
-    /// Error that names the first thing that differs.
-    fn check(&self, own: &Self) -> std::result::Result<(), CheckpointError> {
-        let close = |a: &[f64], b: &[f64], scale: f64| {
-            let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * scale.max(b.abs());
-            a.len() == b.len() && a.iter().zip(b).all(near)
-        };
-        let span = crate::linalg::largest(&own.elements);
-        for (same, quantity) in [
-            (self.dofs == own.dofs, "number of degrees of freedom"),
-            (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
-            (close(&self.elements, &own.elements, span), "list of contact elements"),
-            (self.energy_balance == own.energy_balance, "energy balance"),
-            (self.probes == own.probes, "list of probes"),
-            (self.laws == own.laws, "state variables of the interface laws"),
-            (close(&self.structure, &own.structure, 0.0), "structure"),
-            (close(&self.ground, &own.ground, 0.0), "ground"),
-            (close(&self.static_contact, &own.static_contact, 0.0), "static state"),
-        ] {
-            if !same {
-                return Err(CheckpointError::OtherScene { quantity });
-            }
-        }
-        Ok(())
     }
 }
 
@@ -197,9 +119,8 @@ impl Simulation {
     /// ```
     pub fn checkpoint(&self) -> Result<Checkpoint> {
         let Self { scene, state, .. } = self;
-        let number = |(e, start): (usize, PreviousContact<'_>)| {
-            let known = modes_of(scene, e);
-            let number = known.iter().position(|mode| *mode == start.mode);
+        let number = |start: PreviousContact<'_>| {
+            let number = Mode::ALL.iter().position(|mode| *mode == start.mode);
             let unknown = CheckpointError::Unsupported { part: "interface law" };
             Ok((number.ok_or(unknown)?, start.has_opened))
         };
@@ -207,9 +128,9 @@ impl Simulation {
         let numbers = numbers(scene.layout().components(), &mut own, books.as_mut());
         let mut checkpoint = Checkpoint {
             format: FORMAT,
-            identity: self.identity(),
+            identity: self.identity(state.step)?,
             steps: state.step,
-            modes: state.start.iter().enumerate().map(number).collect::<Result<_>>()?,
+            modes: state.start.iter().map(number).collect::<Result<_>>()?,
             laws: state.start.state_variables().to_vec(),
             state: numbers.into_iter().map(|value| *value).collect(),
             ground: self.ground.save()?,
@@ -220,12 +141,13 @@ impl Simulation {
         Ok(checkpoint)
     }
 
-    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
-    /// wherever this one is; what follows is the same to the last bit on the same processor.
+    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, wherever this one is. Further
+    /// steps have the same bits on the same processor.
     ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, initial and ground motion,
-    /// gravity and laws are not, nor what a user's structure leaves out of what it [saves][`save`]. The transitions,
-    /// trials and method of the step before the checkpoint are not kept.
+    /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the initial
+    /// motion, the numbers that the interface laws return for sample states, and samples of ground motion and loads in the
+    /// steps so far. Numbers of a nonlinear force, and internal variables that a structure does not [save][`save`], are
+    /// not compared. The transitions, trials and method of the step before the checkpoint are not kept.
     ///
     /// # Errors
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
@@ -233,6 +155,36 @@ impl Simulation {
     ///
     /// [`save`]: crate::structure::NonlinearForce::save
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
+        self.resume_changed(checkpoint, &[])
+    }
+
+    /// Goes to where `checkpoint` was made, as [`Simulation::resume`] does, in a scene in which these `changes` are
+    /// wanted: other friction from there on, say, or another motion.
+    ///
+    /// # Errors
+    /// As for [`Simulation::resume`], for all that differs beside the changes.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Change;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::Simulation;
+    ///
+    /// let scene = |friction: f64| {
+    ///     Simulation::builder(0.01)
+    ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///         .interface(Coulomb::new(friction)?)
+    ///         .build()
+    /// };
+    /// let saved = scene(0.4)?.checkpoint()?;
+    /// let error = scene(0.3)?.resume(&saved).unwrap_err();
+    /// assert!(error.to_string().contains("interface law"));
+    /// scene(0.3)?.resume_changed(&saved, &[Change::InterfaceLaw])?;
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn resume_changed(&mut self, checkpoint: &Checkpoint, changes: &[Change]) -> Result<()> {
         if checkpoint.format != FORMAT {
             let found = checkpoint.format;
             return Err(CheckpointError::Format { found, needed: FORMAT }.into());
@@ -240,11 +192,11 @@ impl Simulation {
         if checkpoint.sum != checkpoint.sum() {
             return Err(CheckpointError::Damaged.into());
         }
-        checkpoint.identity.check(&self.identity())?;
         let corrupt = |quantity| CheckpointError::Corrupt { quantity };
         if checkpoint.steps > MOST_STEPS {
             return Err(corrupt("number of steps").into());
         }
+        checkpoint.identity.check(&self.identity(checkpoint.steps)?, changes)?;
         for (values, quantity) in [
             (&checkpoint.laws, "state variables of the interface laws"),
             (&checkpoint.state, "state"),
@@ -287,50 +239,6 @@ impl Simulation {
         self.scene.loads.iter_mut().for_each(|load| load.set(None));
         Ok(())
     }
-
-    /// Numbers that another simulation of the same scene has too.
-    fn identity(&self) -> Identity {
-        let Self { scene, state, .. } = self;
-        let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
-        let model = &scene.model;
-        // Modes may come with either sign. A nonlinear structure has none, and columns that change.
-        let columns = self.solver.operators().columns.iter().enumerate().filter(|_| model.linear);
-        let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
-        let c = scene.coefficients;
-        let mut steps = vec![scene.time_step];
-        for row in [c.acceleration, c.velocity, c.displacement] {
-            steps.extend(row);
-        }
-        let mut elements: Vec<f64> =
-            scene.base.elements().iter().flat_map(|e| [e.left, e.right]).collect();
-        if scene.layout().is_plan() {
-            elements.extend(scene.base.elements().depths().iter().flatten());
-        }
-        Identity {
-            dofs: model.dofs,
-            energy_balance: self.books.is_some(),
-            probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
-            laws: state.start.state_variable_ends().to_vec(),
-            steps,
-            elements,
-            structure: vec![
-                sum(model.mass.values()),
-                sum(model.damping.values()),
-                sum(model.stiffness.values()),
-                signed,
-            ],
-            ground: vec![sum(&scene.soil)],
-            // The weight is none of the static state where it acts as a load.
-            static_contact: [&scene.static_state.traction, &scene.weight]
-                .map(|values| sum(values))
-                .to_vec(),
-        }
-    }
-}
-
-/// Modes by their numbers: those of an element's law, or in plan all.
-fn modes_of(scene: &Scene, element: usize) -> &[Mode] {
-    if scene.layout().is_plan() { &Mode::ALL } else { scene.law(element).modes() }
 }
 
 /// Takes over modes and whether elements have been open, from their numbers.
@@ -340,7 +248,9 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
         return Err(corrupt.into());
     }
     for (e, &(number, has_opened)) in saved.iter().enumerate() {
-        let mode = modes_of(scene, e).get(number).copied().ok_or_else(|| corrupt.clone())?;
+        let mode = Mode::ALL.get(number).copied();
+        let known = |mode: &Mode| scene.layout().is_plan() || scene.law(e).modes().contains(mode);
+        let mode = mode.filter(known).ok_or_else(|| corrupt.clone())?;
         state.modes[e] = mode;
         state.start.restore(e, state.contact[e], mode, has_opened);
     }
@@ -378,19 +288,4 @@ fn numbers<'a>(
     }
     all.extend(books.into_iter().flat_map(|books| books.numbers(directions)));
     all
-}
-
-/// Floating-point numbers as their bits.
-#[cfg(feature = "serde")]
-mod bits {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub(super) fn serialize<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq(values.iter().map(|value| value.to_bits()))
-    }
-
-    pub(super) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Vec<f64>, D::Error> {
-        let bits = Vec::<u64>::deserialize(from)?;
-        Ok(bits.into_iter().map(f64::from_bits).collect())
-    }
 }

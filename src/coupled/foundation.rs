@@ -71,6 +71,8 @@ pub(crate) struct Derived {
     /// Restoring over overturning moment about the edges that face along x, and along y; NaN in flight, infinite along y
     /// in the plane.
     pub(crate) overturning: [f64; 2],
+    /// Downward displacement of the base since the static state, against the free field, m.
+    pub(crate) settlement: f64,
 }
 
 impl PartialEq for Derived {
@@ -159,7 +161,7 @@ impl Foundation {
         let sliding =
             if friction.is_empty() { f64::NAN } else { ratio(normal, resistance, demand) };
         let overturning = [0, 1].map(|axis| against_overturning(footing, normal, moment, axis));
-        self.derived = Derived { largest_slip, sliding, overturning };
+        self.derived = Derived { largest_slip, sliding, overturning, settlement: 0.0 };
         sums
     }
 }

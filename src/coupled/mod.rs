@@ -81,6 +81,7 @@ mod energy_accumulator;
 mod energy_balance;
 pub(crate) mod foundation;
 mod free_vibration;
+mod identity;
 mod interaction;
 mod motion;
 
@@ -109,6 +110,7 @@ pub(crate) use run::peak::probe_index;
 
 pub use crate::structure::probe::Probe;
 pub use foundation::Foundation;
+pub use identity::Change;
 pub use interaction::{Interaction, SystemMode, interaction};
 pub use refine::{Refinement, Setting, largest_convergent_step, refine};
 pub use refine_each::{Refinements, refine_each};

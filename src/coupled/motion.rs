@@ -8,6 +8,7 @@ use super::scene::operators::Model;
 use super::scene::transformation::{Transformation, Weights};
 use super::scheme::SchemeCoefficients;
 use crate::error::{Error, Result, at_least, finite, positive, same_length};
+use crate::linalg::mixing_weight;
 use crate::motion::Record;
 use crate::structure::DofCombination;
 
@@ -282,6 +283,13 @@ impl SteppedLoad {
     /// Sets the force from now on; `None` returns to the load's own.
     pub(crate) fn set(&mut self, value: Option<f64>) {
         self.set = value;
+    }
+
+    /// Value at `time` times a sum over the weights of its row, by which loads are told apart.
+    pub(crate) fn mixed_value(&self, time: f64) -> f64 {
+        let row = self.load.row.iter();
+        let sum: f64 = row.map(|&(i, weight)| mixing_weight(i) * weight).sum();
+        self.load.value(time) * sum
     }
 
     /// Adds the force at `time`, less that of the static state, to `force`; returns its value.

@@ -256,6 +256,10 @@ impl Simulation {
     /// [`Warning::Overturned`]; a further call goes on from there. What convolution weights the ground lacks are
     /// computed before the first step, unseen: [`Simulation::precompute`] does it before, with an observer.
     ///
+    /// The first run chooses the ground's history for its number of steps, unless
+    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) has: without that, two runs of half as many
+    /// steps may differ from one in the last bits.
+    ///
     /// # Errors
     /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error; the
     /// simulation stays at the last accepted step, and [`Simulation::state`] shows it.

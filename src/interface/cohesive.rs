@@ -150,6 +150,11 @@ impl InterfaceLaw for Cohesive {
         }
     }
 
+    /// This law without friction and cohesion, its tensile strength kept.
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Coulomb::held_by(self.tension))
+    }
+
     /// Friction coefficient of the broken interface, without adhesion.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction())
@@ -176,5 +181,10 @@ impl InterfaceLaw for Bonded {
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         Ok(Limits { bonded: true, gap_offset: start.state.gap, ..Limits::default() })
+    }
+
+    /// This law itself.
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Self)
     }
 }

@@ -83,6 +83,11 @@ impl Coulomb {
         Self { friction: 0.0, tensile_strength: 0.0, condition: UnilateralCondition::Position }
     }
 
+    /// Law without friction, with this tensile strength.
+    pub(super) fn held_by(tensile_strength: f64) -> Self {
+        Self { tensile_strength, ..Self::frictionless() }
+    }
+
     /// Adds a tensile strength (Pa) until an element first opens.
     ///
     /// Friction is then limited by friction · (p + strength).
@@ -214,6 +219,11 @@ impl InterfaceLaw for Coulomb {
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }
+
+    /// This law without friction, its tensile strength kept.
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Self::held_by(self.tensile_strength))
+    }
 }
 
 // Coulomb friction whose coefficient changes from step to step.
@@ -320,6 +330,11 @@ impl InterfaceLaw for VariableFriction {
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         self.at(start).limits(start)
+    }
+
+    /// This law without friction, its tensile strength kept.
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        InterfaceLaw::frictionless(&self.contact)
     }
 }
 

@@ -60,6 +60,11 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// These limits without friction and cohesion, as they act while the weight comes on.
+    pub(crate) fn frictionless(self) -> Self {
+        Self { friction: 0.0, attraction: 0.0, shear_strength: 0.0, ..self }
+    }
+
     /// Returns these limits, or an error if one is not possible.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, value) in

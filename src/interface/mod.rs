@@ -373,9 +373,11 @@ pub trait InterfaceLaw: Send {
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
-    /// The same law without friction and cohesion, for the gravity stage.
+    /// The same law without friction and cohesion, for the gravity stage on a ground in the plane.
     ///
-    /// By default, hard and frictionless contact.
+    /// By default, hard and frictionless contact. Building returns an error where the law does not hold the static state
+    /// found with it. In plan the law itself acts with its [`limits`](Self::limits), without friction, attraction and
+    /// shear strength; its state variables begin as without pressure.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Coulomb::frictionless())
     }

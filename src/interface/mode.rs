@@ -79,6 +79,15 @@ impl Mode {
         }
     }
 
+    /// This mode without slip.
+    pub(crate) fn sticking(self) -> Self {
+        match self {
+            Mode::Open => Mode::Open,
+            mode if mode.is_yield() => Mode::Yield,
+            _ => Mode::Stick,
+        }
+    }
+
     /// The corresponding mode on a ground in plan, where slip has any direction.
     pub(crate) fn in_plan(self) -> Self {
         match self {

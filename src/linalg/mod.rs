@@ -21,7 +21,8 @@ pub(crate) use faer::traits::ComplexField;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use product::{
     Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
-    magnitude, row_products, transposed_multiply_add, vectorized, weighted_dot,
+    magnitude, mixed, mixing_weight, row_products, transposed_multiply_add, vectorized,
+    weighted_dot,
 };
 pub(crate) use sparse::{Partition, SparseFactor, indefinite_row};
 pub use triplets::Triplets;

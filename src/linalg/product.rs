@@ -187,6 +187,16 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
+/// Weight of the number `k` in [`mixed`].
+pub(crate) fn mixing_weight(k: usize) -> f64 {
+    1.0 + 0.5 * (k as f64).cos()
+}
+
+/// Weighted sum that differs where numbers are exchanged.
+pub(crate) fn mixed(values: &[f64]) -> f64 {
+    values.iter().enumerate().map(|(k, value)| mixing_weight(k) * value).sum()
+}
+
 /// Σ |xᵢ|.
 pub(crate) fn magnitude(x: &[f64]) -> f64 {
     let (chunks, mut sums) = (x.chunks_exact(8), [0.0; 8]);

@@ -149,6 +149,7 @@ impl<'a> Sweep<'a> {
     /// Calls `progress` with a case's number and its completed fraction.
     ///
     /// It is called at each [`SweepCase::report`], and with 1 when the case ends, successful or not.
+    /// Cases whose rows are read from a file ([`Sweep::table_in`]) are not reported.
     #[must_use]
     pub fn on_progress(mut self, progress: impl Fn(usize, f64) + Sync + 'a) -> Self {
         self.progress = Box::new(progress);

@@ -68,7 +68,8 @@ impl Sweep<'_> {
     /// While cases run, their rows are in the file `path` with `.part` at its end. When all rows are there,
     /// `path` itself is written at once and the other file removed. Cases with a row in either file are not
     /// run again, nor are failed cases. To run a case again, delete its row. After a change of the
-    /// computation itself, delete both files. Two processes must not use the same file.
+    /// computation itself, delete both files. Two processes must not use the same file. Progress
+    /// ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
     ///
     /// # Errors
     /// As for [`Sweep::table`]; [`Error::Write`] if the file of rows cannot be opened.
@@ -90,9 +91,6 @@ impl Sweep<'_> {
         let mut begun = 0;
         if part.exists() {
             begun = self.gather(&mut there, &part, Some(&columns), Ending::Anywhere)?.end;
-        }
-        for &case in there.keys() {
-            (self.progress)(case, 1.0);
         }
         let left: Vec<_> = self.cases().filter(|case| !there.contains_key(case)).collect();
         let mut rows: Vec<_> = there.into_values().map(|(row, _)| row).collect();

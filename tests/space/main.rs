@@ -6,6 +6,7 @@ mod cells;
 mod elastic;
 mod equations;
 mod interaction;
+mod limits;
 mod march;
 mod mast;
 mod motions;

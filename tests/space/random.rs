@@ -1,4 +1,5 @@
-//! Random scenes that lift off and slide: the energy balance closes and nothing gives back what it has taken.
+//! Random scenes that lift off and slide: the energy balance closes, nothing gives back what it has taken,
+//! and saved runs go on to the same bits.
 //! `SPACE_SCENES=1000` draws so many, `SPACE_FIRST=40` from that one on.
 
 use basemat::bem::ElasticGround;
@@ -200,6 +201,39 @@ fn energies_of_random_scenes_close() {
     );
     assert!(opened > scenes * STEPS / 5 && slid > scenes * STEPS / 5, "{opened} {slid}");
     assert!(unsolved <= scenes / 20, "{unsolved}");
+}
+
+/// Saved anywhere and resumed in another simulation, steps have the same bits: half as many scenes.
+#[test]
+fn random_scenes_resume_to_the_last_bit() {
+    let number = |name, usual| std::env::var(name).map_or(usual, |text| text.parse().unwrap());
+    let (first, scenes) = (number("SPACE_FIRST", 0), number("SPACE_SCENES", 24) / 2);
+    let (mut compared, mut slid) = (0, 0);
+    for number in first..first + scenes {
+        let build = || scene(&mut Random(29 + number as u64));
+        let Ok(mut whole) = build() else { continue };
+        let mut random = Random(number as u64);
+        let cuts: [f64; 2] = [0, 30].map(|from| random.within(from.into(), (from + 25).into()));
+        let (mut saved, mut states) = (Vec::new(), Vec::new());
+        for step in 0..STEPS {
+            if cuts.iter().any(|cut| cut.round() as usize == step) {
+                saved.push((step, whole.checkpoint().unwrap()));
+            }
+            let Ok(state) = whole.step() else { break };
+            states.push(state.clone());
+        }
+        for (step, checkpoint) in saved {
+            let mut other = build().unwrap();
+            other.resume(&checkpoint).unwrap();
+            for wanted in &states[step..] {
+                assert!(other.step().unwrap() == wanted, "{number}, saved after {step}");
+                compared += 1;
+                slid += usize::from(wanted.modes.iter().any(|mode| mode.is_slip()));
+            }
+        }
+    }
+    println!("{scenes} scenes, {compared} steps compared, {slid} slide");
+    assert!(compared > 30 * scenes && slid > 10 * scenes, "{compared} {slid}");
 }
 
 /// Endless friction beside a bond, on a base whose third cell carries next to nothing: a pull of the fictitious springs

@@ -43,6 +43,7 @@ _CurveBound: TypeAlias = Literal["mean", "upper"]
 _Wave: TypeAlias = Literal["shear", "pressure"]
 _ControlPoint: TypeAlias = Literal["outcrop", "within"]
 _InclinedControl: TypeAlias = Literal["outcrop horizontal", "outcrop vertical", "incident"]
+_Change: TypeAlias = Literal["interface_law", "ground_motion", "load", "gravity_stage", "initial_motion"]
 _GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
 _Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
 _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
@@ -1540,8 +1541,8 @@ class Simulation:
         loads: forces from outside, a list of :class:`Load`; none unless given.
         gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
             state: the base begins without pressure, and nothing resists uplift and sliding.
-        gravity_stage: friction while the weight comes on. "frictionless" (the default): none, and the
-            base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
+        gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
+            nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
             there is no static state, weight and loads act from t = 0 on, as for a block let go.
         initial_displacement: of the n degrees of freedom at t = 0 against the static state, array of
             shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
@@ -1552,7 +1553,9 @@ class Simulation:
             coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
             relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
         expected_steps: about how many steps will be made. Memory and the ground's weights are then
-            ready before the first; unless given, those of the first run.
+            ready before the first; unless given, those of the first run. The ground's history is chosen
+            for this number: without it, two runs of half as many steps may differ from one in the last
+            bits.
         moment_center: x of the point about which the base moment is taken, m; the middle of the base
             unless given.
         energy_balance: whether energies are booked; True by default. Without them a step takes less
@@ -1704,9 +1707,14 @@ class Simulation:
         Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
         ``save`` and ``restore``.
         """
-    def resume(self, checkpoint: Checkpoint) -> None:
+    def resume(self, checkpoint: Checkpoint, changes: Sequence[_Change] | None = None) -> None:
         """Goes to where ``checkpoint`` (a :class:`Checkpoint`) was made, in a simulation that was built in
-        the same way; raises :class:`CheckpointError` in another one.
+        the same way; raises :class:`CheckpointError` in another one, with what differs: sizes, time step,
+        elements, matrices, static state, interface law, and ground motion and loads in the steps so far.
+
+        Args:
+            changes: differences that are wanted, of "interface_law", "ground_motion", "load",
+                "gravity_stage" and "initial_motion"; none unless given.
         """
 
 @final

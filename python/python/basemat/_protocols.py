@@ -87,7 +87,8 @@ class UserPlanLaw(Protocol):
     """
 
     def limits(self, start: PreviousContact) -> Limits:
-        """Limits of an element's tractions in the step after ``start``; asked once per attempted step."""
+        """Limits of an element's tractions in the step after ``start``; asked once per attempted step. While the weight
+        comes on without friction, all but friction, attraction and shear strength hold."""
 
 
 class UserHysteresis(Protocol):

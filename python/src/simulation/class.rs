@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
 use basemat::contact::ContactSearch;
-use basemat::coupled::Checkpoint;
+use basemat::coupled::{Change, Checkpoint};
 use basemat::results::{Recorder, Serviceability};
 use pyo3::prelude::*;
 
@@ -37,8 +37,8 @@ use crate::ticker::{progress_function, watched};
 ///     loads: forces from outside, a list of :class:`Load`; none unless given.
 ///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
 ///         state: the base begins without pressure, and nothing resists uplift and sliding.
-///     gravity_stage: friction while the weight comes on. "frictionless" (the default): none, and the
-///         base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
+///     gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
+///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
 ///         there is no static state, weight and loads act from t = 0 on, as for a block let go.
 ///     initial_displacement: of the n degrees of freedom at t = 0 against the static state, array of
 ///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
@@ -49,7 +49,9 @@ use crate::ticker::{progress_function, watched};
 ///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
 ///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
 ///     expected_steps: about how many steps will be made. Memory and the ground's weights are then
-///         ready before the first; unless given, those of the first run.
+///         ready before the first; unless given, those of the first run. The ground's history is chosen
+///         for this number: without it, two runs of half as many steps may differ from one in the last
+///         bits.
 ///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
 ///         unless given.
 ///     energy_balance: whether energies are booked; True by default. Without them a step takes less
@@ -356,10 +358,18 @@ impl PySimulation {
     }
 
     /// Goes to where ``checkpoint`` (a :class:`Checkpoint`) was made, in a simulation that was built in
-    /// the same way; raises :class:`CheckpointError` in another one.
-    fn resume(&self, checkpoint: &PyCheckpoint) -> PyResult<()> {
+    /// the same way; raises :class:`CheckpointError` in another one, with what differs: sizes, time step,
+    /// elements, matrices, static state, interface law, and ground motion and loads in the steps so far.
+    ///
+    /// Args:
+    ///     changes: differences that are wanted, of "interface_law", "ground_motion", "load",
+    ///         "gravity_stage" and "initial_motion"; none unless given.
+    #[pyo3(signature = (checkpoint, changes=None))]
+    fn resume(&self, checkpoint: &PyCheckpoint, changes: Option<Vec<String>>) -> PyResult<()> {
         take_raised();
-        settled(self.lock()?.resume(&checkpoint.0))
+        let words = changes.unwrap_or_default();
+        let changes: basemat::Result<Vec<Change>> = words.iter().map(|word| word.parse()).collect();
+        settled(self.lock()?.resume_changed(&checkpoint.0, &settled(changes)?))
     }
 
     /// Goes back to the start: what follows has the bits that it had from there.
@@ -369,7 +379,8 @@ impl PySimulation {
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
         take_raised();
         let start = self.start.as_ref().map_err(|reason| reason.clone_ref(py))?;
-        settled(self.lock()?.resume(start))
+        // Its own start, whatever loads and laws of the user's return by now.
+        settled(self.lock()?.resume_changed(start, &Change::ALL))
     }
 
     fn __repr__(&self) -> String {

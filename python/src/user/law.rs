@@ -2,8 +2,7 @@
 
 use basemat::Result;
 use basemat::interface::{
-    Bonded, Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode,
-    PreviousContact, Tolerance,
+    Condition, ContactScene, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
@@ -119,21 +118,6 @@ impl UserLaw {
         })
     }
 
-    /// The law of the package with the limits of this one, for the statics of one that has nothing else.
-    fn by_limits(&self, start: &PreviousContact<'_>) -> Box<dyn InterfaceLaw> {
-        let limits =
-            self.limits(start).unwrap_or(Limits { friction: f64::NAN, ..Limits::default() });
-        if limits.bonded {
-            return Box::new(Bonded);
-        }
-        let law = Coulomb::new(limits.friction);
-        match law.and_then(|law| law.with_tensile_strength(limits.tension)) {
-            Ok(law) => Box::new(law),
-            // Limits for which the core returns an error by itself.
-            Err(_) => Bonded.frictionless(),
-        }
-    }
-
     /// Replaces the state variables by what a method returns, if it is as long.
     fn update_state_variables<A: for<'py> PyCallArgs<'py>>(
         &self,
@@ -164,7 +148,8 @@ impl InterfaceLaw for UserLaw {
 
     fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
         if !self.object.has("conditions") {
-            return self.by_limits(start).conditions(mode, start);
+            // Never called in plan, where alone such a law acts.
+            return [NOTHING; 2];
         }
         ask([NOTHING; 2], |py| {
             let arguments = (mode_name(mode), PyPreviousContact::of(py, start)?);
@@ -182,7 +167,7 @@ impl InterfaceLaw for UserLaw {
         tolerance: Tolerance,
     ) -> Mode {
         if !self.object.has("conditions") {
-            return self.by_limits(start).next_mode(mode, start, trial, tolerance);
+            return mode;
         }
         ask(mode, |py| {
             let (name, start) = (mode_name(mode), PyPreviousContact::of(py, start)?);

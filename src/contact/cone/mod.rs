@@ -52,13 +52,16 @@ pub(super) struct Cone {
     generation: Option<usize>,
     /// Elements whose bonds have gone in this step.
     broken: Vec<bool>,
-    /// Forces that a search begins with.
+    /// Forces that a search begins with, and forces that solve with less friction.
     start: Vec<f64>,
+    limited: Vec<f64>,
+    /// Whether the structure is linear: all steps then have the same W, unless layers change.
+    is_linear: bool,
 }
 
 impl Cone {
-    /// Search for elements of these areas, m².
-    pub(super) fn new(areas: &[f64]) -> Self {
+    /// Search for elements of these areas, m², under a structure that `is_linear` or not.
+    pub(super) fn new(areas: &[f64], is_linear: bool) -> Self {
         let count = areas.len();
         Self {
             problem: Problem::new(count),
@@ -69,6 +72,8 @@ impl Cone {
             generation: None,
             broken: vec![false; count],
             start: vec![0.0; 3 * count],
+            limited: vec![0.0; 3 * count],
+            is_linear,
         }
     }
 
@@ -81,6 +86,7 @@ impl Cone {
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
         self.take(solver.generation, input)?;
+        self.newton.begin_step();
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
         for mode in modes.iter_mut() {
             *mode = mode.in_plan();
@@ -92,8 +98,10 @@ impl Cone {
         if !(tried && self.problem.is_solved()) {
             self.begin(input);
             loop {
-                let Self { problem, newton, proximal, start, .. } = self;
-                let (iterations, found) = search(problem, newton, proximal, start);
+                let Self { problem, newton, proximal, start, limited, is_linear, .. } = self;
+                let lasts = lasts(*is_linear, &self.layers, input);
+                let (iterations, found) =
+                    search(problem, newton, proximal, [start, limited], lasts);
                 trials += iterations;
                 let Some(found) = found else { return Err(self.failure(trials)) };
                 method = method.max(found);
@@ -185,7 +193,8 @@ impl Cone {
             values[row] += layers[row % count][(row / count).min(1)] / areas[row % count];
         }
         problem.find_scales();
-        self.newton.forget();
+        let lasts = lasts(self.is_linear, &self.layers, input);
+        self.newton.forget(lasts);
         self.generation = Some(generation);
         Ok(())
     }
@@ -264,6 +273,8 @@ impl Cone {
 
     fn failure(&mut self, iterations: usize) -> StepError {
         let problem = &mut self.problem;
+        // Of the law's own friction.
+        problem.hold(f64::INFINITY);
         let residual = problem.residual();
         let tolerance = problem.tolerance();
         let missed = |e: &usize| problem.miss(*e) > tolerance || problem.miss(*e).is_nan();
@@ -273,12 +284,20 @@ impl Cone {
     }
 }
 
+/// Whether W stays as it is for the whole run: the structure is linear, and laws with layers have no state variables.
+fn lasts(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool {
+    let is_fixed =
+        |(e, layer): (usize, &[f64; 2])| *layer == [0.0; 2] || input.law(e).state_variables() == 0;
+    is_linear && layers.iter().enumerate().all(is_fixed)
+}
+
 /// Limits of an element's law, checked.
 fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
     let (law, start) = (input.law(element), input.start.of(element));
     let mode = start.mode.word();
     let refused = |reason| LawError::Refused { element, mode, reason: Box::new(reason) };
-    law.limits(&start).and_then(Limits::checked).map_err(refused)
+    let limits = law.limits(&start).and_then(Limits::checked).map_err(refused)?;
+    Ok(if input.frictionless { limits.frictionless() } else { limits })
 }
 
 /// Bounds of the forces on an area, m².

@@ -33,9 +33,14 @@ impl Newton {
         }
     }
 
-    /// Forgets the factors: to be called when W has changed.
-    pub(super) fn forget(&mut self) {
-        self.system.forget();
+    /// Forgets the factors: to be called when W has changed; `lasts` if it will not do so again.
+    pub(super) fn forget(&mut self, lasts: bool) {
+        self.system.forget(lasts);
+    }
+
+    /// Forgets the steps before, as far as the choice of a system depends on them.
+    pub(super) fn begin_step(&mut self) {
+        self.system.begin_step();
     }
 
     /// Iterates from the present r; returns the number of iterations, and whether they found a solution. With `ahead` the

@@ -11,6 +11,8 @@ const SWEEPS: usize = 60;
 const ROUNDS: usize = 12;
 /// Greatest friction that is solved by all methods; a higher one is approached from below.
 const GRIP: f64 = 100.0;
+/// Least friction that a higher one is approached from.
+const LEAST_GRIP: f64 = 3.0;
 /// Attempts of Newton's method with partial steps: alone, while friction is raised, and within the proximal method.
 const ATTEMPTS: u64 = 60;
 const SOME_ATTEMPTS: u64 = 12;
@@ -18,41 +20,55 @@ const FEW_ATTEMPTS: u64 = 4;
 /// Smallest factor by which friction is raised.
 const STRIDE: f64 = 1.2;
 
-/// Tries one method after the other, with `start` as scratch; returns the number of iterations, and the last method that
-/// was needed. A friction above [`GRIP`] that is not solved at once is limited, and raised from that solution.
+/// Tries one method after the other, with `start` and `limited` as scratch; returns the number of iterations, and the
+/// last method that was needed. A friction above [`GRIP`] that is not solved at once is limited, and raised from that
+/// solution as far as it goes. `lasts` tells whether W stays as it is for the whole run.
 pub(super) fn search(
     problem: &mut Problem,
     newton: &mut Newton,
     proximal: &mut Proximal,
-    start: &mut [f64],
+    [start, limited]: [&mut [f64]; 2],
+    lasts: bool,
 ) -> (usize, Option<SearchMethod>) {
     start.copy_from_slice(&problem.change);
     problem.hold(f64::INFINITY);
     let greatest = problem.bounds.iter().fold(0.0_f64, |most, bounds| most.max(bounds.friction));
     if greatest <= GRIP {
-        return search_held(problem, newton, proximal, start);
+        return search_held(problem, newton, proximal, start, lasts);
     }
     let (mut all, found) = newton.solve(problem, false);
     if found {
         return (all, Some(SearchMethod::Newton));
     }
-    for grip in [STAND_IN, GRIP, 0.1 * GRIP, 0.03 * GRIP] {
+    // The greatest friction of a solution, with its method.
+    let mut most: Option<(f64, SearchMethod)> = None;
+    for grip in [STAND_IN, GRIP, 0.1 * GRIP, LEAST_GRIP] {
         problem.hold(grip);
         problem.change.copy_from_slice(start);
-        let (iterations, found) = if grip == GRIP {
-            search_held(problem, newton, proximal, start)
+        let is_last = grip == LEAST_GRIP && most.is_none();
+        let (iterations, found) = if grip == GRIP || is_last {
+            search_held(problem, newton, proximal, start, lasts)
         } else {
             rounds(problem, newton)
         };
         all += iterations;
-        if found.is_some() {
-            all += let_go(problem, newton, start, greatest);
-            if problem.bounds[0].grip >= GRIP {
-                return (all, found.max(Some(SearchMethod::Newton)));
-            }
+        let Some(found) = found else { continue };
+        let found = found.max(SearchMethod::Newton);
+        all += let_go(problem, newton, start, greatest);
+        let reached = problem.bounds[0].grip;
+        if reached >= GRIP {
+            return (all, Some(found));
+        }
+        if most.is_none_or(|(grip, _)| reached > grip) {
+            most = Some((reached, found));
+            limited.copy_from_slice(&problem.change);
         }
     }
-    (all, None)
+    let Some((grip, found)) = most else { return (all, None) };
+    problem.hold(grip);
+    problem.change.copy_from_slice(limited);
+    problem.respond();
+    (all, Some(found))
 }
 
 /// Raises the limit of friction from a solution towards the `greatest`, by smaller factors where that fails; returns the
@@ -88,6 +104,7 @@ fn search_held(
     newton: &mut Newton,
     proximal: &mut Proximal,
     start: &mut [f64],
+    lasts: bool,
 ) -> (usize, Option<SearchMethod>) {
     let (mut all, found) = rounds(problem, newton);
     if found.is_some() {
@@ -100,7 +117,7 @@ fn search_held(
     }
     problem.change.copy_from_slice(start);
     let found = proximal.solve(problem, |problem| {
-        newton.forget();
+        newton.forget(false);
         start.copy_from_slice(&problem.change);
         let (iterations, found) = rounds(problem, newton);
         all += iterations;
@@ -110,7 +127,7 @@ fn search_held(
             found
         }
     });
-    newton.forget();
+    newton.forget(lasts);
     (all, found.then_some(SearchMethod::Proximal))
 }
 

@@ -13,6 +13,10 @@
 //! | across d | t: (1 − κ) t + κ ρ y = 0 | y: the same |
 //!
 //! κ = R/\|t − ρ y\|: the direction turns with the slip (Alart & Curnier 1991).
+//!
+//! Both have the same solution but for rounding, so that a run that is resumed must choose as the uninterrupted one does:
+//! by the statuses alone where W stays as it is, and otherwise by the statuses of the same step. Where all elements
+//! stick, the factors of W itself solve.
 
 use std::mem::{Discriminant, discriminant};
 
@@ -134,9 +138,14 @@ pub(super) struct System {
     dofs: Vec<Unknown>,
     rhs: Vec<f64>,
     factor: DenseFactor,
+    /// Factors of W, if there are any.
+    whole: DenseFactor,
+    is_whole: bool,
     /// W⁻¹; empty until it has been computed.
     inverse: Vec<f64>,
-    /// Cost of the factorizations so far that W⁻¹ would have saved.
+    /// Whether W stays as it is for the whole run.
+    lasts: bool,
+    /// Cost of the solves of this step that W⁻¹ would have saved, if W changes.
     spent: f64,
     /// Statuses of the present factors, without slip; valid only if `is_held`.
     held: Vec<Status>,
@@ -155,8 +164,11 @@ impl System {
         Self {
             dofs: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
-            factor: DenseFactor::with_columns(size, BLOCK),
+            factor: DenseFactor::with_capacity(size),
+            whole: DenseFactor::with_columns(size, BLOCK),
+            is_whole: false,
             inverse: Vec::with_capacity(size * size),
+            lasts: false,
             spent: 0.0,
             held: vec![Status::STICK; count],
             is_held: false,
@@ -166,21 +178,34 @@ impl System {
         }
     }
 
-    /// Forgets factors and W⁻¹: to be called when W has changed.
-    pub(super) fn forget(&mut self) {
-        self.is_held = false;
+    /// Forgets factors and W⁻¹: to be called when W has changed; `lasts` if it will not do so again.
+    pub(super) fn forget(&mut self, lasts: bool) {
+        (self.is_held, self.is_whole, self.lasts) = (false, false, lasts);
         self.inverse.clear();
         self.spent = 0.0;
     }
 
+    /// Forgets the steps before, as far as the choice of a system depends on them.
+    pub(super) fn begin_step(&mut self) {
+        if !self.lasts {
+            self.is_held &= !self.by_motions;
+            self.inverse.clear();
+            self.spent = 0.0;
+        }
+    }
+
     /// Corrects r, whose y is the present one, to that of `statuses`; false if the system is singular.
     pub(super) fn solve(&mut self, problem: &mut Problem, statuses: &[Status]) -> bool {
+        if statuses.iter().all(|status| *status == Status::STICK) {
+            return self.stick(problem);
+        }
         let slips = |status: &Status| matches!(status.tangential, Tangential::Slip { .. });
         let sticks = !statuses.iter().any(slips);
-        let known = sticks && self.is_held && self.held == statuses;
+        let by_motions = self.prefers_motions(problem, statuses);
+        let known =
+            sticks && self.is_held && self.by_motions == by_motions && self.held == statuses;
         if !known {
-            self.is_held = false;
-            self.by_motions = self.prefers_motions(problem, statuses);
+            (self.is_held, self.by_motions) = (false, by_motions);
         }
         self.gather(problem, statuses);
         if !known {
@@ -205,8 +230,30 @@ impl System {
         problem.change.iter().all(|change| change.is_finite())
     }
 
-    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. W⁻¹ is made once it would have saved its own
-    /// cost.
+    /// Corrects r so that nothing moves, all gaps at their offsets; false if W is singular.
+    fn stick(&mut self, problem: &mut Problem) -> bool {
+        if !self.factor_whole(problem) {
+            return false;
+        }
+        let Self { whole, answer, .. } = self;
+        for (e, bounds) in problem.bounds.iter().enumerate() {
+            let [n, x, y] = problem.places(e);
+            answer[n] = bounds.offset - problem.y[n];
+            (answer[x], answer[y]) = (-problem.y[x], -problem.y[y]);
+        }
+        whole.solve(answer);
+        problem.change.iter_mut().zip(answer).for_each(|(change, more)| *change += *more);
+        problem.change.iter().all(|change| change.is_finite())
+    }
+
+    /// Factors W, unless it is; false if it is singular.
+    fn factor_whole(&mut self, problem: &Problem) -> bool {
+        self.is_whole = self.is_whole || self.whole.factor(&problem.w, problem.size());
+        self.is_whole
+    }
+
+    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. A W that lasts has it at once, any other one when
+    /// it would have saved its own cost in this step.
     fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
         let dofs = statuses.iter().map(Status::dofs);
         let [forces, motions] = dofs.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
@@ -215,15 +262,15 @@ impl System {
         }
         let (size, cube) = (problem.size(), |order: usize| (order as f64).powi(3));
         self.spent += cube(forces) - cube(motions);
-        if self.inverse.is_empty() && self.spent > INVERSE * cube(size) {
-            if !self.factor.factor(&problem.w, size) {
+        if self.inverse.is_empty() && (self.lasts || self.spent > INVERSE * cube(size)) {
+            if !self.factor_whole(problem) {
                 return false;
             }
             self.inverse.resize(size * size, 0.0);
             for i in 0..size {
                 self.inverse[i * (size + 1)] = 1.0;
             }
-            self.inverse.chunks_mut(BLOCK * size).for_each(|rows| self.factor.solve(rows));
+            self.inverse.chunks_mut(BLOCK * size).for_each(|rows| self.whole.solve(rows));
         }
         !self.inverse.is_empty()
     }

@@ -78,9 +78,13 @@ impl StaticState {
         }
     }
 
+    fn is_plan(&self) -> bool {
+        self.traction.len() > PLANE * self.modes.len()
+    }
+
     /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
-        let is_plan = self.traction.len() > PLANE * self.modes.len();
+        let is_plan = self.is_plan();
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
             let known = law_of(laws, e).modes();
             if known.contains(mode) && !mode.is_closed() {
@@ -100,12 +104,22 @@ impl StaticState {
         laws: &[Box<dyn InterfaceLaw>],
         start: &PreviousContacts,
         states: &[ContactState],
-    ) {
+    ) -> Result<()> {
+        let is_plan = self.is_plan();
         for (e, gap) in self.gap.iter_mut().enumerate() {
-            let conditions = law_of(laws, e).conditions(self.modes[e], &start.of(e));
-            let pinned = conditions.iter().find_map(|c| c.gap_at(self.traction[e]));
+            let (law, start, mode, pressure) =
+                (law_of(laws, e), start.of(e), self.modes[e], self.traction[e]);
+            let pinned = if !is_plan {
+                law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
+            } else if mode.is_closed() && !mode.is_yield() {
+                let [compliance, _] = law.compliance(Mode::Stick, &start);
+                Some(law.limits(&start)?.gap_offset - compliance * pressure)
+            } else {
+                None
+            };
             *gap = pinned.unwrap_or(states[e].gap);
         }
+        Ok(())
     }
 }
 
@@ -113,8 +127,10 @@ impl StaticState {
 pub(crate) struct Standing<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
-    /// Static compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
+    /// Static compliance of the ground.
     pub(crate) soil: &'a [f64],
+    /// In plan, whether the laws act without friction and cohesion.
+    pub(crate) frictionless: bool,
 }
 
 impl Standing<'_> {
@@ -132,25 +148,21 @@ impl Standing<'_> {
         mut state: StaticState,
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
-        let Self { assembled, structure, soil } = *self;
-        let base = &assembled.base;
-        let n = assembled.dofs();
+        let Self { assembled, structure, soil, frictionless } = *self;
+        let (base, n) = (&assembled.base, assembled.dofs());
         let size = base.layout().len();
         let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
             return Err(Error::Singular { matrix: NAME, order: n });
         }
-        let stiffest = epsilon;
-
+        let (stiffest, mut softest) = (epsilon, SOFTEST * epsilon);
         let mut solver = ContactSolver::new(base.layout());
-        let mut search = ModeSearch::new(base.layout(), base.areas(), ContactSearch::Robust);
+        let kind = ContactSearch::Robust;
+        let mut search = ModeSearch::new(base.layout(), base.areas(), false, kind);
         let measure = Measure::new(assembled, load);
-        let mut tangent = Tangent::new(n);
-        let mut compliance: Option<Compliance> = None;
-        let mut softest = SOFTEST * stiffest;
+        let (mut tangent, mut compliance) = (Tangent::new(n), None::<Compliance>);
         let mut free_jump = vec![0.0; size];
-        let mut change = f64::INFINITY;
-        let mut iterations = 0;
+        let (mut change, mut iterations) = (f64::INFINITY, 0);
         while iterations < ITERATIONS {
             iterations += 1;
             tangent.refill(structure, &state.displacement)?;
@@ -189,14 +201,14 @@ impl Standing<'_> {
                 laws,
                 length_scale: largest(&free_jump),
                 bonds: &[],
+                frictionless,
             };
             match search.solve(&mut solver, &input, &mut state.modes) {
                 Ok(_) => {}
                 Err(StepError::Law(error)) => return Err(Error::Law(error)),
                 Err(_) => break,
             }
-            let columns = &current.columns;
-            transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
+            transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
             // What the fictitious springs still pull.
             let moved: Vec<f64> =
                 displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
@@ -219,7 +231,7 @@ impl Standing<'_> {
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
                     state.stand_in = solver.stand_in.or(state.stand_in);
-                    state.close_gaps(laws, start, &solver.states);
+                    state.close_gaps(laws, start, &solver.states)?;
                     return Ok((state, solver.states));
                 }
                 change = rest;

@@ -6,9 +6,8 @@
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GravityStage {
-    /// The base is placed without friction and without cohesion, and sticks from then on. What
-    /// does not touch under weight alone starts open. Where no element's law ever opens, the base
-    /// is bonded from the start.
+    /// The base is placed without friction and without cohesion, and sticks from then on. Bearing pressures, tensile
+    /// strengths and bonds of the laws hold meanwhile. What opens under weight alone starts open.
     #[default]
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.

@@ -8,10 +8,11 @@ use crate::coupled::diagnosis;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::influence::UP;
 use crate::coupled::state::State;
-use crate::error::{Error, Result, all_finite, finite, require, require_part};
+use crate::error::{Error, LawError, Result, all_finite, finite, require, require_part};
 use crate::geometry::PLANE;
 use crate::interface::{
-    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
+    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
+    law_of,
 };
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
@@ -25,6 +26,9 @@ const PASSES: usize = 10;
 
 /// Relative change of a state variable in the last pass that is taken for rounding.
 const UNSETTLED: f64 = 1e-6;
+
+/// Part of the largest pressure and displacement by which a static state may miss the conditions of a law.
+const PLACED: f64 = 1e-6;
 
 /// Length of the step that a gravity stage is to the laws, s.
 const TIME_STEP: f64 = 1.0;
@@ -52,7 +56,8 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
         let mut soil = vec![0.0; assembled.base.layout().square()];
         ground.static_compliance(&mut soil)?;
         elements.refer_inside(&mut soil);
-        let stage = Standing { assembled, structure: structure.as_ref(), soil: &soil };
+        let (standing, frictionless) = (structure.as_ref(), false);
+        let stage = Standing { assembled, structure: standing, soil: &soil, frictionless };
         state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
         state.load = own;
         if let Some(force) = structure.nonlinear_mut() {
@@ -77,24 +82,36 @@ fn in_stages(
 ) -> Result<StaticState> {
     let layout = stage.assembled.base.layout();
     let count = layout.elements();
+    let is_placed = gravity_stage == GravityStage::Frictionless;
+    // In plan the laws' own limits hold, all but friction and cohesion.
+    let by_limits = is_placed && layout.is_plan();
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
-    let is_smooth = gravity_stage == GravityStage::Frictionless && can_open;
+    let is_smooth = is_placed && !by_limits && can_open;
     let placing = if is_smooth { &smooth } else { laws };
     let at_rest = PreviousContact::new(ContactState::default(), Mode::Stick, TIME_STEP);
-    let start = PreviousContacts::new(placing, &vec![at_rest; count])?;
+    let first = PreviousContacts::new(placing, &vec![at_rest; count])?;
     let mut state = StaticState::weightless(layout, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(placing, e).modes()[0];
     }
-    let found = settle(stage, placing, start, state, weight);
-    let (mut state, start) = found.map_err(|e| diagnosis::cause(stage, placing, weight, e))?;
-    // A frictionless law with as many state variables is the same law; others begin anew.
+    let place = Standing { frictionless: by_limits, ..*stage };
+    let found = settle(&place, placing, first.clone(), state, weight);
+    let (mut state, start) = found.map_err(|e| diagnosis::cause(&place, placing, weight, e))?;
+    if is_smooth {
+        check_placed(laws, &state, &start)?;
+    }
+    // A frictionless law with as many state variables is the same law. Others begin anew, and so do elements to whose
+    // law nothing happened.
+    let keeps = |e: usize, own: &[f64]| {
+        let is_same = own.len() == law_of(laws, e).state_variables();
+        is_same && !(by_limits && own == first.state_variables_of(e))
+    };
     state.state_variables = (0..count)
         .map(|e| {
             let own = start.state_variables_of(e);
-            if own.len() == law_of(laws, e).state_variables() { own.to_vec() } else { Vec::new() }
+            if keeps(e, own) { own.to_vec() } else { Vec::new() }
         })
         .collect();
     if load.iter().all(|force| *force == 0.0) {
@@ -131,6 +148,47 @@ fn in_stages(
     }
 }
 
+/// Refuses a static state, found without friction, that the law of a closed element does not hold: a law with a bearing
+/// pressure or a compliance, say, whose frictionless law has none.
+fn check_placed(
+    laws: &[Box<dyn InterfaceLaw>],
+    state: &StaticState,
+    start: &PreviousContacts,
+) -> Result<()> {
+    let pressures = &state.traction[..state.modes.len()];
+    let [pressure, length] = [pressures, &state.displacement].map(largest);
+    let tolerance = Tolerance::new(PLACED * length, PLACED * pressure);
+    for (element, mode) in state.modes.iter().enumerate().filter(|(_, mode)| mode.is_closed()) {
+        let law = law_of(laws, element);
+        let contact = ContactState {
+            gap: state.gap[element],
+            pressure: pressures[element],
+            ..ContactState::default()
+        };
+        let at_rest = law.modes()[0];
+        let previous = PreviousContact::new(contact, at_rest, TIME_STEP);
+        let own = start.state_variables_of(element);
+        let first = previous.first_state_variables(law);
+        let previous =
+            previous.with_state_variables(if own.len() == first.len() { own } else { &first });
+        let misses = |condition: &Condition| {
+            let Condition { gap, pressure: factor, value, .. } = *condition;
+            let miss = gap * contact.gap + factor * contact.pressure - value;
+            miss.abs() > PLACED * (gap.abs() * length + factor.abs() * pressure + value.abs())
+        };
+        let next = law.next_mode(at_rest, &previous, &contact, tolerance);
+        let yields = next.is_yield() && !mode.is_yield();
+        if !yields && (mode.is_yield() || !law.conditions(at_rest, &previous).iter().any(misses)) {
+            continue;
+        }
+        let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \
+                      `GravityStage::Frictional`, in which the law itself acts";
+        let reason = Box::new(Error::Scene { quantity: "static state without friction", needed });
+        return Err(Error::Law(LawError::Refused { element, mode: at_rest.word(), reason }));
+    }
+    Ok(())
+}
+
 /// Equilibrium under `load` from where `start` and `state` are, and where it leaves them: with laws
 /// with state variables is found again until these no longer change.
 fn settle(
@@ -144,7 +202,16 @@ fn settle(
     for pass in 1..=PASSES {
         let contact;
         (state, contact) = stage.equilibrium(laws, &start, state, load)?;
-        start.update_state_variables(laws, &contact, &state.modes, &mut state_variables)?;
+        let mut seen = contact.clone();
+        if stage.frictionless {
+            // To a law the base sticks where it is placed.
+            state.modes.iter_mut().for_each(|mode| *mode = mode.sticking());
+            for (e, own) in seen.iter_mut().enumerate() {
+                let ContactState { slip, slip_across, .. } = *start.state(e);
+                (own.slip, own.slip_across) = (slip, slip_across);
+            }
+        }
+        start.update_state_variables(laws, &seen, &state.modes, &mut state_variables)?;
         let is_settled = state_variables == start.state_variables();
         if pass == PASSES && !is_settled {
             check_settled(start.state_variables(), &state_variables)?;

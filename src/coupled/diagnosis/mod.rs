@@ -5,6 +5,7 @@
 //! coordinates that are stepped.
 
 pub(crate) mod mechanism;
+mod strength;
 pub(crate) mod supports;
 
 use std::fmt;
@@ -16,11 +17,10 @@ use crate::coupled::scene::{Scene, operators};
 use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
 use crate::geometry::{Edge, axis_name, middle, span};
-use crate::interface::{
-    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance, law_of,
-};
+use crate::interface::{InterfaceLaw, PreviousContacts, law_of};
 use crate::linalg::{dense_condition, dot};
 use mechanism::{FIRMLY, Regular, unresisted};
+use strength::Strength;
 
 // Why a structure cannot stand: resultants that its base does not carry, or a mechanism.
 //
@@ -71,24 +71,26 @@ fn resultants(
         let nodes = part.nodes(base);
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         let (ends, across) = (bounds[0], is_plan.then_some(bounds[1]));
-        let laws = || part.elements().iter().map(|&e| law_of(laws, e));
-        let little = 1e-6 * normal.abs().max(1.0);
-        let glued = |trial| laws().any(|law| sticks_at(law, trial));
+        let lengths = || part.elements().iter().map(|&e| base.areas()[e]);
+        let pressure = normal / lengths().sum::<f64>();
+        let strengths: Vec<_> = part
+            .elements()
+            .iter()
+            .map(|&e| Strength::of(law_of(laws, e), pressure, is_plan, stage.frictionless))
+            .collect();
         // With a bond something must have broken it: without one the state would have been found.
-        let pulls = glued(ContactState { pressure: -little, ..ContactState::default() });
-        let coheres = glued(ContactState { shear: little, ..ContactState::default() });
+        let pulls = strengths.iter().any(|own| own.pulls);
+        let coheres = strengths.iter().any(|own| own.coheres);
         let broken = |bonded: bool, then: StabilityError| {
             let then = Box::new(then);
             Some(if bonded { StabilityError::BondBreaks { then } } else { *then })
         };
-        let opens = laws().any(|law| law.modes().contains(&Mode::Open));
+        let opens = strengths.iter().any(|own| own.opens);
         if normal <= 0.0 {
             let lifted = StabilityError::Uplift { ends, across, upward };
             return if opens { broken(pulls, lifted) } else { None };
         }
-        let lengths = || part.elements().iter().map(|&e| base.areas()[e]);
-        let pressure = normal / lengths().sum::<f64>();
-        let friction = laws().map(|law| friction(law, pressure)).fold(0.0, f64::max);
+        let friction = strengths.iter().map(|own| own.friction).fold(0.0, f64::max);
         let resistance = friction * normal;
         let slides = || {
             let ratio = horizontal.abs() / resistance;
@@ -159,8 +161,9 @@ fn resultants(
             }
         }
         // At most the bearing pressure everywhere between the resultant's two equal distances.
-        let largest = laws().map(bearing_pressure).fold(0.0, f64::max);
-        let all: f64 = laws().zip(lengths()).map(|(law, l)| bearing_pressure(law) * l).sum();
+        let bearing = || strengths.iter().map(|own| own.bearing_pressure);
+        let largest = bearing().fold(0.0, f64::max);
+        let all: f64 = bearing().zip(lengths()).map(|(pressure, l)| pressure * l).sum();
         let width = if is_plan {
             // The area that both axes leave (Meyerhof 1963).
             lengths().sum::<f64>() * (1.0 - part_of(0)) * (1.0 - part_of(1))
@@ -201,51 +204,6 @@ fn beyond(
     let reach = span(middles.map(|middle| middle[axis]));
     let is_beyond = passed[axis] < reach[0] - slack[axis] || passed[axis] > reach[1] + slack[axis];
     is_beyond.then_some((axis, reach))
-}
-
-/// The friction coefficient of a law, or the ratio of traction at which it lets an element under this
-/// pressure go; infinite if it does not.
-fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
-    const MOST: f64 = 1e6;
-    if let Some(known) = law.friction_coefficient() {
-        return known;
-    }
-    let holds = |ratio: f64| {
-        sticks_at(
-            law,
-            ContactState { pressure, shear: ratio * pressure, ..ContactState::default() },
-        )
-    };
-    if law.modes().len() == 1 || holds(MOST) {
-        return f64::INFINITY;
-    }
-    let (mut low, mut high) = (0.0, MOST);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if holds(middle) { low = middle } else { high = middle }
-    }
-    high
-}
-
-/// Whether a law holds an element that has not moved so far at these tractions, without sliding
-/// or opening.
-fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
-    let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
-    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
-    let state_variables = start.first_state_variables(law);
-    let start = start.with_state_variables(&state_variables);
-    let tolerance = Tolerance::new(0.0, 0.0);
-    // A bonded base has no other mode.
-    law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick
-}
-
-/// The largest pressure that a law carries; infinite if it has no mode of yielding.
-fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
-    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
-    let yielding = law.modes().iter().filter(|mode| mode.is_yield());
-    let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
-    let pressures = conditions.filter_map(|c| c.pressure_alone());
-    pressures.reduce(f64::max).unwrap_or(f64::INFINITY)
 }
 
 // Condition numbers of a scene: the fraction of double precision that it uses up.

@@ -120,6 +120,9 @@ pub struct Run {
     pub(crate) is_stopped: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
+    /// Largest settlement of each foundation, m.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    settlements: Vec<f64>,
     /// Least algorithmic energy of the energy balance at any time.
     #[cfg_attr(feature = "serde", serde(skip))]
     least_algorithmic: f64,
@@ -170,6 +173,7 @@ impl Run {
             sequence: Sequence::new(state),
             is_stopped: false,
             resolution,
+            settlements: state.foundations.iter().map(|own| own.derived.settlement).collect(),
             least_algorithmic: state.energy_balance.algorithmic,
             begin: clock(),
         }
@@ -188,6 +192,9 @@ impl Run {
         self.whole.see(state, begin, None);
         for (k, own) in self.foundations.iter_mut().enumerate() {
             own.see(state, begin, Some(k));
+        }
+        for (most, own) in self.settlements.iter_mut().zip(&state.foundations) {
+            *most = most.max(own.derived.settlement);
         }
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.extremes.see(*value, time);
@@ -244,6 +251,11 @@ impl Run {
             &self.energy_balance,
             self.least_algorithmic,
         );
+        for (k, (own, settlement)) in self.foundations.iter().zip(&self.settlements).enumerate() {
+            let ([left, right], [front, back]) = (own.ends, own.depth);
+            let width = if self.in_plan { (right - left).min(back - front) } else { right - left };
+            self.warnings.extend(Warning::of_settlement(k, *settlement, width));
+        }
         self.warnings.extend(base::tension(&self.envelope, self.in_plan, opens));
         self.warnings.extend_from_slice(of_scene);
         let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));

@@ -23,12 +23,13 @@ pub(crate) struct Base {
     nodes: Vec<FaceNode>,
 }
 
-/// Foundation: its nodes, its elements, and the rotation of its chord; in plan the rotations about the other axes too,
-/// and the corners of its convex outline.
+/// Foundation: its nodes, its elements, its settlement and the rotation of its chord; in plan the rotations about the
+/// other axes too, and the corners of its convex outline.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     pub(super) nodes: Range<usize>,
     pub(super) elements: Range<usize>,
+    pub(super) settlement: Weights,
     pub(super) rotations: Vec<Weights>,
     pub(super) corners: Vec<[f64; 2]>,
 }
@@ -82,9 +83,11 @@ impl Base {
     /// This base in the coordinates that are stepped.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
-        for rotation in foundations.iter_mut().flat_map(|footing| &mut footing.rotations) {
-            if let Weights::Sparse(terms) = rotation {
-                *rotation = transformation.row(terms);
+        for footing in &mut foundations {
+            for weights in footing.rotations.iter_mut().chain([&mut footing.settlement]) {
+                if let Weights::Sparse(terms) = weights {
+                    *weights = transformation.row(terms);
+                }
             }
         }
         Self { rows: transformation.rows(&self.rows), foundations, ..self.clone() }
@@ -174,6 +177,11 @@ impl Base {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }
 
+    /// Settlement of a foundation: mean displacement of its nodes, downwards.
+    pub(crate) fn settlement(&self, foundation: usize, u: &[f64]) -> f64 {
+        self.foundations[foundation].settlement.of(u)
+    }
+
     /// Largest error of N r for translations of 1 to the right, 1 up and 1 away, N the displacements of the
     /// contact nodes. A component without terms belongs to nothing that could move.
     pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
@@ -213,6 +221,15 @@ impl Base {
     pub(crate) fn nodes(&self) -> &[FaceNode] {
         &self.nodes
     }
+}
+
+/// Mean displacement of `nodes`, downwards.
+pub(super) fn mean_settlement(nodes: &[FaceNode]) -> Weights {
+    let mut terms = Terms::new();
+    for node in nodes {
+        accumulate(&mut terms, &node.vertical, -1.0 / nodes.len() as f64);
+    }
+    Weights::Sparse(terms)
 }
 
 /// Refuses a foundation without elements.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::base::{Base, Outline, check_covered};
+use super::base::{Base, Outline, check_covered, mean_settlement};
 use super::transformation::Weights;
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result, require};
@@ -36,7 +36,9 @@ impl Base {
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
             first = own.end;
             let corners = hull(nodes[own.clone()].iter());
-            foundations.push(Outline { nodes: own, elements: 0..0, rotations, corners });
+            let settlement = mean_settlement(&nodes[own.clone()]);
+            let elements = 0..0;
+            foundations.push(Outline { nodes: own, elements, settlement, rotations, corners });
         }
         let mut weights = Vec::with_capacity(patch.len());
         for e in 0..patch.len() {

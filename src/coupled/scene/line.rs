@@ -1,6 +1,6 @@
 //! A base in the plane: a line of nodes, the mean of its displacement over a contact element, and its chord.
 
-use super::base::{Base, Outline, check_covered};
+use super::base::{Base, Outline, check_covered, mean_settlement};
 use super::transformation::{Terms, Weights, accumulate};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, short};
@@ -22,6 +22,7 @@ impl Base {
             });
             foundations.push(Outline {
                 elements: element..end,
+                settlement: mean_settlement(&nodes[own.clone()]),
                 rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
                 nodes: own,
                 corners: Vec::new(),

@@ -19,6 +19,7 @@ use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
+use crate::linalg::mixed;
 use crate::structure::probe::Probe;
 use base::Base;
 use influence::{ConnectedPart, UP};
@@ -51,6 +52,9 @@ pub(crate) struct Scene {
     pub(crate) start_motion: Vec<f64>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
+    /// Number of the gravity stage, and sums over the initial displacement and velocity: compared with the numbers in
+    /// a checkpoint.
+    pub(crate) start: [f64; 3],
     /// Data that results of the scene's states need.
     pub(crate) context: Arc<Context>,
 }
@@ -116,6 +120,11 @@ impl Scene {
             soil: parts.soil.clone(),
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows,
+            start: [
+                given.gravity_stage as usize as f64,
+                mixed(&given.displacement),
+                mixed(&given.velocity),
+            ],
             context: Arc::new(context),
             model,
             base,

@@ -40,7 +40,7 @@ impl LinearStep {
         Self {
             operators,
             contact: ContactSolver::new(scene.layout()),
-            search: ModeSearch::new(scene.layout(), scene.base.areas(), search),
+            search: ModeSearch::new(scene.layout(), scene.base.areas(), scene.model.linear, search),
             known: vec![0.0; n],
             free_jump: vec![0.0; scene.layout().len()],
             means: vec![0.0; scene.layout().len()],
@@ -141,6 +141,7 @@ impl LinearStep {
             laws: &scene.laws,
             length_scale,
             bonds: &[],
+            frictionless: false,
         };
         increment.modes.copy_from_slice(&state.modes);
         let (trials, method) = search.solve(contact, &input, &mut increment.modes)?;

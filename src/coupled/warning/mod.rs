@@ -23,6 +23,16 @@ pub enum Warning {
         /// Largest rotation, rad.
         rotation: f64,
     },
+    /// A foundation has settled by more than a tenth of its width, at which it counts as failed in bearing: the ground
+    /// does not follow the base down, and the surface that it meets is taken as plane.
+    LargeSettlement {
+        /// Number of the foundation, from the left, from 0.
+        foundation: usize,
+        /// Largest settlement since the static state, against the free field, m.
+        settlement: f64,
+        /// Width of the foundation, in plan of its shorter side, m.
+        width: f64,
+    },
     /// Tension under a base that cannot open, above 1 % of the largest static pressure: it is held down by what the
     /// model does not have.
     Tension {

@@ -13,6 +13,9 @@ use crate::soil::Soil;
 impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
     const ROTATION_LIMIT: f64 = 0.1;
+    /// Settlement over the width of a foundation above which a run warns: the usual criterion of bearing failure in
+    /// load tests.
+    const SETTLEMENT_LIMIT: f64 = 0.1;
     /// Energy error at the end of a run above which it warns. Earlier, while energies are still
     /// small, it may be larger.
     const ENERGY_ERROR_LIMIT: f64 = 1e-9;
@@ -187,6 +190,12 @@ impl Warning {
             }
         }
         warnings.push(Self::LessFriction { steps: 1, friction: taken });
+    }
+
+    /// Warning of foundation number `foundation`, of this `width`, if its `settlement` is beyond the limit.
+    pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
+        let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
+        is_large.then_some(Self::LargeSettlement { foundation, settlement, width })
     }
 
     /// Warnings of the largest slip, mean element length, largest rotation, last energy balance and least algorithmic

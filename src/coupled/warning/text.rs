@@ -20,6 +20,11 @@ impl fmt::Display for Warning {
                     "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
                 )
             }
+            Self::LargeSettlement { foundation, settlement, width } => write!(
+                f,
+                "foundation {foundation} settles by {settlement:.3e} m, width {width:.3} m: beyond a tenth of it \
+                 the soil has failed in bearing"
+            ),
             Self::Tension { tension, x, y, time } => {
                 let across = y.map_or(String::new(), |y| format!(", y = {y:.2} m"));
                 write!(

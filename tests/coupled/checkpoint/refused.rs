@@ -3,7 +3,10 @@
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::coupled::{Change, GravityStage, Load, SimulationBuilder};
 use basemat::history::HistoryMethod;
+use basemat::interface::Cohesive;
+use basemat::motion::{AtRest, el_centro_1940};
 use basemat::structure::{
     ModalDamping, NonlinearForce, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };
@@ -43,6 +46,56 @@ fn other_scenes_are_refused() {
     let quantity = "kind of history";
     let found = refusal(&mut with(HistoryMethod::Exponentials), &direct);
     assert_eq!(found, CheckpointError::OtherScene { quantity });
+}
+
+/// What a run is moved by, and the law that it slides by, are those of the checkpoint, unless a change is wanted.
+#[test]
+fn what_decides_a_run_is_compared() {
+    type Changed = (&'static str, Change, SimulationBuilder);
+    let law = || Cohesive::new(2e3, 3e3, 0.3).unwrap();
+    let base = || scene(SI, 0.6).structure(block(SI)).ground(spring_bed());
+    let load =
+        |factor: f64| Load::new(vec![(0, 1.0)], move |time: f64| factor * (9.0 * time).sin());
+    let plain = || base().interface(law()).load(load(1e3));
+    let stage = |stage| plain().gravity_stage(stage);
+    let thrown = |velocity: f64| plain().initial_velocity([velocity, 0.0, 0.0]);
+    let cases: Vec<Changed> = vec![
+        (
+            "interface law",
+            Change::InterfaceLaw,
+            base().interface(Cohesive::new(2e3, 3e3, 0.31).unwrap()).load(load(1e3)),
+        ),
+        (
+            "interface law",
+            Change::InterfaceLaw,
+            base().interface(Cohesive::new(2e3, 4e3, 0.3).unwrap()).load(load(1e3)),
+        ),
+        (
+            "interface law",
+            Change::InterfaceLaw,
+            base().interface(Cohesive::new(1e3, 3e3, 0.3).unwrap()).load(load(1e3)),
+        ),
+        ("ground motion", Change::GroundMotion, plain().motion(el_centro_1940())),
+        ("ground motion", Change::GroundMotion, plain().motion(AtRest)),
+        ("load", Change::Load, base().interface(law()).load(load(1.1e3))),
+        ("load", Change::Load, base().interface(law())),
+        ("gravity stage", Change::GravityStage, stage(GravityStage::Frictional)),
+        ("initial motion", Change::InitialMotion, thrown(0.1)),
+    ];
+    let mut simulation = plain().build().unwrap();
+    simulation.run(150, |_| {}).unwrap();
+    let saved = simulation.checkpoint().unwrap();
+    for (quantity, change, other) in cases {
+        let mut other = other.build().unwrap();
+        assert_eq!(refusal(&mut other, &saved), CheckpointError::OtherScene { quantity });
+        let others = Change::ALL.into_iter().filter(|own| *own != change);
+        let others: Vec<_> = others.collect();
+        assert!(other.resume_changed(&saved, &others).is_err(), "{quantity}");
+        if change != Change::GravityStage {
+            other.resume_changed(&saved, &[change]).unwrap();
+            other.run(20, |_| {}).unwrap();
+        }
+    }
 }
 
 /// A ground that says nothing of checkpoints.

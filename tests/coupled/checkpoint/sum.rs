@@ -9,7 +9,7 @@ use basemat_problems::check_sum::{check_sum, text_words};
 
 const FIELDS: [&str; 8] =
     ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure"];
-const IDENTITY: [&str; 9] = [
+const IDENTITY: [&str; 13] = [
     "dofs",
     "energy_balance",
     "probes",
@@ -19,6 +19,10 @@ const IDENTITY: [&str; 9] = [
     "structure",
     "ground",
     "static_contact",
+    "start",
+    "law_numbers",
+    "free_field",
+    "loads",
 ];
 
 fn words(value: &Value, all: &mut Vec<u64>) {

@@ -1,0 +1,310 @@
+//! Identity of a scene: the numbers by which a checkpoint is told from checkpoints of other scenes.
+
+use super::scene::Scene;
+use crate::Simulation;
+use crate::error::{CheckpointError, Result};
+use crate::interface::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
+use crate::linalg::{largest, mixed, mixing_weight};
+use crate::text::check_sum::CheckSum;
+
+/// Allowed difference of numbers of the same scene (other processors round differently).
+const SAME: f64 = 1e-9;
+/// Instants at which ground motion and loads are compared.
+const SAMPLES: usize = 64;
+/// Slip of a sample state, m, and its pressure where no weight presses, Pa.
+const SLIP: f64 = 1e-3;
+const UNPRESSED: f64 = 1e5;
+/// Number that stands for one that is not finite.
+const ENDLESS: f64 = -7.25;
+
+/// A difference to the scene of a checkpoint that is wanted: see [`Simulation::resume_changed`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Change {
+    /// Other parameters of the interface laws; their state variables must be as many.
+    InterfaceLaw,
+    /// Another ground motion.
+    GroundMotion,
+    /// Other loads.
+    Load,
+    /// Another gravity stage that leads to the same static state.
+    GravityStage,
+    /// Another initial displacement or velocity.
+    InitialMotion,
+}
+
+words! { pub Change, "change of a scene", {
+    InterfaceLaw = "interface_law",
+    GroundMotion = "ground_motion",
+    Load = "load",
+    GravityStage = "gravity_stage",
+    InitialMotion = "initial_motion",
+} }
+
+/// Numbers of a scene, by which it is told from others.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub(super) struct Identity {
+    dofs: usize,
+    /// Whether an energy balance is kept.
+    energy_balance: bool,
+    probes: Vec<String>,
+    /// Ends of the state variables of each element's law; empty if no law has any.
+    laws: Vec<usize>,
+    /// Time step and coefficients of the scheme.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    steps: Vec<f64>,
+    /// Ends of the elements.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    elements: Vec<f64>,
+    /// Sums over the structure's matrices, and one that depends on the signs of its modes.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    structure: Vec<f64>,
+    /// Sum over the ground's step compliance.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    ground: Vec<f64>,
+    /// Sum over the static tractions.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    static_contact: Vec<f64>,
+    /// Number of the gravity stage, and sums over the initial displacement and velocity.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    start: Vec<f64>,
+    /// Numbers that the laws return for sample states, averaged over the elements.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    law_numbers: Vec<f64>,
+    /// Sums over the free field and over the loads, at instants of the steps so far.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    free_field: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    loads: Vec<f64>,
+}
+
+impl Identity {
+    pub(super) fn add_to(&self, sum: &mut CheckSum) {
+        let Self {
+            dofs,
+            energy_balance,
+            probes,
+            laws,
+            steps,
+            elements,
+            structure,
+            ground,
+            static_contact,
+            start,
+            law_numbers,
+            free_field,
+            loads,
+        } = self;
+        sum.add(*dofs as u64);
+        sum.add(u64::from(*energy_balance));
+        sum.add(probes.len() as u64);
+        for name in probes {
+            sum.add_text(name);
+        }
+        sum.add_list(laws.iter().map(|end| *end as u64));
+        for list in [
+            steps,
+            elements,
+            structure,
+            ground,
+            static_contact,
+            start,
+            law_numbers,
+            free_field,
+            loads,
+        ] {
+            sum.add_numbers(list);
+        }
+    }
+
+    /// Error that names the first thing that differs, beside the `changes` that are wanted.
+    pub(super) fn check(
+        &self,
+        own: &Self,
+        changes: &[Change],
+    ) -> std::result::Result<(), CheckpointError> {
+        let close = |a: &[f64], b: &[f64], scale: f64| {
+            let near = |(a, b): (&f64, &f64)| a == b || (a - b).abs() <= SAME * scale.max(b.abs());
+            a.len() == b.len() && a.iter().zip(b).all(near)
+        };
+        let span = largest(&own.elements);
+        let unless = |change: Change, same: bool| changes.contains(&change) || same;
+        // Lists of a file may be of any length.
+        let begin = |own: &Self| own.start.first().copied().into_iter().collect::<Vec<_>>();
+        let moved_by = |own: &Self| own.start.get(1..).unwrap_or_default().to_vec();
+        let [moved, loaded] = [&own.free_field, &own.loads].map(|own| largest(own));
+        for (same, quantity) in [
+            (self.dofs == own.dofs, "number of degrees of freedom"),
+            (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
+            (close(&self.elements, &own.elements, span), "list of contact elements"),
+            (self.energy_balance == own.energy_balance, "energy balance"),
+            (self.probes == own.probes, "list of probes"),
+            (self.laws == own.laws, "state variables of the interface laws"),
+            (close(&self.structure, &own.structure, 0.0), "structure"),
+            (close(&self.ground, &own.ground, 0.0), "ground"),
+            (unless(Change::GravityStage, close(&begin(self), &begin(own), 0.0)), "gravity stage"),
+            (close(&self.static_contact, &own.static_contact, 0.0), "static state"),
+            (
+                unless(Change::InitialMotion, close(&moved_by(self), &moved_by(own), 0.0)),
+                "initial motion",
+            ),
+            (
+                unless(Change::InterfaceLaw, close(&self.law_numbers, &own.law_numbers, 0.0)),
+                "interface law",
+            ),
+            (
+                unless(Change::GroundMotion, close(&self.free_field, &own.free_field, moved)),
+                "ground motion",
+            ),
+            (unless(Change::Load, close(&self.loads, &own.loads, loaded)), "load"),
+        ] {
+            if !same {
+                return Err(CheckpointError::OtherScene { quantity });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Simulation {
+    /// Numbers that another simulation of the same scene has too, with samples of these first `steps`.
+    pub(super) fn identity(&self, steps: usize) -> Result<Identity> {
+        let Self { scene, state, .. } = self;
+        let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
+        let model = &scene.model;
+        // Modes may come with either sign. A nonlinear structure has none, and columns that change.
+        let columns = self.solver.operators().columns.iter().enumerate().filter(|_| model.linear);
+        let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
+        let c = scene.coefficients;
+        let mut scheme = vec![scene.time_step];
+        for row in [c.acceleration, c.velocity, c.displacement] {
+            scheme.extend(row);
+        }
+        let mut elements: Vec<f64> =
+            scene.base.elements().iter().flat_map(|e| [e.left, e.right]).collect();
+        if scene.layout().is_plan() {
+            elements.extend(scene.base.elements().depths().iter().flatten());
+        }
+        let (free_field, loads) = self.samples(steps)?;
+        Ok(Identity {
+            dofs: model.dofs,
+            energy_balance: self.books.is_some(),
+            probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
+            laws: state.start.state_variable_ends().to_vec(),
+            steps: scheme,
+            elements,
+            structure: vec![
+                sum(model.mass.values()),
+                sum(model.damping.values()),
+                sum(model.stiffness.values()),
+                signed,
+            ],
+            ground: vec![sum(&scene.soil)],
+            // A weight that acts as a load is not part of the static state.
+            static_contact: [&scene.static_state.traction, &scene.weight]
+                .map(|values| sum(values))
+                .to_vec(),
+            start: scene.start.to_vec(),
+            law_numbers: law_numbers(scene),
+            free_field,
+            loads,
+        })
+    }
+
+    /// Sums over the free field and over all loads at instants of the first `steps`.
+    fn samples(&self, steps: usize) -> Result<(Vec<f64>, Vec<f64>)> {
+        let Self { scene, structure, ground, motion, .. } = self;
+        let (mut moved, mut loaded) = (Vec::with_capacity(SAMPLES), Vec::with_capacity(SAMPLES));
+        let mut displacement = vec![0.0; scene.layout().len()];
+        let mut force = vec![0.0; scene.model.dofs];
+        for sample in 1..=SAMPLES {
+            let step = sample as f64 * (steps.max(SAMPLES) as f64 / SAMPLES as f64);
+            let time = step.round() * scene.time_step;
+            ground.free_field(motion.as_ref(), time, &mut displacement);
+            moved.push(mixed(&displacement));
+            force.fill(0.0);
+            structure.load(time, &mut force)?;
+            let external = scene.loads.iter().enumerate();
+            let external = external.map(|(k, load)| mixing_weight(k) * load.mixed_value(time));
+            loaded.push(mixed(&force) + external.sum::<f64>());
+        }
+        Ok((moved, loaded))
+    }
+}
+
+/// Numbers that the laws return for sample states, as weighted means over the elements.
+fn law_numbers(scene: &Scene) -> Vec<f64> {
+    let (count, plan) = (scene.count(), scene.layout().is_plan());
+    let pressures = &scene.static_state.traction[..count];
+    let mean = pressures.iter().sum::<f64>() / count as f64;
+    let pressure = if mean > 0.0 { mean } else { UNPRESSED };
+    let mut all: Vec<f64> = Vec::new();
+    let single = scene.laws.len() == 1;
+    let elements = if single { 1 } else { count };
+    let sum: f64 = (0..elements).map(mixing_weight).sum();
+    for element in 0..elements {
+        let own = numbers_of(scene.law(element), pressure, scene.time_step, plan);
+        all.resize(all.len().max(own.len()), 0.0);
+        for (all, own) in all.iter_mut().zip(own) {
+            // Numbers that are not finite would hide the others.
+            let own = if own.is_finite() { own } else { ENDLESS };
+            *all += mixing_weight(element) / sum * own;
+        }
+    }
+    all
+}
+
+/// Numbers that a law returns for sample states under this pressure, Pa.
+fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
+    let state = |slip: f64| ContactState { pressure, slip, ..ContactState::default() };
+    let at_rest = PreviousContact::new(state(0.0), law.modes()[0], time_step);
+    let variables = at_rest.first_state_variables(law);
+    let mut slid = PreviousContact::new(state(SLIP), law.modes()[0], time_step);
+    (slid.slip_rate, slid.static_pressure) = (SLIP / time_step, pressure);
+    let mut all = vec![law.state_variables() as f64, law.friction_coefficient().unwrap_or(-1.0)];
+    all.extend(&variables);
+    for start in [at_rest, slid] {
+        let start = start.with_state_variables(&variables);
+        if plan {
+            all.extend(law.compliance(Mode::Stick, &start));
+            if let Ok(limits) = law.limits(&start) {
+                let Limits { friction, attraction, shear_strength, .. } = limits;
+                let Limits { tension, pressure_cap, gap_offset, bonded, .. } = limits;
+                all.extend([friction, attraction, shear_strength, tension, pressure_cap]);
+                all.extend([gap_offset, f64::from(u8::from(bonded))]);
+            }
+            continue;
+        }
+        for &mode in law.modes() {
+            all.push(mode as usize as f64);
+            all.extend(law.compliance(mode, &start));
+            for Condition { gap, slip, pressure, shear, value } in law.conditions(mode, &start) {
+                all.extend([gap, slip, pressure, shear, value]);
+            }
+        }
+        for (pressure, shear) in [(-pressure, 0.0), (0.0, pressure), (pressure, 3.0 * pressure)] {
+            let trial = ContactState { pressure, shear, ..start.state };
+            all.push(law.bond_overload(&start, &trial).unwrap_or(0.0));
+        }
+    }
+    all
+}
+
+/// Floating-point numbers as their bits.
+#[cfg(feature = "serde")]
+pub(super) mod bits {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(crate) fn serialize<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(values.iter().map(|value| value.to_bits()))
+    }
+
+    pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Vec<f64>, D::Error> {
+        let bits = Vec::<u64>::deserialize(from)?;
+        Ok(bits.into_iter().map(f64::from_bits).collect())
+    }
+}
