@@ -5,7 +5,7 @@
 //! damping, a bed of springs, or your own. The ground shakes. Element by element, the base may stick,
 //! open, close again and slide with friction. Results are displacements, contact tractions, base shear
 //! and moment, uplift, slip and an energy balance, for small displacements: in the plane, per metre of thickness, or
-//! in three dimensions for bodies on rigid mats, whose plan the ground then has ([`bem::plan`]).
+//! in three dimensions for bodies on mats, whose plan the ground then has ([`bem::plan`]).
 //!
 //! # One complete example
 //!

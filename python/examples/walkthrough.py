@@ -154,7 +154,7 @@ motion = bm.triaxial(x=record, y=record.scaled(0.8), up=record.scaled(0.5))
 def in_plan(structure, law, motion=motion, **others) -> bm.Run:
     """A run on the soil, with four cells along the shorter side."""
     ground = bm.ElasticGround.under(soil, structure, 4)
-    return bm.Simulation(0.01, structure, ground, law, motion=motion, **others).run(duration=10.0, contact_every=5)
+    return bm.Simulation(0.005, structure, ground, law, motion=motion, **others).run(duration=10.0, contact_every=5)
 
 
 run = in_plan(tank, bm.Coulomb(0.4))

@@ -60,7 +60,7 @@ pub trait Ground: Any + Send {
     fn elements(&self) -> &[ContactElement];
 
     /// Directions in which elements move: two in the plane (the default), three in plan. Forces, moments and energies
-    /// are then those of the whole body, in N, N m and J, although columns of files are called per metre.
+    /// are then those of the whole body, in N, N m and J.
     fn directions(&self) -> usize {
         PLANE
     }

@@ -30,7 +30,7 @@
 //!
 //! [`Simulation::step`] reads in this order:
 //!
-//! 1. forcing: free field, its translation y, convolution history, load (`step/forcing.rs`);
+//! 1. forcing: free field, its translation y, convolution history, load (`motion.rs`);
 //! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
 //! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
 //! 4. increment: the response Δu to τ; nothing is committed so far;

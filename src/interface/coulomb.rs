@@ -230,11 +230,13 @@ impl InterfaceLaw for Coulomb {
 
 type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
-/// [`Coulomb`]'s law with a friction coefficient that may change at each step.
+/// [`Coulomb`]'s law with a friction coefficient that a closure gives for each step.
 ///
-/// The coefficient may depend on the speed of sliding, the sliding distance, the pressure, and all else in
-/// [`PreviousContact`]. It is evaluated at the start of the step, so that it is constant while the modes of
-/// the step are searched for. It therefore lags by one step.
+/// The closure sees the [`PreviousContact`] of the element: slip, slip rate, pressure, static pressure. It has no
+/// state variables: friction that depends on the distance slid takes an [`InterfaceLaw`] of your own.
+///
+/// The coefficient is evaluated at the start of the step, so that it cannot change while the modes of the step are
+/// searched for. It therefore lags by one step.
 ///
 /// Friction that falls from 0.3 to 0.2 as sliding gets faster:
 /// ```

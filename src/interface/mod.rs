@@ -2,7 +2,7 @@
 //!
 //! A law describes one contact element at a time. For each [`Mode`] it returns two linear [`Condition`]s
 //! between the element's opening and its traction; after a trial it returns the next mode. The mode search of
-//! [`crate::coupled`] is the same for all laws.
+//! [`crate::contact`] is the same for all laws.
 
 mod cohesive;
 mod coulomb;

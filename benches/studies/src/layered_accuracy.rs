@@ -1,6 +1,6 @@
 //! Error of the base shear against run time on layered ground, against the tables of the tests: a
 //! bonded rigid block under an SV pulse on an elastic layer over rock, on the same damped, and on a
-//! damped layer over a rigid base. The numbers of `docs/layered.md` come from
+//! damped layer over a rigid base. The numbers of `docs/validation.md` come from
 //!
 //! ```text
 //! cargo study layered-accuracy

@@ -1,5 +1,5 @@
 //! What coefficients of layered ground cost, as [`ElasticGround::cost`] says beforehand and as a clock
-//! says afterwards: the table of `docs/layered.md`, and where the crate's figures for a nanosecond's work
+//! says afterwards: the table of `docs/validation.md`, and where the crate's figures for a nanosecond's work
 //! come from.
 //!
 //! ```text

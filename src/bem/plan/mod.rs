@@ -1,4 +1,4 @@
-//! Ground under rigid mats in plan, in three dimensions.
+//! Ground under mats in plan, in three dimensions.
 //!
 //! Mats lie on the cells of one lattice. Every coefficient is an integral over the wavenumber of the compliance of the
 //! [layered ground](super::layered) in its plane, and of one scalar more for waves across it, with form factors that

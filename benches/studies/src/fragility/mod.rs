@@ -13,7 +13,7 @@
 //! motions at one level are the same as at the next, so that runs are not independent.
 //!
 //! Cases are rows of one table. Those that fail are rows that say why, and are left out of the counts.
-//! A run that is killed goes on where it was; `docs/sweeps.md` spreads it over a cluster.
+//! A run that is killed goes on where it was; `docs/guide.md`, Sweeps, spreads it over a cluster.
 
 mod lognormal;
 mod motions;
