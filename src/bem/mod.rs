@@ -23,6 +23,7 @@ mod shared;
 mod spring;
 mod static_kernel;
 mod strip;
+mod strip_impedance;
 mod weights_ground;
 
 pub use elastic_ground::ElasticGround;

@@ -10,6 +10,7 @@ mod models;
 mod nonlinear;
 pub(crate) mod probe;
 mod reduction;
+mod section_rows;
 
 pub use crate::linalg::Triplets;
 pub use contact_node::{ContactNode, FaceNode};
@@ -21,18 +22,18 @@ pub(crate) use detached::{
 };
 pub use dof_combination::DofCombination;
 pub use hysteresis::{
-    Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
-    WithSprings,
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber, SpringResponse, WithSprings,
 };
 pub use models::{
-    FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section, SectionRows,
+    FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section,
     ShearBuilding, Storey, StoreyBuilding, StructureGroup,
 };
-pub use nonlinear::NonlinearForce;
+pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{
     Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
 };
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
+pub use section_rows::SectionRows;
 
 use std::any::Any;
 

@@ -1,8 +1,25 @@
 //! Nonlinear internal forces of structures.
 
-use super::{InternalEnergy, Structure, Triplets};
+use super::{Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, same_length};
 use crate::linalg::matrix::SparseMatrix;
+
+/// Energy of internal forces, J per metre of thickness.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct InternalEnergy {
+    /// Energy that unloading gives back.
+    pub stored: f64,
+    /// Energy turned into heat since the structure was new; it never decreases.
+    pub dissipated: f64,
+}
+
+impl std::ops::Add for InternalEnergy {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { stored: self.stored + other.stored, dissipated: self.dissipated + other.dissipated }
+    }
+}
 
 /// The nonlinear force f(u) of a structure, beyond K u: implement this for materials that yield,
 /// geometry that changes, parts that collide.

@@ -12,9 +12,8 @@ use realfft::num_complex::Complex64;
 use super::passivity::assembled;
 use super::static_compliance;
 use super::wavenumber::{Compliances, Wavenumbers, Workspace, unresolved};
-use crate::bem::{ElasticGround, Ground};
 use crate::error::{Error, Observer, Result, Watch, not_negative, require};
-use crate::geometry::{ContactElement, SPACE};
+use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::linalg::DenseFactor;
@@ -83,62 +82,6 @@ const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between the extrapolations from 8 and from 7 points.
 const SETTLED: f64 = 1e-3;
 
-impl ElasticGround {
-    /// Dynamic stiffness of all strips together as one rigid body, at each of `frequencies` (Hz).
-    ///
-    /// Cosine-graded strips converge with second order.
-    ///
-    /// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, including hysteretic
-    /// damping.
-    ///
-    /// ```
-    /// use basemat::Soil;
-    /// use basemat::bem::layered::StripContact;
-    /// use basemat::bem::{ElasticGround, Strip};
-    /// use basemat::soil::SoilProfile;
-    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-    /// let strip = Strip::graded(-3.0..3.0, 16)?;
-    /// let found = ElasticGround::new(soil, &strip)?.impedances(&[2.0, 8.0], StripContact::Bonded)?;
-    /// // Vertical dashpots come near the dashpot of plane waves, ρ c₁ per area.
-    /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
-    /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
-    ///
-    /// let layer = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
-    /// let found = ElasticGround::new(layer, strip)?.impedances(&[1.0, 9.0], StripContact::Bonded)?;
-    /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
-    /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
-    /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not
-    /// finite, or 0 on a half-plane, whose static stiffness is 0;
-    /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which
-    /// guided waves begin; [`Error::Singular`] if elements are too similar to be distinguished.
-    pub fn impedances(
-        &self,
-        frequencies: &[f64],
-        contact: StripContact,
-    ) -> Result<Vec<StripImpedance>> {
-        strip_impedances(self, frequencies, contact, &mut Watch::nobody())
-    }
-
-    /// [`ElasticGround::impedances`] with an observer; its parts are points of the Laplace plane, eight per
-    /// frequency.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`]; as for [`ElasticGround::impedances`].
-    pub fn impedances_observed(
-        &self,
-        frequencies: &[f64],
-        contact: StripContact,
-        observer: &mut Observer<'_>,
-    ) -> Result<Vec<StripImpedance>> {
-        strip_impedances(self, frequencies, contact, &mut impedance_watch(frequencies, observer))
-    }
-}
-
 /// Progress of impedances at `frequencies`; its parts are points of the Laplace plane, eight per frequency.
 pub(in crate::bem) fn impedance_watch<'a>(
     frequencies: &[f64],
@@ -147,20 +90,15 @@ pub(in crate::bem) fn impedance_watch<'a>(
     Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer)
 }
 
-fn strip_impedances(
-    ground: &ElasticGround,
+/// Dynamic stiffness of all `elements` on `profile` together, as one rigid body, at each of `frequencies` (Hz).
+pub(in crate::bem) fn strip_impedances(
+    profile: &SoilProfile,
+    elements: &[ContactElement],
     frequencies: &[f64],
     contact: StripContact,
     watch: &mut Watch,
 ) -> Result<Vec<StripImpedance>> {
-    if ground.directions() == SPACE {
-        return Err(Error::Scene {
-            quantity: "ground in plan",
-            needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
-        });
-    }
-    let profile = ground.profile();
-    let strip = RigidStrip::new(profile, ground.elements(), contact)?;
+    let strip = RigidStrip::new(profile, elements, contact)?;
     let mut lists = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
         let exists = *frequency != 0.0 || matches!(profile.base(), Base::Rigid);

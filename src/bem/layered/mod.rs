@@ -35,7 +35,7 @@ pub(super) use cost::{MOST_HALVING, Outlook, Priced};
 pub(super) use form_factors::{DEGREES, POINTS, legendre};
 pub(super) use halving::{FLOOR, SHARE, by_halves, last_coefficients, median};
 pub use impedance::{StripContact, StripImpedance};
-pub(super) use impedance::{impedance_watch, points, stiffnesses};
+pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedances};
 pub(super) use passivity::POINTS as GATE_POINTS;
 #[cfg(test)]
 pub(super) use passivity::margin;

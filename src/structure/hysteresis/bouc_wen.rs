@@ -1,10 +1,9 @@
 //! Bouc–Wen spring, and the lead-rubber bearing.
 
-use super::{
-    Hysteresis, InternalEnergy, Slider, SpringResponse, corrupt, elastic_share, slider_law,
-};
+use super::{Hysteresis, Slider, SpringResponse, corrupt, elastic_share, slider_law};
 use crate::error::{Result, finite, positive, require};
 use crate::linalg::gauss;
+use crate::structure::InternalEnergy;
 
 /// Bouc–Wen hysteresis (Bouc 1967, Wen 1976) with a smooth transition to yield.
 ///

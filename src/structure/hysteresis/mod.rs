@@ -7,6 +7,7 @@ pub use bouc_wen::{BoucWen, LeadRubber};
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 
+use super::InternalEnergy;
 use crate::error::{CheckpointError, Result, not_negative, positive, require};
 
 /// Force of a spring and its slope.
@@ -16,23 +17,6 @@ pub struct SpringResponse {
     pub force: f64,
     /// Slope of the force over the deformation, N/m per metre.
     pub tangent: f64,
-}
-
-/// Energy of internal forces, J per metre of thickness.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct InternalEnergy {
-    /// Energy that unloading gives back.
-    pub stored: f64,
-    /// Energy turned into heat since the structure was new; it never decreases.
-    pub dissipated: f64,
-}
-
-impl std::ops::Add for InternalEnergy {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { stored: self.stored + other.stored, dissipated: self.dissipated + other.dissipated }
-    }
 }
 
 /// A spring whose force depends on where it has been: implement this for a law of your own.

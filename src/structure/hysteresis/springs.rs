@@ -1,10 +1,10 @@
 //! Hysteretic springs on the degrees of freedom of a structure.
 
-use super::{Hysteresis, InternalEnergy};
+use super::Hysteresis;
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::{
-    ContactNode, DofCombination, FaceNode, NonlinearForce, Structure, Triplets,
+    ContactNode, DofCombination, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
 };
 
 /// A spring and the deformation l·u that it sees.

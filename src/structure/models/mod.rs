@@ -17,7 +17,7 @@ pub use group::StructureGroup;
 pub use matrix_model::MatrixModel;
 pub use rigid_block::RigidBlock;
 pub use rigid_body::RigidBody;
-pub use section::{Section, SectionRows};
+pub use section::Section;
 pub use shear_building::{ShearBuilding, Storey};
 pub use storey_building::{PlanStorey, StoreyBuilding};
 pub use storey_laws::IsolationLevel;

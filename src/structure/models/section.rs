@@ -2,41 +2,7 @@
 
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive, require_part};
 use crate::fem::{Direction, MatrixKind, assemble};
-use crate::structure::{DofCombination, FemModel, Triplets};
-
-/// Linear function of displacement, velocity and acceleration, as sparse rows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SectionRows {
-    /// Unit of the resultant: "N/m" for a force, "N·m/m" for a moment.
-    pub unit: &'static str,
-    /// Weights of the displacements.
-    pub displacement: DofCombination,
-    /// Weights of the velocities: dashpots and stiffness-proportional damping.
-    pub velocity: DofCombination,
-    /// Weights of the accelerations: the fraction of the mass above that sits on the cut's nodes.
-    pub acceleration: DofCombination,
-}
-
-impl Default for SectionRows {
-    /// A force that is zero.
-    fn default() -> Self {
-        Self {
-            unit: "N/m",
-            displacement: DofCombination::default(),
-            velocity: DofCombination::default(),
-            acceleration: DofCombination::default(),
-        }
-    }
-}
-
-impl SectionRows {
-    /// The resultant's value; slices of all degrees of freedom, indices beyond their ends count as zero.
-    pub fn value(&self, displacement: &[f64], velocity: &[f64], acceleration: &[f64]) -> f64 {
-        self.displacement.value(displacement)
-            + self.velocity.value(velocity)
-            + self.acceleration.value(acceleration)
-    }
-}
+use crate::structure::{DofCombination, FemModel, SectionRows, Triplets};
 
 /// Resultant of what the part above a horizontal cut exerts on the part below, per metre.
 ///

@@ -1,11 +1,12 @@
 //! Shear building on a rigid base.
 
-use super::section::SectionRows;
 use crate::error::{
     Result, at_least, damping_ratio, finite, in_bounds, not_negative, positive, require,
 };
 use crate::structure::hysteresis::Springs;
-use crate::structure::{ContactNode, DofCombination, NonlinearForce, Structure, Triplets};
+use crate::structure::{
+    ContactNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Storey of a [`ShearBuilding`]: the columns and the floor they carry, per metre of thickness.

@@ -1,13 +1,12 @@
 //! Storey building in plan on a rigid mat.
 
 use super::rigid_body::RigidBody;
-use super::section::SectionRows;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
 use crate::structure::hysteresis::{Hysteresis, Springs};
 use crate::structure::{
-    ContactNode, DofCombination, FaceNode, NonlinearForce, Structure, Triplets,
+    ContactNode, DofCombination, FaceNode, NonlinearForce, SectionRows, Structure, Triplets,
 };
 
 /// Storey of a [`StoreyBuilding`]: the columns and walls, and the rigid floor that they carry. Places are from the
