@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use basemat::site::{EquivalentLinear, EquivalentLinearOptions};
+use basemat::Observer;
+use basemat::site::{ComplexModulus, EquivalentLinear, EquivalentLinearOptions};
 use basemat::soil::StrainCurves;
 use pyo3::prelude::*;
 
@@ -12,6 +13,7 @@ use crate::motion::{PyColumn, PyRecord, control};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::several::Several;
+use crate::ticker::watched;
 
 /// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
 #[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
@@ -82,6 +84,10 @@ impl PyStrainCurves {
     }
 }
 
+/// Conventions of the complex modulus by their names.
+const CONVENTIONS: [(&str, ComplexModulus); 2] =
+    [("real part", ComplexModulus::RealPart), ("magnitude", ComplexModulus::Magnitude)];
+
 #[pymethods]
 impl PyColumn {
     /// Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
@@ -89,8 +95,9 @@ impl PyColumn {
     ///
     /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
     /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
-    /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
-    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None))]
+    /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
+    /// layers: "real part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
+    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None, complex_modulus="real part"))]
     fn equivalent_linear(
         &self,
         py: Python<'_>,
@@ -101,6 +108,7 @@ impl PyColumn {
         tolerance: Option<f64>,
         #[pyo3(from_py_with = whole)] most_iterations: Option<usize>,
         band: Option<[f64; 2]>,
+        complex_modulus: &str,
     ) -> PyResult<PyEquivalentLinear> {
         let usual = EquivalentLinearOptions::default();
         let options = EquivalentLinearOptions {
@@ -109,11 +117,14 @@ impl PyColumn {
             tolerance: tolerance.unwrap_or(usual.tolerance),
             most_iterations: most_iterations.unwrap_or(usual.most_iterations),
             band: band.unwrap_or(usual.band),
+            complex_modulus: choice("complex_modulus", complex_modulus, &CONVENTIONS)?,
         };
         let curves: Vec<_> = curves.iter().map(|curves| curves.get().0.clone()).collect();
         let (column, record) = (&self.0, &record.0);
-        let found = py.detach(|| column.equivalent_linear(record, &curves, &options));
-        Ok(PyEquivalentLinear(found.or_raise()?))
+        let call = |observer: &mut Observer<'_>| {
+            column.equivalent_linear_observed(record, &curves, &options, observer)
+        };
+        Ok(PyEquivalentLinear(py.detach(|| watched(None, call))?))
     }
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import warnings
 
 import basemat as bm
 import numpy as np
@@ -83,3 +84,43 @@ def test_bad_sites_name_layer_and_quantity() -> None:
         bm.StrainCurves.table([1e-4], [1.0, 0.9], [0.01])
     with pytest.raises(bm.InputError, match="bound is 'lower'"):
         bm.StrainCurves.seed_idriss("lower")
+
+
+def test_deconvolution_through_soft_soil_warns_and_a_low_pass_helps() -> None:
+    soft = bm.Soil.from_shear_wave_speed(100.0, poisson=0.4, density=1700.0)
+    rock = bm.Soil.from_shear_wave_speed(760.0, poisson=0.25, density=2200.0)
+    damping = bm.DampingLaw.constant_q(0.15, (0.2, 30.0), 1.0)
+    column = bm.SoilColumn(bm.SoilProfile([bm.SoilLayer(soft, 100.0, damping)], rock))
+    record = bm.el_centro_1940().padded(10.0, 40.0)
+    with pytest.warns(bm.BasematWarning, match="more than a hundredfold, from .* Hz on: .*low_pass"):
+        found = column.from_surface(record)
+    assert found.peak_acceleration > 1e5
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        calm = column.from_surface(record.low_pass(2.5, order=8).padded(20.0, 20.0))
+    assert calm.peak_acceleration < 100.0
+
+
+def test_the_complex_modulus_has_two_conventions() -> None:
+    column, curves = site(4)
+    curves = [bm.StrainCurves.linear(0.2)] * 4
+    record = bm.el_centro_1940().padded(0.0, 10.0)
+    peaks = [
+        column.equivalent_linear(record, curves, complex_modulus=own).surface.peak_acceleration
+        for own in ("real part", "magnitude")
+    ]
+    assert 0.01 < abs(peaks[1] / peaks[0] - 1.0) < 0.2
+    with pytest.raises(bm.InputError, match="complex_modulus is 'shake'"):
+        column.equivalent_linear(record, curves, complex_modulus="shake")  # type: ignore[arg-type]
+
+
+def test_curves_that_stiffen_are_refused() -> None:
+    with pytest.raises(bm.InputError, match="G/G_max of a table is 0.9"):
+        bm.StrainCurves.table([1e-5, 1e-3], [0.8, 0.9], [0.01, 0.09])
+
+
+def test_spectra_of_few_steps_say_so() -> None:
+    record = bm.el_centro_1940()
+    assert record.response_spectrum([0.2, 1.0]).warnings == []
+    [text] = record.response_spectrum([0.05, 1.0]).broadened().warnings
+    assert "fewer than ten time steps" in text

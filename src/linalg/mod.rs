@@ -7,7 +7,9 @@ mod condition;
 mod dense;
 mod eigen;
 pub(crate) mod gauss;
+mod lanes;
 pub(crate) mod matrix;
+mod number;
 mod product;
 mod sparse;
 mod triplets;
@@ -18,7 +20,9 @@ pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, lowest_modes, symmetric_modes};
 pub(crate) use faer::traits::ComplexField;
+pub(crate) use lanes::Lanes;
 pub(crate) use matrix::SparseMatrix;
+pub(crate) use number::Number;
 pub(crate) use product::{
     Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
     magnitude, mixed, mixing_weight, row_products, transposed_multiply_add, vectorized,

@@ -52,6 +52,6 @@ pub(crate) use plane_wave::check_prescribed;
 pub use reader::{ColumnFormat, el_centro_1940};
 pub use record::Record;
 pub use smc::SmcFormat;
-pub use spectrum::SpectralOrdinate;
+pub use spectrum::{CoarseSpectrum, SpectralOrdinate};
 pub use travelling_wave::TravellingWave;
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY};

@@ -7,6 +7,8 @@
 //! | u, v | displacement and velocity relative to the ground: u'' + 2ζω u' + ω² u = −a(t) |
 //! | h | substep: the record's interval divided so that a period has at least 40 of them |
 
+use std::fmt;
+
 use super::integral::{Motion, quadratic_roots_within};
 use super::{Record, STANDARD_GRAVITY};
 use crate::error::{Observer, Result, Watch, damping_ratio, positive, require};
@@ -36,13 +38,60 @@ pub struct SpectralOrdinate {
     pub acceleration: f64,
 }
 
+/// Fewest time steps of a record in a period of its spectrum.
+const SAMPLES_PER_PERIOD: f64 = 10.0;
+
+/// Warning that a response spectrum has periods of fewer than ten time steps of its record.
+///
+/// The record is taken as linear between samples, which keeps (sin x/x)² of a harmonic with n samples in its period,
+/// x = π/n: 0.97 at ten samples, 0.88 at five, 0.57 at two and a half. A floor's accelerations may be means over steps,
+/// which costs sin x/x more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct CoarseSpectrum {
+    /// Shortest period of the spectrum, s.
+    pub period: f64,
+    /// Time step of the record, s.
+    pub time_step: f64,
+}
+
+impl fmt::Display for CoarseSpectrum {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { period, time_step } = self;
+        let least = SAMPLES_PER_PERIOD * time_step;
+        write!(
+            f,
+            "below a period of {least:.3} s the spectrum is not exact, at {period:.3} s by far: the record has fewer \
+             than ten time steps of {time_step} s in a period; a floor's spectrum needs a run with a shorter step"
+        )
+    }
+}
+
 impl Record {
+    /// Warning for a response spectrum at these `periods` (s), if the shortest has fewer than ten of the record's steps.
+    ///
+    /// ```
+    /// // Samples of 0.02 s.
+    /// let record = basemat::motion::el_centro_1940();
+    /// assert!(record.coarse_spectrum(&[0.2, 1.0]).is_none());
+    /// let warning = record.coarse_spectrum(&[0.05, 1.0]).ok_or("periods are too short")?;
+    /// assert_eq!(warning.period, 0.05);
+    /// println!("{warning}");
+    /// # Ok::<(), &str>(())
+    /// ```
+    pub fn coarse_spectrum(&self, periods: &[f64]) -> Option<CoarseSpectrum> {
+        let (period, time_step) = (periods.iter().copied().reduce(f64::min)?, self.time_step());
+        let is_coarse = period < SAMPLES_PER_PERIOD * time_step * (1.0 - 1e-9);
+        is_coarse.then_some(CoarseSpectrum { period, time_step })
+    }
+
     /// Elastic response spectrum at `periods` (s) with the damping ratio `damping`.
     ///
     /// The acceleration is linear between samples, for which the oscillator's motion is known
     /// exactly (Nigam & Jennings, "Calculation of response spectra from strong-motion earthquake
     /// records", Bull. Seism. Soc. Am. 59 (1969), 909–922). Peaks are searched for between samples
-    /// too, to 2e-6. A floor's acceleration makes a floor spectrum.
+    /// too, to 2e-6. A floor's acceleration makes a floor spectrum. [`Record::coarse_spectrum`] warns of periods that
+    /// are too short for the record's time step.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();

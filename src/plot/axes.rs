@@ -273,11 +273,11 @@ pub(super) fn logarithmic(range: &Range<f64>, count: usize) -> Ticks {
             .filter(|value| (low..=high).contains(value))
             .collect()
     };
-    let mut values = within(&[1.0, 2.0, 5.0]);
-    if values.len() > count {
-        values = within(&[1.0]);
-    }
-    if values.len() < 3 {
+    let few = [&[1.0, 2.0, 5.0][..], &[1.0, 3.0], &[1.0]].map(within);
+    let fits = few.iter().find(|values| values.len() <= count && values.len() > 1);
+    // On a short axis marks give way to each other, where powers of ten alone would be too few.
+    let values = fits.or(few.iter().find(|values| values.len() > 1)).cloned().unwrap_or_default();
+    if values.len() < 3 && range.end < 10.0 * range.start {
         let marks = linear(range, count.min(5));
         let place = |(value, name): (f64, String)| (value.log10(), name);
         let above = marks.marks.into_iter().filter(|mark| mark.0 > 0.0);
@@ -338,5 +338,11 @@ mod tests {
         assert_eq!(names(0.05..2.0), ["0.05", "0.1", "0.2", "0.5", "1", "2"]);
         assert_eq!(names(1.1..1.35), ["1.10", "1.15", "1.20", "1.25", "1.30", "1.35"]);
         assert_eq!(names(1e-6..1e6).len(), 13);
+        // A narrow picture has room for few, and one mark alone would say nothing.
+        let narrow =
+            |range| logarithmic(&range, 3).marks.into_iter().map(|mark| mark.1).collect::<Vec<_>>();
+        assert_eq!(narrow(0.05..3.0), ["0.1", "1"]);
+        assert_eq!(narrow(0.2..3.0), ["0.3", "1", "3"]);
+        assert_eq!(narrow(0.05..1.1), ["0.1", "0.3", "1"]);
     }
 }

@@ -260,7 +260,7 @@ pub fn site_response(
     let steps = |value: Value| -> Vec<(f64, f64)> {
         let layers = response.layers.iter().zip(response.profile.layers());
         let step = layers.flat_map(|(own, layer)| {
-            let x = value(own, layer.soil.shear_wave_speed());
+            let x = value(own, (own.shear_modulus / layer.soil.density()).sqrt());
             [(x, -own.depth), (x, -own.depth - layer.thickness)]
         });
         step.collect()

@@ -35,6 +35,9 @@ impl TimeSeries {
     /// Floor (in-structure) response spectrum: the largest response of oscillators that stand on the
     /// point of an acceleration probe, at `periods` (s) with the damping ratio `damping`.
     ///
+    /// Periods of fewer than ten time steps are not exact, for which [`Record::coarse_spectrum`] has a warning: at
+    /// a period of 0.05 s a step of 0.02 s costs 11 %. A run with a shorter time step mends it.
+    ///
     /// # Errors
     /// As for [`TimeSeries::acceleration_record`] and [`Record::response_spectrum`].
     pub fn floor_spectrum(

@@ -2,63 +2,15 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
-use std::sync::Arc;
 
 use super::SiteWarning;
-use super::soil_column::{ControlPoint, Inside, SoilColumn, VerticalWave};
-use super::transform::SiteMotion;
-use crate::error::{Error, LayeredError, Result, SiteError, positive, require};
-use crate::linalg::Complex;
+use super::iteration::{Converged, EquivalentLinearOptions, Iteration};
+use super::pace::Pace;
+use super::soil_column::SoilColumn;
+use crate::error::{Observer, Result, Watch};
+use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};
-use crate::soil::{
-    Base, Elastic, GeneralizedMaxwell, Hysteretic, Relaxation, Resolved, Soil, SoilLayer,
-    SoilProfile, StrainCurves,
-};
-
-/// Effective strain that stands for none.
-const LEAST_STRAIN: f64 = 1e-12;
-/// Least and largest relaxation factor.
-const FACTORS: [f64; 2] = [0.3, 20.0];
-
-/// Options of [`SoilColumn::equivalent_linear`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EquivalentLinearOptions {
-    /// Place at which the motion is given.
-    pub control: ControlPoint,
-    /// Effective strain over the largest, at most 1.
-    pub strain_ratio: f64,
-    /// Largest relative change of a modulus or damping ratio by all further iterations, as estimated, that passes for
-    /// none.
-    pub tolerance: f64,
-    /// Most iterations, at least 1.
-    pub most_iterations: usize,
-    /// Frequencies (Hz) over which the damping of the resulting profile is constant.
-    pub band: [f64; 2],
-}
-
-/// The rock's outcrop, 0.65 of the largest strain, 1e-3 in at most 50 iterations, 0.1 to 30 Hz.
-impl Default for EquivalentLinearOptions {
-    fn default() -> Self {
-        let (control, band) = (ControlPoint::Outcrop, [0.1, 30.0]);
-        Self { control, strain_ratio: 0.65, tolerance: 1e-3, most_iterations: 50, band }
-    }
-}
-
-impl EquivalentLinearOptions {
-    /// The default with the strain ratio (M − 1)/10 of a `magnitude` M (Idriss & Sun 1992).
-    pub fn of_magnitude(magnitude: f64) -> Self {
-        Self { strain_ratio: 0.1 * (magnitude - 1.0), ..Self::default() }
-    }
-
-    fn check(&self) -> Result<()> {
-        let (ratio, most) = (self.strain_ratio, self.most_iterations);
-        let needed = "above 0 and at most 1 (a magnitude above 1 and at most 11)";
-        require("effective strain ratio", ratio, ratio > 0.0 && ratio <= 1.0, needed)?;
-        require("most iterations of a site", most as f64, most > 0, "at least 1")?;
-        positive("tolerance of strain-compatible properties", self.tolerance)?;
-        GeneralizedMaxwell::constant_q(0.0, self.band, self.band[0]).map(drop)
-    }
-}
+use crate::soil::{Base, Elastic, GeneralizedMaxwell, Resolved, SoilProfile, StrainCurves};
 
 /// Strain-compatible properties of one layer and the strains they belong to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,8 +60,8 @@ impl SoilColumn {
     ///
     /// Each layer has one strain, that of its middle, where waves A up and B down at the layer's top have du/dz = κ(A
     /// e^(κh/2) − B e^(−κh/2)), κ = s/c: divide layers in which it varies. Curves are read at a share of its largest
-    /// value. This is in the frequency domain, s = iω, with the modulus G(1 + 2iξ), as in SHAKE. The resulting profile
-    /// has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, under the
+    /// value. This is in the frequency domain, s = iω, with the [`ComplexModulus`](super::ComplexModulus) of the options,
+    /// G(1 + 2iξ) unless another is chosen. The resulting profile has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, under the
     /// layers too if the base's law cannot march in time. That disperses: what [`SoilColumn::to_surface`] makes with it
     /// is some per cent off `surface`. Poisson's ratio stays, so pressure waves slow down with shear waves (below the
     /// water table they would not).
@@ -142,14 +94,42 @@ impl SoilColumn {
         curves: &[StrainCurves],
         options: &EquivalentLinearOptions,
     ) -> Result<EquivalentLinear> {
-        let iteration = Iteration::new(self, motion, curves, options)?;
-        let Converged { properties, strains, iterations, last_change } = iteration.converged()?;
-        let mut found = iteration.inside(&properties, Inside::Accelerations)?;
-        for motion in &mut found {
-            motion.cut(iteration.motion.len());
-        }
-        let peak_accelerations = found.iter().map(SiteMotion::peak).collect();
-        let surface = found.first().cloned().unwrap_or_default();
+        self.compatible_response(motion, curves, options, &mut Watch::nobody())
+    }
+
+    /// [`equivalent_linear`](SoilColumn::equivalent_linear) with an observer: it counts all iterations that are
+    /// allowed, and comes to the end at once after the last one made.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`]; as for [`equivalent_linear`](SoilColumn::equivalent_linear).
+    pub fn equivalent_linear_observed(
+        &self,
+        motion: &Record,
+        curves: &[StrainCurves],
+        options: &EquivalentLinearOptions,
+        observer: &mut Observer<'_>,
+    ) -> Result<EquivalentLinear> {
+        let total = options.most_iterations.saturating_add(1).saturating_mul(Pace::PARTS);
+        let mut watch = Watch::new("equivalent-linear response", total, observer);
+        let found = self.compatible_response(motion, curves, options, &mut watch)?;
+        watch.reach(total)?;
+        Ok(found)
+    }
+
+    fn compatible_response(
+        &self,
+        motion: &Record,
+        curves: &[StrainCurves],
+        options: &EquivalentLinearOptions,
+        watch: &mut Watch<'_>,
+    ) -> Result<EquivalentLinear> {
+        let mut iteration = Iteration::new(self, motion, curves, options)?;
+        let Converged { properties, strains, iterations, last_change } =
+            iteration.converged(watch)?;
+        let mut pace = Pace::part(watch, iterations);
+        let (surface, accelerations) = iteration.accelerations(&properties, &mut pace)?;
+        let peak_accelerations = accelerations.iter().map(|own| largest(own)).collect();
+        let cut_off = surface.before.max(surface.after) / surface.peak();
         let (mut depth, mut layers) = (0.0, Vec::with_capacity(strains.len()));
         let given = self.profile.layers().iter().zip(&properties).zip(&strains);
         for ((layer, [modulus_ratio, damping]), strain) in given {
@@ -165,42 +145,29 @@ impl SoilColumn {
         }
         let mut result = EquivalentLinear {
             layers,
-            profile: self.causal(&properties, options.band)?,
-            surface: Record::new(motion.time_step(), surface.samples.clone())?,
-            accelerations: found.into_iter().map(|motion| motion.samples).collect(),
+            profile: self.causal(&properties, options)?,
+            surface: Record::new(motion.time_step(), surface.samples)?,
+            accelerations,
             peak_accelerations,
             iterations,
             last_change,
             warnings: vec![],
         };
-        let cut_off = surface.before.max(surface.after) / surface.peak();
         result.warn(options.tolerance, &iteration.curves, cut_off);
         Ok(result)
     }
 
-    /// The profile with these modulus ratios and damping ratios, by a damping law of the ratio.
-    fn compatible<L: Relaxation + 'static>(
+    /// Profile of these properties with causal laws of damping, whose moduli are theirs at its first frequency.
+    fn causal(
         &self,
         properties: &[[f64; 2]],
-        law: impl Fn(f64) -> Result<L>,
+        options: &EquivalentLinearOptions,
     ) -> Result<SoilProfile> {
-        let layer = |(k, (layer, [modulus, damping])): (usize, (&SoilLayer, &[f64; 2]))| {
-            let SoilLayer { soil, thickness, .. } = layer;
-            let made = Soil::new(modulus * soil.shear_modulus(), soil.poisson(), soil.density());
-            let made = made.and_then(|soil| Ok((soil, law(*damping)?)));
-            let (soil, damping) = made.map_err(|error| of_layer(k, error))?;
-            Ok(SoilLayer { soil, thickness: *thickness, damping: Arc::new(damping) })
-        };
-        let layers = self.profile.layers().iter().zip(properties).enumerate().map(layer);
-        SoilProfile::new(layers.collect::<Result<_>>()?, self.profile.base().clone())
-    }
-
-    /// Profile of these properties with causal laws of damping, whose moduli are theirs at its first frequency.
-    fn causal(&self, properties: &[[f64; 2]], band: [f64; 2]) -> Result<SoilProfile> {
-        let soft = self.compatible(properties, |_| Ok(Elastic))?;
+        let EquivalentLinearOptions { band, complex_modulus, .. } = *options;
+        let soft = self.compatible(properties, complex_modulus, |_| Ok(Elastic))?;
         let reference = soft.first_frequency().unwrap_or(band[0]).clamp(band[0], band[1]);
         let law = |ratio| GeneralizedMaxwell::constant_q(ratio, band, reference);
-        let profile = self.compatible(properties, law)?;
+        let profile = self.compatible(properties, complex_modulus, law)?;
         match profile.base() {
             Base::HalfPlane { damping, .. } if !damping.is_causal() => {
                 let modulus = damping.modulus(Complex::new(0.0, TAU * reference));
@@ -210,131 +177,6 @@ impl SoilColumn {
             _ => Ok(profile),
         }
     }
-}
-
-/// Input of an iteration: column, motion, curves of its layers and options.
-struct Iteration<'a> {
-    column: &'a SoilColumn,
-    motion: &'a Record,
-    curves: Vec<Resolved>,
-    options: &'a EquivalentLinearOptions,
-}
-
-/// Modulus ratio and damping ratio of each layer, and the largest strains with them.
-struct Converged {
-    properties: Vec<[f64; 2]>,
-    strains: Vec<f64>,
-    iterations: usize,
-    last_change: f64,
-}
-
-impl<'a> Iteration<'a> {
-    fn new(
-        column: &'a SoilColumn,
-        motion: &'a Record,
-        curves: &[StrainCurves],
-        options: &'a EquivalentLinearOptions,
-    ) -> Result<Self> {
-        options.check()?;
-        if column.wave != VerticalWave::Shear {
-            return Err(SiteError::PressureWaves.into());
-        }
-        let layers = column.profile.layers().len();
-        if curves.len() != layers {
-            return Err(SiteError::Curves { curves: curves.len(), layers }.into());
-        }
-        let base = column.profile.base();
-        let reflects = matches!(base, Base::Rigid) || options.control == ControlPoint::Within;
-        let resolved = |(index, curves): (usize, &StrainCurves)| {
-            let resolved = curves.resolved().map_err(|error| of_layer(index, error))?;
-            if reflects && resolved.at(0.0)[1] == 0.0 {
-                let (quantity, layer) = ("damping ratio at small strain", index + 1);
-                let needed = "above 0 on a rigid base or under a motion within: nothing leaves";
-                return Err(SiteError::Layer { layer, quantity, value: 0.0, needed }.into());
-            }
-            Ok(resolved)
-        };
-        let curves = curves.iter().enumerate().map(resolved).collect::<Result<_>>()?;
-        Ok(Self { column, motion, curves, options })
-    }
-
-    /// Modulus ratios and damping ratios at the logarithms of effective strains.
-    fn read(&self, logs: &[f64]) -> Vec<[f64; 2]> {
-        self.curves.iter().zip(logs).map(|(curves, log)| curves.at(log.exp())).collect()
-    }
-
-    /// Motions in the linear column with these properties.
-    fn inside(&self, properties: &[[f64; 2]], what: Inside) -> Result<Vec<SiteMotion>> {
-        let profile = self.column.compatible(properties, Hysteretic::new)?;
-        let column = SoilColumn { profile, wave: self.column.wave };
-        let (step, samples) = (self.motion.time_step(), self.motion.accelerations());
-        column.inside(what, self.options.control, step, samples)
-    }
-
-    /// Iterates the moduli and damping ratios, beginning at small strain.
-    fn converged(&self) -> Result<Converged> {
-        let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
-            *self.options;
-        let mut logs = vec![f64::NEG_INFINITY; self.curves.len()];
-        let (mut properties, mut aitken) = (self.read(&logs), Aitken::default());
-        let mut iterations = 0;
-        loop {
-            iterations += 1;
-            let found = self.inside(&properties, Inside::Strains)?;
-            let strains: Vec<f64> = found.iter().map(SiteMotion::peak).collect();
-            let log = |strain: &f64| (strain_ratio * strain).max(LEAST_STRAIN).ln();
-            let found: Vec<f64> = strains.iter().map(log).collect();
-            logs = if iterations == 1 { found.clone() } else { aitken.next(&logs, &found) };
-            let [plain, next] = [self.read(&found), self.read(&logs)];
-            let changes = [plain, next.clone()].map(|other| largest_change(&properties, &other));
-            let last_change = changes[0].max(changes[1]);
-            if last_change <= tolerance || iterations == most_iterations {
-                return Ok(Converged { properties, strains, iterations, last_change });
-            }
-            properties = next;
-        }
-    }
-}
-
-/// Fixed-point iteration with one relaxation factor, from the last two residuals (Irons & Tuck 1969): about 1/(1 − ρ)
-/// where each iteration leaves the share ρ of the distance, so that its step is an estimate of all that is left.
-#[derive(Debug, Default)]
-struct Aitken {
-    residual: Vec<f64>,
-    factor: f64,
-}
-
-impl Aitken {
-    /// Next argument after `old`, whose image is `new`.
-    fn next(&mut self, old: &[f64], new: &[f64]) -> Vec<f64> {
-        let residual: Vec<f64> = old.iter().zip(new).map(|(old, new)| new - old).collect();
-        let pairs =
-            || self.residual.iter().zip(&residual).map(|(before, now)| [*before, now - before]);
-        let [along, size] = pairs().fold([0.0; 2], |[a, b], [r, d]| [a + r * d, b + d * d]);
-        let factor = -self.factor * along / size;
-        // Without a residual before, or if the last step went astray: a plain step.
-        self.factor = if factor > 0.0 { factor.clamp(FACTORS[0], FACTORS[1]) } else { 1.0 };
-        let next = old.iter().zip(&residual).map(|(old, r)| old + self.factor * r).collect();
-        self.residual = residual;
-        next
-    }
-}
-
-/// Largest change of a modulus or damping ratio, relative to the new one.
-fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
-    let pairs = old.as_flattened().iter().zip(new.as_flattened());
-    let changes = pairs.map(|(old, new)| if old == new { 0.0 } else { (new - old).abs() / new });
-    changes.fold(0.0, f64::max)
-}
-
-/// An error with its layer, counted from 0; that of a damping ratio which no law fits, as one of the layer.
-fn of_layer(index: usize, error: Error) -> Error {
-    let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
-        return SiteError::of_layer(index, error);
-    };
-    let quantity = "strain-compatible damping ratio";
-    let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
-    SiteError::Layer { layer: index + 1, quantity, value: ratio, needed }.into()
 }
 
 impl EquivalentLinear {
@@ -373,7 +215,7 @@ impl fmt::Display for EquivalentLinear {
                 f,
                 "{:>9.2} {:>9.1} {:>7.3} {:>9.2} {:>11.4} {:>11.4} {:>8.3}",
                 own.depth,
-                layer.soil.shear_wave_speed(),
+                (own.shear_modulus / layer.soil.density()).sqrt(),
                 own.modulus_ratio,
                 100.0 * own.damping,
                 100.0 * own.largest_strain,

@@ -2,36 +2,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::sampled::Sampled;
-use super::slowness::{Medium, surface_motion, surface_motion_across};
-use super::transform::{Contour, Place, SiteMotion};
-use crate::error::{LayeredError, Result, finite, not_negative, positive};
+use super::oblique::{InclinedControl, Kind, Surface};
+use super::pace::Pace;
+use super::sampled::{Functions, evaluate};
+use super::site_motion::SiteMotion;
+use super::transform::{Contour, Place};
+use crate::error::{LayeredError, Observer, Result, Watch, finite, not_negative, positive};
 use crate::linalg::Complex;
-use crate::motion::{
-    PlaneWave, Record, TravellingWave, Triaxial, VerticalIncidence, check_prescribed,
-};
+use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
 use crate::soil::{Base, Soil, SoilProfile};
-
-/// Motion that is given of an inclined wave. All are at the depth of the base's top.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum InclinedControl {
-    /// Horizontal motion of the base's free surface where no layers cover it: rock outcrop.
-    #[default]
-    OutcropHorizontal,
-    /// Vertical motion of the same, positive up.
-    OutcropVertical,
-    /// The incident wave itself: SV to the right (and down, if it runs to the right), P up (and to the
-    /// right), SH away from the reader.
-    Incident,
-}
-
-/// Kind of the incident wave.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    Sv,
-    P,
-    Sh,
-}
 
 /// A plane SV, P or SH wave that comes up at an angle through the half-plane below a soil profile.
 ///
@@ -146,11 +125,11 @@ impl InclinedWave {
     pub fn transfer(&self, control: InclinedControl, frequency: f64) -> Result<[Complex; 2]> {
         not_negative("frequency of a transfer function", frequency)?;
         self.check(control)?;
-        let mut layers = Sampled::exact(&self.profile, |soil, modulus, s| {
-            Medium::layer(soil, modulus, s, self.slowness).slownesses()
-        });
+        let mut found = [Complex::default(); 2];
         let place = Place::alone(Complex::new(0.0, TAU * frequency));
-        self.at(control, &place, &mut layers)
+        self.functions(control).at(&place, &mut found)?;
+        check_motion(&found)?;
+        Ok(found)
     }
 
     /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x, samples
@@ -166,7 +145,32 @@ impl InclinedWave {
         time_step: f64,
         motion: &[f64],
     ) -> Result<[SiteMotion; 2]> {
-        let mut found = self.filtered(control, time_step, motion)?;
+        self.cut_to(control, time_step, motion, &mut Watch::nobody())
+    }
+
+    /// [`InclinedWave::to_surface`] with an observer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`InclinedWave::to_surface`].
+    pub fn to_surface_observed(
+        &self,
+        control: InclinedControl,
+        time_step: f64,
+        motion: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<[SiteMotion; 2]> {
+        let mut watch = Watch::new("motion of the surface", Pace::PARTS, observer);
+        self.cut_to(control, time_step, motion, &mut watch)
+    }
+
+    fn cut_to(
+        &self,
+        control: InclinedControl,
+        time_step: f64,
+        motion: &[f64],
+        watch: &mut Watch<'_>,
+    ) -> Result<[SiteMotion; 2]> {
+        let mut found = self.filtered(control, time_step, motion, watch)?;
         for found in &mut found {
             found.cut(motion.len());
         }
@@ -179,16 +183,19 @@ impl InclinedWave {
         control: InclinedControl,
         time_step: f64,
         motion: &[f64],
+        watch: &mut Watch<'_>,
     ) -> Result<[SiteMotion; 2]> {
         positive("time step of a motion", time_step)?;
         self.check(control)?;
         self.profile.check_causal()?;
         self.check_beginning(PI / time_step)?;
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
-        let slownesses =
-            |soil, modulus, s| Medium::layer(soil, modulus, s, self.slowness).slownesses();
-        let mut layers = Sampled::new(&self.profile, slownesses, contour.end()?)?;
-        contour.filtered(motion, |place| self.at(control, place, &mut layers))
+        let functions = self.functions(control).sampled(contour.end()?)?;
+        let mut moduli = vec![];
+        contour.filtered(motion, &mut Pace::whole(watch), |places, found| {
+            evaluate(&functions, places, &mut moduli, found)?;
+            check_motion(found)
+        })
     }
 
     /// The free field in which `record` is the motion of `control` below `origin` (m), the edge of the
@@ -203,20 +210,43 @@ impl InclinedWave {
         record: &Record,
         origin: f64,
     ) -> Result<TravellingWave> {
+        let surface = self.surface(control, record, &mut Watch::nobody())?;
+        TravellingWave::new(surface, self.apparent_velocity(), origin)
+    }
+
+    /// Records of the surface that [`InclinedWave::field`] moves along it, with an observer: along x, or along y of an SH
+    /// wave, and up.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`InclinedWave::to_surface`].
+    pub fn surface_records(
+        &self,
+        control: InclinedControl,
+        record: &Record,
+        observer: &mut Observer<'_>,
+    ) -> Result<Triaxial> {
+        let mut watch = Watch::new("motion of the surface", Pace::PARTS, observer);
+        self.surface(control, record, &mut watch)
+    }
+
+    fn surface(
+        &self,
+        control: InclinedControl,
+        record: &Record,
+        watch: &mut Watch<'_>,
+    ) -> Result<Triaxial> {
         let step = record.time_step();
         let [mut horizontal, mut vertical] =
-            self.filtered(control, step, record.accelerations())?;
+            self.filtered(control, step, record.accelerations(), watch)?;
         let count = horizontal.duration().max(vertical.duration()).max(record.len());
         horizontal.cut(count);
         vertical.cut(count);
-        let (speed, horizontal) =
-            (self.apparent_velocity(), Some(Record::new(step, horizontal.samples)?));
+        let horizontal = Some(Record::new(step, horizontal.samples)?);
         if self.kind == Kind::Sh {
-            let field = Triaxial { y: horizontal, ..Triaxial::default() };
-            return TravellingWave::new(field, speed, origin);
+            return Ok(Triaxial { y: horizontal, ..Triaxial::default() });
         }
-        let vertical = Some(Record::new(step, vertical.samples)?);
-        TravellingWave::new(VerticalIncidence { horizontal, vertical }, speed, origin)
+        let up = Some(Record::new(step, vertical.samples)?);
+        Ok(Triaxial { x: horizontal, up, y: None })
     }
 
     /// Error for a component of the outcrop that is too small to be prescribed.
@@ -252,45 +282,16 @@ impl InclinedWave {
         Ok(())
     }
 
-    /// [`InclinedWave::transfer`] at one place.
-    fn at(
-        &self,
-        control: InclinedControl,
-        place: &Place,
-        layers: &mut Sampled<impl Fn(Soil, Complex, Complex) -> [Complex; 2], 2>,
-    ) -> Result<[Complex; 2]> {
-        let (moduli, travels) = layers.at(place)?;
-        let (s, p) = (place.s, self.slowness);
-        let modulus = moduli.last().copied().unwrap_or_default();
-        let base = Medium::base(self.base, modulus, s, p, self.own);
-        let media = self.profile.layers().iter().zip(moduli);
-        let media = media.map(|(layer, modulus)| Medium::layer(layer.soil, *modulus, s, p));
-        let media = media.zip(travels.iter().copied());
-        let speed = |square: Complex| square.sqrt().inverse();
-        // The surface by unit amplitudes, the outcrop, and the amplitude of a unit displacement. Amplitudes of SV and P
-        // are those of (b, p) or (p, a), whose length is 1/c.
-        let (motion, outcrop, unit) = if self.kind == Kind::Sh {
-            let across =
-                surface_motion_across(media.map(|(own, [_, travel])| (own, travel)), &base);
-            let [none, one] = [0.0, 1.0].map(Complex::real);
-            ([across, none], [one + one, none], one)
-        } else {
-            let [px, sx, pz, sz] = surface_motion(media, &base);
-            let [px0, sx0, pz0, sz0] = base.free_surface();
-            match self.kind {
-                Kind::P => ([px, pz], [px0, pz0], speed(base.pressure)),
-                _ => ([sx, sz], [sx0, sz0], speed(base.shear)),
-            }
-        };
-        let scale = match control {
-            InclinedControl::OutcropHorizontal => outcrop[0].inverse(),
-            InclinedControl::OutcropVertical => outcrop[1].inverse(),
-            InclinedControl::Incident => unit,
-        };
-        let found = motion.map(|x| x * scale);
-        for x in found {
-            finite("motion of the surface under an inclined wave", x.re + x.im)?;
-        }
-        Ok(found)
+    /// Motion of the surface, horizontal and up, as functions of s.
+    fn functions(&self, control: InclinedControl) -> Surface<'_> {
+        let Self { profile, base, kind, slowness, own, .. } = self;
+        Surface::exact(profile, *base, *kind, control, [*slowness, own[0], own[1]])
     }
+}
+
+fn check_motion(found: &[Complex]) -> Result<()> {
+    for x in found {
+        finite("motion of the surface under an inclined wave", x.re + x.im)?;
+    }
+    Ok(())
 }

@@ -6,19 +6,27 @@
 
 mod equivalent_linear;
 mod inclined;
+mod iteration;
+mod oblique;
+mod pace;
 mod sampled;
+mod site_motion;
 mod slowness;
 mod soil_column;
 mod transform;
+mod vertical;
 
-pub use equivalent_linear::{EquivalentLinear, EquivalentLinearOptions, LayerResponse};
-pub use inclined::{InclinedControl, InclinedWave};
-pub use soil_column::{ControlPoint, SoilColumn, VerticalWave};
-pub use transform::SiteMotion;
+pub use equivalent_linear::{EquivalentLinear, LayerResponse};
+pub use inclined::InclinedWave;
+pub use iteration::{ComplexModulus, EquivalentLinearOptions};
+pub use oblique::InclinedControl;
+pub use site_motion::SiteMotion;
+pub use soil_column::SoilColumn;
+pub use vertical::{ControlPoint, VerticalWave};
 
 use std::fmt;
 
-/// Warning that assumptions of an equivalent-linear response are strained.
+/// Warning that assumptions of a site's response are strained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SiteWarning {
@@ -50,6 +58,12 @@ pub enum SiteWarning {
     CutOff {
         /// Largest acceleration cut off, over the peak.
         share: f64,
+    },
+    /// Most of a motion's energy is at frequencies that the site amplifies more than a hundredfold, as it does noise on
+    /// the way down through soft, damped soil ([`SiteMotion::warning`]).
+    Amplified {
+        /// Lowest of these frequencies, Hz.
+        frequency: f64,
     },
 }
 
@@ -84,6 +98,11 @@ impl fmt::Display for SiteWarning {
                 "motion of the surface outside the record's time, {:.1} % of its peak, is cut off: give \
                  the record quiet time (padded)",
                 percent(share)
+            ),
+            Self::Amplified { frequency } => write!(
+                f,
+                "most of this motion is what the site amplifies more than a hundredfold, from {frequency:.1} Hz \
+                 on: filter the given motion below that (low_pass), or give the soil less damping or depth"
             ),
         }
     }

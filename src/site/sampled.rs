@@ -10,74 +10,212 @@
 //!
 //! Each is still a passive layer, so a motion through the site has one that comes back.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
+use std::f64::consts::PI;
+
 use super::transform::Place;
 use crate::error::Result;
-use crate::linalg::Complex;
-use crate::soil::{Soil, SoilProfile};
+use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
+use crate::soil::SoilProfile;
 
-/// Moduli and travels of a profile, along the contour of a transform or at one frequency.
-pub(super) struct Sampled<'a, F, const WAVES: usize> {
-    profile: &'a SoilProfile,
-    /// 1/c down of each kind of wave in a soil, by its complex modulus and s.
-    slownesses: F,
-    /// Real moduli at the highest frequency, and the travels there, whose imaginary parts are
-    /// multiples of π; empty if there is none.
-    highest: (Vec<f64>, Vec<[Complex; WAVES]>),
-    moduli: Vec<Complex>,
+/// A place on the contour in each lane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct At<C> {
+    pub(super) s: C,
+    /// s, or i at frequency zero, which is the limit from above.
+    pub(super) direction: C,
+    /// Nearness and ratio of the places, if any is in the band.
+    near: Option<[C; 2]>,
+}
+
+impl<C> At<C> {
+    /// Whether any of the places is in the band.
+    #[inline(always)]
+    pub(super) fn is_near(&self) -> bool {
+        self.near.is_some()
+    }
+}
+
+fn direction(s: Complex) -> Complex {
+    if s == Complex::default() { Complex::new(0.0, 1.0) } else { s }
+}
+
+impl At<Complex> {
+    fn one(place: &Place) -> Self {
+        let near = [place.nearness, place.ratio].map(Complex::real);
+        let direction = direction(place.s);
+        Self { s: place.s, direction, near: (place.nearness > 0.0).then_some(near) }
+    }
+}
+
+/// Real moduli of layers at the highest frequency, and their travels there, s h/c, whose imaginary parts are multiples
+/// of π; empty for layers as they are.
+#[derive(Debug, Default)]
+pub(super) struct Highest<const WAVES: usize> {
+    moduli: Vec<f64>,
     travels: Vec<[Complex; WAVES]>,
 }
 
-impl<'a, F, const WAVES: usize> Sampled<'a, F, WAVES>
-where
-    F: Fn(Soil, Complex, Complex) -> [Complex; WAVES],
-{
-    /// Layers as they are, at any frequency.
-    pub(super) fn exact(profile: &'a SoilProfile, slownesses: F) -> Self {
-        let (highest, moduli, travels) = ((vec![], vec![]), vec![], vec![]);
-        Self { profile, slownesses, highest, moduli, travels }
-    }
-
-    /// Layers as samples see them on a contour that ends at s = `end`.
-    pub(super) fn new(profile: &'a SoilProfile, slownesses: F, end: Complex) -> Result<Self> {
-        let mut layers = Self::exact(profile, slownesses);
-        profile.moduli(Complex::real(end.im), &mut layers.moduli)?;
-        let moduli = layers.moduli.iter().map(|modulus| modulus.re).collect();
-        let (_, travels) = layers.at(&Place::alone(end))?;
+impl<const WAVES: usize> Highest<WAVES> {
+    /// Layers of `profile` on a contour that ends at s = `end`; their travels there are given for their moduli.
+    pub(super) fn new(
+        profile: &SoilProfile,
+        end: Complex,
+        travel: impl Fn(usize, Complex) -> [Complex; WAVES],
+    ) -> Result<Self> {
+        let mut moduli = vec![];
+        profile.moduli(end, &mut moduli)?;
         let mut depth = [0.0_f64; WAVES];
         let mut rounded = |wave: usize, travel: Complex| {
             let above = depth[wave].round();
-            depth[wave] += travel.im / std::f64::consts::PI;
-            Complex::new(travel.re, std::f64::consts::PI * (depth[wave].round() - above))
+            depth[wave] += travel.im / PI;
+            Complex::new(travel.re, PI * (depth[wave].round() - above))
         };
-        let whole = travels.iter().map(|travel| std::array::from_fn(|k| rounded(k, travel[k])));
-        let whole = whole.collect();
-        layers.highest = (moduli, whole);
-        Ok(layers)
+        let mut travels = vec![];
+        for (index, modulus) in moduli.iter().enumerate().take(profile.layers().len()) {
+            let own = travel(index, *modulus);
+            travels.push(std::array::from_fn(|wave| rounded(wave, own[wave])));
+        }
+        profile.moduli(Complex::real(end.im), &mut moduli)?;
+        Ok(Self { moduli: moduli.iter().map(|modulus| modulus.re).collect(), travels })
     }
 
-    /// Shear moduli from the surface down, the base last, and s h/c of the layers.
-    pub(super) fn at(&mut self, place: &Place) -> Result<(&[Complex], &[[Complex; WAVES]])> {
-        self.profile.moduli(place.s, &mut self.moduli)?;
-        self.travels.clear();
-        for (layer, modulus) in self.profile.layers().iter().zip(&self.moduli) {
-            let time = place.s.scale(layer.thickness);
-            let slownesses = (self.slownesses)(layer.soil, *modulus, place.s);
-            self.travels.push(slownesses.map(|slowness| time * slowness));
+    /// Modulus of a soil that is `modulus` outside the band.
+    #[inline(always)]
+    pub(super) fn modulus<C: Number>(&self, index: usize, at: &At<C>, modulus: C) -> C {
+        let Some([nearness, _]) = at.near else { return modulus };
+        modulus + (modulus.like_real(self.moduli[index]) - modulus) * nearness
+    }
+
+    /// Travels through a layer that are `travels` outside the band.
+    #[inline(always)]
+    pub(super) fn travels<C: Number>(
+        &self,
+        index: usize,
+        at: &At<C>,
+        mut travels: [C; WAVES],
+    ) -> [C; WAVES] {
+        let Some([nearness, ratio]) = at.near else { return travels };
+        for (travel, highest) in travels.iter_mut().zip(&self.travels[index]) {
+            let turns = ratio * ratio.like(Complex::new(0.0, highest.im));
+            *travel = *travel + (ratio.like_real(highest.re) + turns - *travel) * nearness;
         }
-        if place.nearness > 0.0 {
-            let between = |here: Complex, highest: Complex| {
-                here.scale(1.0 - place.nearness) + highest.scale(place.nearness)
-            };
-            let (moduli, travels) = &self.highest;
-            for (modulus, highest) in self.moduli.iter_mut().zip(moduli) {
-                *modulus = between(*modulus, Complex::real(*highest));
+        travels
+    }
+}
+
+/// Functions of s, one or several, of a layered ground.
+pub(super) trait Functions {
+    /// Numbers that the functions keep of a layer.
+    type Kept<C: Number>;
+
+    fn profile(&self) -> &SoilProfile;
+
+    /// Number of functions.
+    fn count(&self) -> usize;
+
+    /// Overwrites `found`, one number for each function, at a place with these moduli of the soils from the surface
+    /// down. Must be `#[inline(always)]`.
+    fn evaluate<C: Number>(
+        &self,
+        at: &At<C>,
+        moduli: &[C],
+        kept: &mut Vec<Self::Kept<C>>,
+        found: &mut [C],
+    );
+
+    /// The functions at one place.
+    fn at(&self, place: &Place, found: &mut [Complex]) -> Result<()> {
+        let mut moduli = vec![];
+        self.profile().moduli(place.s, &mut moduli)?;
+        self.evaluate(&At::one(place), &moduli, &mut vec![], found);
+        Ok(())
+    }
+}
+
+/// Overwrites `found` with the functions at the places: all numbers of the first function, then those of the next.
+pub(super) fn evaluate(
+    functions: &impl Functions,
+    places: &[Place],
+    moduli: &mut Vec<Complex>,
+    found: &mut [Complex],
+) -> Result<()> {
+    let s: Vec<Complex> = places.iter().map(|place| place.s).collect();
+    functions.profile().moduli_at(&s, moduli)?;
+    vectorized(Evaluation { functions, places, s: &s, moduli, found });
+    Ok(())
+}
+
+struct Evaluation<'a, F> {
+    functions: &'a F,
+    places: &'a [Place],
+    s: &'a [Complex],
+    moduli: &'a [Complex],
+    found: &'a mut [Complex],
+}
+
+impl<F: Functions> WithSimd for Evaluation<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { functions, places, s, moduli, found } = self;
+        let (length, count) = (places.len(), Lanes::<S>::COUNT);
+        let zero = Complex::default();
+        let directions: Vec<Complex> = s.iter().map(|s| direction(*s)).collect();
+        let mut kept = vec![];
+        let mut values = vec![Lanes::load(simd, &[zero]); functions.count()];
+        let mut lanes = Vec::with_capacity(moduli.len() / length);
+        for begin in (0..length).step_by(count) {
+            let end = length.min(begin + count);
+            let own = &places[begin..end];
+            let near = own.iter().any(|place| place.nearness > 0.0).then(|| {
+                let load = |of: fn(&Place) -> f64| {
+                    let mut numbers = vec![zero; own.len()];
+                    for (number, place) in numbers.iter_mut().zip(own) {
+                        *number = Complex::real(of(place));
+                    }
+                    Lanes::load(simd, &numbers)
+                };
+                [load(|place| place.nearness), load(|place| place.ratio)]
+            });
+            let directions = Lanes::load(simd, &directions[begin..end]);
+            let at = At { s: Lanes::load(simd, &s[begin..end]), direction: directions, near };
+            lanes.clear();
+            for moduli in moduli.chunks_exact(length) {
+                lanes.push(Lanes::load(simd, &moduli[begin..end]));
             }
-            for (travels, highest) in self.travels.iter_mut().zip(travels) {
-                for (travel, highest) in travels.iter_mut().zip(highest) {
-                    *travel = between(*travel, Complex::new(highest.re, highest.im * place.ratio));
-                }
+            functions.evaluate(&at, &lanes, &mut kept, &mut values);
+            let mut is_finite = true;
+            for (value, found) in values.iter().zip(found.chunks_exact_mut(length)) {
+                value.store(&mut found[begin..end]);
+                is_finite &= found[begin..end].iter().all(|own| own.is_finite());
+            }
+            if !is_finite {
+                one_by_one(functions, own, begin, moduli, found);
             }
         }
-        Ok((&self.moduli, &self.travels))
+    }
+}
+
+/// Overwrites what left the range of lanes; the first of the places is number `begin`.
+fn one_by_one<F: Functions>(
+    functions: &F,
+    places: &[Place],
+    begin: usize,
+    moduli: &[Complex],
+    found: &mut [Complex],
+) {
+    let count = functions.count();
+    let (mut own, mut kept, mut values) = (vec![], vec![], vec![Complex::default(); count]);
+    let length = found.len() / count;
+    for (k, place) in places.iter().enumerate() {
+        own.clear();
+        own.extend(moduli.iter().skip(begin + k).step_by(length));
+        functions.evaluate(&At::one(place), &own, &mut kept, &mut values);
+        for (value, found) in values.iter().zip(found.chunks_exact_mut(length)) {
+            found[begin + k] = *value;
+        }
     }
 }

@@ -15,7 +15,9 @@
 //! | g = b² − p², r = g² + 4p²ab | the latter Rayleigh's function |
 //! | μ, ρ | complex shear modulus, density |
 
-use crate::linalg::Complex;
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
+use crate::linalg::Number;
 use crate::soil::Soil;
 
 /// Squared vertical slowness of a layer, relative to that of the wave at vertical incidence, that
@@ -25,189 +27,218 @@ const GRAZING: f64 = 4e-11;
 /// Share of a number that is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A layer or half-plane at one s and p.
+/// A layer or half-plane at one p, and at one s in each lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Medium {
-    modulus: Complex,
+pub(super) struct Medium<C> {
+    modulus: C,
     density: f64,
     p: f64,
-    a: Complex,
-    b: Complex,
-    g: Complex,
+    a: C,
+    b: C,
+    g: C,
     /// 1/c₂², 1/c₁².
-    pub(super) shear: Complex,
-    pub(super) pressure: Complex,
+    pub(super) shear: C,
+    pub(super) pressure: C,
 }
 
 /// A 2 × 2 matrix, row by row.
-type Square = [Complex; 4];
+type Square<C> = [C; 4];
 
-impl Medium {
+impl<C: Number> Medium<C> {
     /// Slownesses of a finite layer.
-    pub(super) fn layer(soil: Soil, modulus: Complex, s: Complex, p: f64) -> Self {
+    #[inline(always)]
+    pub(super) fn layer(soil: Soil, modulus: C, s: C, p: f64) -> Self {
         let [shear, pressure] = squares(soil, modulus);
-        let floor = |square: Complex| {
-            let below = square - Complex::real(p * p);
-            if below.abs() < GRAZING * square.abs() { square.scale(GRAZING) } else { below }
-        };
-        Self::new(soil, modulus, s, p, [floor(pressure), floor(shear)])
+        let flat = modulus.like_real(p * p);
+        let pressure = (pressure - flat).at_least(pressure.scale(GRAZING));
+        let shear = (shear - flat).at_least(shear.scale(GRAZING));
+        Self::new(soil, modulus, s, p, [pressure, shear])
     }
 
     /// Shear stress across over velocity in an SH wave.
-    fn impedance(&self) -> Complex {
+    #[inline(always)]
+    fn impedance(&self) -> C {
         self.modulus * self.b
     }
 
     /// Vertical slownesses (a, b).
-    pub(super) fn slownesses(&self) -> [Complex; 2] {
+    #[inline(always)]
+    pub(super) fn slownesses(&self) -> [C; 2] {
         [self.a, self.b]
     }
 
     /// Slownesses of the half-plane below, from which the wave comes; `own` is the elastic slowness of this wave and
     /// the cosine of its angle, which give its vertical slowness without cancellation.
-    pub(super) fn base(soil: Soil, modulus: Complex, s: Complex, p: f64, own: [f64; 2]) -> Self {
-        let elastic = Complex::real(soil.shear_modulus());
-        let change = (elastic - modulus) / modulus;
-        let [shear, pressure] =
-            [soil.shear_wave_speed(), soil.pressure_wave_speed()].map(|speed| {
-                let flat = if own[0] == 1.0 / speed {
-                    (own[0] * own[1]).powi(2)
-                } else {
-                    speed.powi(-2) - p * p
-                };
-                change.scale(speed.powi(-2)) + Complex::real(flat)
-            });
-        Self::new(soil, modulus, s, p, [pressure, shear])
+    #[inline(always)]
+    pub(super) fn base(soil: Soil, modulus: C, s: C, p: f64, own: [f64; 2]) -> Self {
+        let elastic = modulus.like_real(soil.shear_modulus());
+        let change = (elastic - modulus) * modulus.inverse();
+        let mut below = [change; 2];
+        let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
+        for (below, speed) in below.iter_mut().zip(speeds) {
+            let flat = if own[0] == 1.0 / speed {
+                (own[0] * own[1]).powi(2)
+            } else {
+                speed.powi(-2) - p * p
+            };
+            *below = change.scale(speed.powi(-2)) + change.like_real(flat);
+        }
+        Self::new(soil, modulus, s, p, below)
     }
 
-    fn new(soil: Soil, modulus: Complex, s: Complex, p: f64, below: [Complex; 2]) -> Self {
+    /// Medium of these squares of vertical slownesses; frequency zero is the limit from above, s = i.
+    #[inline(always)]
+    fn new(soil: Soil, modulus: C, s: C, p: f64, below: [C; 2]) -> Self {
         let [shear, pressure] = squares(soil, modulus);
-        // Frequency zero is the limit from above.
-        let direction = if s == Complex::default() { Complex::new(0.0, 1.0) } else { s };
-        let [a, b] = below.map(|square| {
-            let root = square.sqrt();
-            let decay = direction * root;
-            if decay.re < -ROUNDING * decay.abs() { -root } else { root }
-        });
-        let g = below[1] - Complex::real(p * p);
+        let (a, b) = (below[0].sqrt(), below[1].sqrt());
+        let a = a.negated_where_negative(s * a, ROUNDING);
+        let b = b.negated_where_negative(s * b, ROUNDING);
+        let g = below[1] - s.like_real(p * p);
         Self { modulus, density: soil.density(), p, a, b, g, shear, pressure }
     }
 
     /// Motion of a free surface, to the right and up, by the waves A that come up to it.
-    pub(super) fn free_surface(&self) -> Square {
+    #[inline(always)]
+    pub(super) fn free_surface(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
-        let scale = self.shear.scale(2.0) / self.rayleigh();
+        let scale = self.shear.scale(2.0) * self.rayleigh().inverse();
         let mixed = (a * b).scale(2.0 * p);
-        [mixed, b * g, a * g, -mixed].map(|x| x * scale)
+        scaled([mixed, b * g, a * g, -mixed], scale)
     }
 
-    fn rayleigh(&self) -> Complex {
+    #[inline(always)]
+    fn rayleigh(&self) -> C {
         self.g * self.g + (self.a * self.b).scale(4.0 * self.p * self.p)
     }
 
     /// R at a free surface.
-    fn surface_reflection(&self) -> Square {
+    #[inline(always)]
+    fn surface_reflection(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
         let scale = self.rayleigh().inverse();
         let difference = (a * b).scale(4.0 * p * p) - g * g;
-        [difference, (b * g).scale(4.0 * p), (a * g).scale(4.0 * p), -difference].map(|x| x * scale)
+        let [right, left] = [(b * g).scale(4.0 * p), (a * g).scale(4.0 * p)];
+        scaled([difference, right, left, -difference], scale)
     }
 
-    /// Displacements (x, z) and stresses where A is one wave of two, and B = R A.
-    fn states(&self, reflection: Square) -> [[Complex; 4]; 2] {
+    /// Displacements (x, z) and stresses of these waves (P, SV) up and down.
+    #[inline(always)]
+    fn state(&self, up: [C; 2], down: [C; 2]) -> [C; 4] {
         let Self { modulus, p, a, b, g, .. } = *self;
-        [0, 1].map(|wave| {
-            let up = [1 - wave, wave].map(|one| Complex::real(one as f64));
-            let down = [reflection[wave], reflection[2 + wave]];
-            let sums = [down[0] + up[0], down[1] + up[1]];
-            let differences = [down[0] - up[0], down[1] - up[1]];
-            [
-                sums[0].scale(p) + b * sums[1],
-                a * differences[0] - differences[1].scale(p),
-                modulus * ((a * differences[0]).scale(2.0 * p) + g * differences[1]),
-                modulus * (g * sums[0] - (b * sums[1]).scale(2.0 * p)),
-            ]
-        })
+        let sums = [down[0] + up[0], down[1] + up[1]];
+        let differences = [down[0] - up[0], down[1] - up[1]];
+        [
+            sums[0].scale(p) + b * sums[1],
+            a * differences[0] - differences[1].scale(p),
+            modulus * ((a * differences[0]).scale(2.0 * p) + g * differences[1]),
+            modulus * (g * sums[0] - (b * sums[1]).scale(2.0 * p)),
+        ]
     }
 
     /// A and B of this state, each times (a, b).
-    fn waves(&self, [x, z, shear, normal]: [Complex; 4]) -> [[Complex; 2]; 2] {
+    #[inline(always)]
+    fn waves(&self, [x, z, shear, normal]: [C; 4]) -> [[C; 2]; 2] {
         let Self { modulus, p, a, b, g, .. } = *self;
         let half = 0.5 / self.density;
         let sums = [a * ((modulus * x).scale(2.0 * p) + normal), modulus * g * x - normal.scale(p)];
         let differences =
             [modulus * g * z + shear.scale(p), b * (shear - (modulus * z).scale(2.0 * p))];
-        let up = [0, 1].map(|i| (sums[i] - differences[i]).scale(half));
-        let down = [0, 1].map(|i| (sums[i] + differences[i]).scale(half));
-        [up, down]
+        let [[s, t], [d, e]] = [sums, differences];
+        [[(s - d).scale(half), (t - e).scale(half)], [(s + d).scale(half), (t + e).scale(half)]]
     }
 }
 
 /// 1/c₂² and 1/c₁².
-fn squares(soil: Soil, modulus: Complex) -> [Complex; 2] {
+#[inline(always)]
+fn squares<C: Number>(soil: Soil, modulus: C) -> [C; 2] {
     let shear = modulus.inverse().scale(soil.density());
     [shear, shear.scale(soil.speed_ratio_squared())]
 }
 
-fn times([a, b, c, d]: Square, [e, f, g, h]: Square) -> Square {
+#[inline(always)]
+fn times<C: Number>([a, b, c, d]: Square<C>, [e, f, g, h]: Square<C>) -> Square<C> {
     [a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h]
 }
 
-fn inverse([a, b, c, d]: Square) -> Square {
+#[inline(always)]
+fn scaled<C: Number>([a, b, c, d]: Square<C>, scale: C) -> Square<C> {
+    [a * scale, b * scale, c * scale, d * scale]
+}
+
+#[inline(always)]
+fn inverse<C: Number>([a, b, c, d]: Square<C>) -> Square<C> {
     let scale = (a * d - b * c).inverse();
-    [d, -b, -c, a].map(|x| x * scale)
+    scaled([d, -b, -c, a], scale)
+}
+
+/// The surface by the waves A that come up at a place, and R there, below a medium that ends at it.
+struct Above<C> {
+    medium: Medium<C>,
+    surface: Square<C>,
+    reflection: Square<C>,
+}
+
+impl<C: Number> Above<C> {
+    /// The same at the top of the next medium down; at the free surface without one above.
+    #[inline(always)]
+    fn enter(above: Option<Self>, medium: &Medium<C>) -> [Square<C>; 2] {
+        let Some(Self { medium: upper, surface, reflection }) = above else {
+            return [medium.free_surface(), medium.surface_reflection()];
+        };
+        let (one, none) = (medium.a.like_real(1.0), medium.a.like_real(0.0));
+        let [p, q, r, t] = reflection;
+        let first = medium.waves(upper.state([one, none], [p, r]));
+        let second = medium.waves(upper.state([none, one], [q, t]));
+        // A' = diag(1/a, 1/b) M A, and the same for B'.
+        let [up, down] = [0, 1];
+        let back = inverse([first[up][0], second[up][0], first[up][1], second[up][1]]);
+        let below = [first[down][0], second[down][0], first[down][1], second[down][1]];
+        let [p, q, r, t] = times(below, back);
+        let ratio = medium.a * medium.b.inverse();
+        let reflection = [p, q * ratio.inverse(), r * ratio, t];
+        let [k, l, m, n] = times(surface, back);
+        [[k * medium.a, l * medium.b, m * medium.a, n * medium.b], reflection]
+    }
 }
 
 /// Motion of the surface, to the right and up, by the waves A that come up in `base`: under `layers`
 /// (from the surface down, each with s h a and s h b).
-pub(super) fn surface_motion(
-    layers: impl Iterator<Item = (Medium, [Complex; 2])>,
-    base: &Medium,
-) -> Square {
-    // The surface by A at the bottom of a layer, and R there.
-    let mut above: Option<(Medium, Square, Square)> = None;
-    let enter = |medium: &Medium, above: Option<(Medium, Square, Square)>| match above {
-        None => (medium.free_surface(), medium.surface_reflection()),
-        Some((upper, surface, reflection)) => {
-            let states = upper.states(reflection);
-            let [first, second] = states.map(|state| medium.waves(state));
-            let column = |k: usize| [first[k][0], second[k][0], first[k][1], second[k][1]];
-            // A' = diag(1/a, 1/b) M A, and the same for B'.
-            let back = inverse(column(0));
-            let [p, q, r, t] = times(column(1), back);
-            let ratio = medium.a / medium.b;
-            let reflection = [p, q / ratio, r * ratio, t];
-            let [k, l, m, n] = times(surface, back);
-            ([k * medium.a, l * medium.b, m * medium.a, n * medium.b], reflection)
-        }
-    };
-    for (medium, travels) in layers {
-        let ([k, l, m, n], [p, q, r, t]) = enter(&medium, above);
-        let [e, f] = travels.map(|travel| (-travel).exp());
+#[inline(always)]
+pub(super) fn surface_motion<C: Number>(
+    layers: &[(Medium<C>, [C; 2])],
+    base: &Medium<C>,
+) -> Square<C> {
+    let mut above = None;
+    for &(medium, travels) in layers {
+        let [[k, l, m, n], [p, q, r, t]] = Above::enter(above, &medium);
+        let [e, f] = [(-travels[0]).exp(), (-travels[1]).exp()];
         let surface = [k * e, l * f, m * e, n * f];
-        above = Some((medium, surface, [p * e * e, q * e * f, r * e * f, t * f * f]));
+        let reflection = [p * e * e, q * e * f, r * e * f, t * f * f];
+        above = Some(Above { medium, surface, reflection });
     }
-    enter(base, above).0
+    Above::enter(above, base)[0]
 }
 
 /// Motion of the surface across p by an SH wave of unit displacement that comes up in `base`: under `layers` (from the
-/// surface down, each with s h b). Where it meets the next medium down, u = (1 + R) A and the stress, μ b (1 − R) A, go
+/// surface down, each with s h a and s h b). Where it meets the next medium down, u = (1 + R) A and the stress, μ b (1 − R) A, go
 /// on.
-pub(super) fn surface_motion_across(
-    layers: impl Iterator<Item = (Medium, Complex)>,
-    base: &Medium,
-) -> Complex {
-    let one = Complex::real(1.0);
+#[inline(always)]
+pub(super) fn surface_motion_across<C: Number>(
+    layers: &[(Medium<C>, [C; 2])],
+    base: &Medium<C>,
+) -> C {
+    let (none, one) = (base.a.like_real(0.0), base.a.like_real(1.0));
     let (mut surface, mut reflection) = (one + one, one);
-    let mut above: Option<Medium> = None;
-    let decays = layers.map(|(medium, travel)| (medium, (-travel).exp()));
-    for (medium, decay) in decays.chain([(*base, one)]) {
+    let mut above: Option<Medium<C>> = None;
+    for &(medium, [_, travel]) in layers.iter().chain(&[(*base, [none; 2])]) {
         if let Some(upper) = above.replace(medium) {
             let sum = one + reflection;
-            let rest = (one - reflection) * upper.impedance() / medium.impedance();
-            surface = surface.scale(2.0) / (sum + rest);
-            reflection = (sum - rest) / (sum + rest);
+            let rest = (one - reflection) * upper.impedance() * medium.impedance().inverse();
+            let scale = (sum + rest).inverse();
+            surface = surface.scale(2.0) * scale;
+            reflection = (sum - rest) * scale;
         }
+        let decay = (-travel).exp();
         surface = surface * decay;
         reflection = reflection * decay * decay;
     }

@@ -1,42 +1,19 @@
-//! One-dimensional transfer functions of a soil profile, as in SHAKE (Schnabel, Lysmer & Seed 1972).
-//!
-//! Each layer carries Aⱼ e^(κz) up and Bⱼ e^(−κz) down, κ = s/c. With A₁ = B₁ = 1 at the free surface and
-//! the impedance ratio aⱼ = √(ρⱼMⱼ/(ρⱼ₊₁Mⱼ₊₁)),
-//!
-//! Aⱼ₊₁ = ½ Aⱼ(1+aⱼ) e^(κh) + ½ Bⱼ(1−aⱼ) e^(−κh),   Bⱼ₊₁ = ½ Aⱼ(1−aⱼ) e^(κh) + ½ Bⱼ(1+aⱼ) e^(−κh)
-//!
-//! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2.
+//! Motions of a soil profile under vertical waves.
 
-use super::sampled::Sampled;
-use super::transform::{Contour, Place, SiteMotion};
-use crate::error::{Result, not_negative};
+use std::f64::consts::TAU;
+
+use super::pace::Pace;
+use super::sampled::{Functions, evaluate};
+use super::site_motion::SiteMotion;
+use super::transform::{Contour, Place, Transform};
+use super::vertical::{Column, ControlPoint, Sought, VerticalWave};
+use crate::error::{Observer, Result, Watch, not_negative};
 use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};
-use crate::soil::{Soil, SoilProfile};
+use crate::soil::SoilProfile;
 
-/// Kind of wave that travels along a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum VerticalWave {
-    /// Shear waves: horizontal motion.
-    #[default]
-    Shear,
-    /// Pressure waves: vertical motion.
-    Pressure,
-}
-
-/// Place to which a motion at depth belongs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum ControlPoint {
-    /// The surface of the base where no layers cover it: rock outcrop.
-    #[default]
-    Outcrop,
-    /// The base under the layers, with what they send back. The same as the outcrop if it is rigid.
-    Within,
-}
+/// Frequencies of a transfer function that are computed together.
+const BLOCK: usize = 256;
 
 /// A soil profile as a column that waves travel up and down.
 ///
@@ -63,24 +40,6 @@ pub struct SoilColumn {
     pub(super) wave: VerticalWave,
 }
 
-/// Motion inside a column that is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Inside {
-    /// Acceleration at the tops of all layers and of the base.
-    Accelerations,
-    /// Strain in the middle of all layers.
-    Strains,
-}
-
-/// Waves at the top of a layer or the base, and how far that one and those above it are, κh.
-#[derive(Debug, Clone, Copy)]
-struct Waves {
-    up: Complex,
-    down: Complex,
-    above: Complex,
-    own: Complex,
-}
-
 impl SoilColumn {
     /// Column of `profile` for one kind of wave.
     ///
@@ -98,12 +57,54 @@ impl SoilColumn {
     /// are not passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
-        let s = Complex::new(0.0, std::f64::consts::TAU * frequency);
-        let mut layers =
-            Sampled::exact(&self.profile, |soil, modulus, _| self.slowness(soil, modulus));
-        let (value, decay) =
-            self.inverse_transfer(control, &Place::alone(s), &mut layers, |_| ())?;
-        Ok(value.inverse() * (-decay).exp())
+        let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
+        let mut found = [Complex::default(); 2];
+        functions.at(&Place::alone(Complex::new(0.0, TAU * frequency)), &mut found)?;
+        Ok(upwards(found[0], found[1]))
+    }
+
+    /// Motion of the surface by that of `control` for e^(iωt) at each of `frequencies` (Hz), with an observer; quicker
+    /// than [`transfer`](SoilColumn::transfer) for each.
+    ///
+    /// ```
+    /// # use basemat::Soil;
+    /// # use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
+    /// # use basemat::soil::SoilProfile;
+    /// use std::ops::ControlFlow::Continue;
+    /// let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0)?;
+    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 10.0)?;
+    /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
+    /// let found = column.transfers(ControlPoint::Within, &[1.0, 2.5], &mut |_| Continue(()))?;
+    /// // 1/cos(ωh/c), at 2.5 Hz with ωh/c = π/4.
+    /// assert!((found[1].abs() - 2.0_f64.sqrt()).abs() < 1e-12);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`transfer`](SoilColumn::transfer).
+    pub fn transfers(
+        &self,
+        control: ControlPoint,
+        frequencies: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<Vec<Complex>> {
+        let mut watch = Watch::new("transfer function", frequencies.len(), observer);
+        let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
+        let (mut found, mut moduli) = (Vec::with_capacity(frequencies.len()), vec![]);
+        for block in frequencies.chunks(BLOCK) {
+            for frequency in block {
+                not_negative("frequency of a transfer function", *frequency)?;
+            }
+            let place = |frequency: &f64| Place::alone(Complex::new(0.0, TAU * frequency));
+            let places: Vec<Place> = block.iter().map(place).collect();
+            let mut values = vec![Complex::default(); 2 * block.len()];
+            evaluate(&functions, &places, &mut moduli, &mut values)?;
+            let (values, travels) = values.split_at(block.len());
+            found
+                .extend(values.iter().zip(travels).map(|(value, travel)| upwards(*value, *travel)));
+            watch.reach(found.len())?;
+        }
+        Ok(found)
     }
 
     /// Motion of the surface from `motion` at `control`, samples `time_step` seconds apart; any
@@ -120,7 +121,22 @@ impl SoilColumn {
         time_step: f64,
         motion: &[f64],
     ) -> Result<SiteMotion> {
-        self.filtered(control, time_step, motion, |value, decay| value.inverse() * (-decay).exp())
+        self.filtered(control, time_step, motion, upwards, &mut Watch::nobody())
+    }
+
+    /// [`to_surface`](SoilColumn::to_surface) with an observer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`to_surface`](SoilColumn::to_surface).
+    pub fn to_surface_observed(
+        &self,
+        control: ControlPoint,
+        time_step: f64,
+        motion: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<SiteMotion> {
+        let mut watch = Watch::new("motion of the surface", Pace::PARTS, observer);
+        self.filtered(control, time_step, motion, upwards, &mut watch)
     }
 
     /// Motion at `control` from `motion` of the surface (deconvolution). It comes before that of the
@@ -157,7 +173,22 @@ impl SoilColumn {
         time_step: f64,
         motion: &[f64],
     ) -> Result<SiteMotion> {
-        self.filtered(control, time_step, motion, |value, decay| value * decay.exp())
+        self.filtered(control, time_step, motion, downwards, &mut Watch::nobody())
+    }
+
+    /// [`from_surface`](SoilColumn::from_surface) with an observer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`to_surface`](SoilColumn::to_surface).
+    pub fn from_surface_observed(
+        &self,
+        control: ControlPoint,
+        time_step: f64,
+        motion: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<SiteMotion> {
+        let mut watch = Watch::new("motion at depth", Pace::PARTS, observer);
+        self.filtered(control, time_step, motion, downwards, &mut watch)
     }
 
     /// Motion of the surface of `profile` in three directions by that of `control`: shear waves carry the components
@@ -191,142 +222,120 @@ impl SoilColumn {
         control: ControlPoint,
         motion: &Triaxial,
     ) -> Result<Triaxial> {
-        let through = |wave, record: &Option<Record>| -> Result<Option<Record>> {
-            let Some(record) = record else { return Ok(None) };
+        Self::in_plan(profile, control, motion, &mut Watch::nobody())
+    }
+
+    /// [`surface_in_plan`](SoilColumn::surface_in_plan) with an observer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`surface_in_plan`](SoilColumn::surface_in_plan).
+    pub fn surface_in_plan_observed(
+        profile: &SoilProfile,
+        control: ControlPoint,
+        motion: &Triaxial,
+        observer: &mut Observer<'_>,
+    ) -> Result<Triaxial> {
+        let mut watch = Watch::new("motion of the surface", 3 * Pace::PARTS, observer);
+        Self::in_plan(profile, control, motion, &mut watch)
+    }
+
+    fn in_plan(
+        profile: &SoilProfile,
+        control: ControlPoint,
+        motion: &Triaxial,
+        watch: &mut Watch<'_>,
+    ) -> Result<Triaxial> {
+        let mut through = |part, wave, record: &Option<Record>| -> Result<Option<Record>> {
+            let mut pace = Pace::part(watch, part);
+            let Some(record) = record else {
+                pace.reach(1.0)?;
+                return Ok(None);
+            };
             let (step, motion) = (record.time_step(), record.accelerations());
             let own = Self::new(profile.clone(), wave)?;
-            let mut found =
-                own.whole(control, step, motion, |value, decay| value.inverse() * (-decay).exp())?;
+            let mut found = own.whole(control, step, motion, upwards, &mut pace)?;
             found.cut(found.duration().max(motion.len()));
             Record::new(step, found.samples).map(Some)
         };
         Ok(Triaxial {
-            x: through(VerticalWave::Shear, &motion.x)?,
-            y: through(VerticalWave::Shear, &motion.y)?,
-            up: through(VerticalWave::Pressure, &motion.up)?,
+            x: through(0, VerticalWave::Shear, &motion.x)?,
+            y: through(1, VerticalWave::Shear, &motion.y)?,
+            up: through(2, VerticalWave::Pressure, &motion.up)?,
         })
     }
 
-    /// Stiffness of this kind of wave.
-    fn stiffness(&self, soil: Soil, modulus: Complex) -> Complex {
-        match self.wave {
-            VerticalWave::Shear => modulus,
-            VerticalWave::Pressure => modulus.scale(1.0 / soil.speed_ratio_squared()),
-        }
-    }
-
-    /// 1/c.
-    fn slowness(&self, soil: Soil, modulus: Complex) -> [Complex; 1] {
-        [self.stiffness(soil, modulus).scale(1.0 / soil.density()).sqrt().inverse()]
-    }
-
-    /// Control motion by surface motion, with a factor e^decay taken out: it may leave the range of
-    /// f64. Shows the waves at the tops of layers and base on the way down.
-    fn inverse_transfer(
-        &self,
-        control: ControlPoint,
-        place: &Place,
-        layers: &mut Sampled<impl Fn(Soil, Complex, Complex) -> [Complex; 1], 1>,
-        mut see: impl FnMut(Waves),
-    ) -> Result<(Complex, Complex)> {
-        let (moduli, travels) = layers.at(place)?;
-        let mut impedances = self.profile.soils().zip(moduli).map(|((soil, _), modulus)| {
-            let speed = self.stiffness(soil, *modulus).scale(1.0 / soil.density()).sqrt();
-            speed.scale(soil.density())
-        });
-        let (mut up, mut down) = (Complex::real(1.0), Complex::real(1.0));
-        let mut total = Complex::default();
-        let Some(mut impedance) = impedances.next() else {
-            return Ok((up, total));
-        };
-        for [travel] in travels {
-            see(Waves { up, down, above: total, own: *travel });
-            down = down * travel.scale(-2.0).exp();
-            total += *travel;
-            let Some(next) = impedances.next() else {
-                see(Waves { up, down, above: total, own: Complex::default() });
-                // A rigid base moves as the layer's bottom does.
-                return Ok(((up + down).scale(0.5), total));
-            };
-            let ratio = impedance / next;
-            let (sum, difference) = ((up + down).scale(0.5), (up - down) * ratio.scale(0.5));
-            (up, down) = (sum + difference, sum - difference);
-            impedance = next;
-        }
-        see(Waves { up, down, above: total, own: Complex::default() });
-        Ok(match control {
-            ControlPoint::Outcrop => (up, total),
-            ControlPoint::Within => ((up + down).scale(0.5), total),
-        })
-    }
-
-    /// `motion` times a function of the inverse transfer function and its decay.
+    /// `motion` times a function of the inverse transfer function and its exponent.
     fn filtered(
         &self,
         control: ControlPoint,
         time_step: f64,
         motion: &[f64],
-        filter: impl Fn(Complex, Complex) -> Complex,
+        filter: Filter,
+        watch: &mut Watch<'_>,
     ) -> Result<SiteMotion> {
-        let mut found = self.whole(control, time_step, motion, filter)?;
+        let mut found = self.whole(control, time_step, motion, filter, &mut Pace::whole(watch))?;
         found.cut(motion.len());
         Ok(found)
     }
 
-    /// Motion at the surface, with its part after the end of `motion`.
+    /// Motion at the other end, with its part after the end of `motion`.
     fn whole(
         &self,
         control: ControlPoint,
         time_step: f64,
         motion: &[f64],
-        filter: impl Fn(Complex, Complex) -> Complex,
+        filter: Filter,
+        pace: &mut Pace<'_, '_>,
     ) -> Result<SiteMotion> {
         self.profile.check_causal()?;
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
-        let slowness = |soil, modulus, _| self.slowness(soil, modulus);
-        let mut layers = Sampled::new(&self.profile, slowness, contour.end()?)?;
-        let [found] = contour.filtered(motion, |place| {
-            let (value, decay) = self.inverse_transfer(control, place, &mut layers, |_| ())?;
-            Ok([filter(value, decay)])
+        let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
+        let functions = functions.sampled(contour.end()?)?;
+        let (mut moduli, mut values) = (vec![], vec![]);
+        let [found] = contour.filtered(motion, pace, |places, found| {
+            values.resize(2 * places.len(), Complex::default());
+            evaluate(&functions, places, &mut moduli, &mut values)?;
+            let (values, travels) = values.split_at(places.len());
+            for (found, (value, travel)) in found.iter_mut().zip(values.iter().zip(travels)) {
+                *found = filter(*value, *travel);
+            }
+            Ok(())
         })?;
         Ok(found)
     }
 
-    /// Motions inside the column from `motion` at `control`, of any damping law, with what follows the end of `motion`.
+    /// Spectra inside the column, of any damping law, by the motion at `control` that `transform` holds.
     pub(super) fn inside(
         &self,
-        what: Inside,
+        sought: Sought,
         control: ControlPoint,
-        time_step: f64,
-        motion: &[f64],
-    ) -> Result<Vec<SiteMotion>> {
-        let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
-        let contour = contour.at_real_frequencies();
-        let slowness = |soil, modulus, _| self.slowness(soil, modulus);
-        let mut layers = Sampled::new(&self.profile, slowness, contour.end()?)?;
-        let thicknesses = self.profile.layers().iter().map(|layer| layer.thickness);
-        let thicknesses: Vec<f64> = thicknesses.collect();
-        let count = thicknesses.len() + usize::from(what == Inside::Accelerations);
-        let mut tops = Vec::with_capacity(count + 1);
-        contour.filtered_by(motion, count, |place, found| {
-            tops.clear();
-            let see = |waves| tops.push(waves);
-            let (value, decay) = self.inverse_transfer(control, place, &mut layers, see)?;
-            let scale = value.inverse().scale(0.5);
-            for (k, (found, Waves { up, down, above, own })) in
-                found.iter_mut().zip(&tops).enumerate()
-            {
-                let (amplitude, depth) = match what {
-                    Inside::Accelerations => (*up + *down, *above),
-                    Inside::Strains => {
-                        let half = own.scale(0.5);
-                        let wavenumber = own.scale(1.0 / thicknesses[k]) / (place.s * place.s);
-                        ((*up - *down * (-*own).exp()) * wavenumber, *above + half)
-                    }
-                };
-                *found = amplitude * scale * (depth - decay).exp();
-            }
-            Ok(())
+        transform: &mut Transform,
+        pace: &mut Pace<'_, '_>,
+    ) -> Result<()> {
+        let functions = Column::exact(&self.profile, self.wave, control, sought);
+        let functions = functions.sampled(transform.contour().end()?)?;
+        let mut moduli = vec![];
+        transform.filter(functions.count(), pace, |places, found| {
+            evaluate(&functions, places, &mut moduli, found)
         })
     }
+
+    /// Contour for motions inside the column, which exist at real frequencies alone.
+    pub(super) fn contour(&self, time_step: f64, samples: usize) -> Result<Contour> {
+        let contour = Contour::new(time_step, samples, self.profile.travel_time())?;
+        Ok(contour.at_real_frequencies())
+    }
+}
+
+/// Function of the inverse transfer function without its factor e^x, and of x.
+type Filter = fn(Complex, Complex) -> Complex;
+
+/// Surface motion by control motion.
+fn upwards(value: Complex, travel: Complex) -> Complex {
+    value.inverse() * (-travel).exp()
+}
+
+/// Control motion by surface motion.
+fn downwards(value: Complex, travel: Complex) -> Complex {
+    value * travel.exp()
 }

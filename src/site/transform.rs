@@ -6,11 +6,13 @@
 //! Filters that are real at the highest frequency, with all their slopes along the contour even about
 //! it, have responses that end; others would alternate and, without the window, grow.
 
-use std::fmt;
+use std::sync::Arc;
 
-use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
+use realfft::{ComplexToReal, RealFftPlanner};
 
+use super::pace::Pace;
+use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
 use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::{Complex, largest};
 
@@ -28,6 +30,8 @@ pub(super) const BAND: f64 = 0.02;
 const SHARPNESS: f64 = 24.0;
 /// Frequency for zero, in steps of the transform's.
 const BESIDE_REST: f64 = 1e-3;
+/// Frequencies that are computed together.
+const BLOCK: usize = 64;
 /// Samples in which responses of the transition end.
 const TRANSITION: usize = 2000;
 
@@ -49,7 +53,7 @@ impl Place {
 }
 
 /// The contour of a transform.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Contour {
     time_step: f64,
     length: usize,
@@ -87,6 +91,15 @@ impl Contour {
         Ok(Complex::new(self.decay, highest))
     }
 
+    /// Window at a time in samples.
+    fn window_at(&self, time: f64) -> f64 {
+        (-self.window * time / self.length as f64).exp()
+    }
+
+    fn failed(&self) -> Error {
+        Error::Singular { matrix: "spectrum of a motion", order: self.length }
+    }
+
     /// Share of the highest frequency's rule at each frequency of the band, in order up to it.
     fn transition(&self) -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
@@ -104,165 +117,218 @@ impl Contour {
         (0..count).map(add).collect()
     }
 
-    /// `motion` times each of N functions of s; with what follows its end, as far as the window reaches.
+    /// `motion` times each of N functions of s, whose values at places `filters` writes one function after the other;
+    /// with what follows its end, as far as the window reaches.
     pub(super) fn filtered<const N: usize>(
-        &self,
+        self,
         motion: &[f64],
-        mut filters: impl FnMut(&Place) -> Result<[Complex; N]>,
+        pace: &mut Pace<'_, '_>,
+        filters: impl FnMut(&[Place], &mut [Complex]) -> Result<()>,
     ) -> Result<[SiteMotion; N]> {
-        let fill = |place: &Place, found: &mut [Complex]| {
-            found.copy_from_slice(&filters(place)?);
-            Ok(())
-        };
-        let mut found = self.filtered_by(motion, N, fill)?.into_iter();
-        Ok(std::array::from_fn(|_| found.next().unwrap_or_default()))
+        let mut transform = Transform::new(self, motion)?;
+        transform.filter(N, pace, filters)?;
+        let mut found = [(); N].map(|()| SiteMotion::default());
+        for (k, found) in found.iter_mut().enumerate() {
+            *found = transform.motion(k)?;
+        }
+        pace.reach(1.0)?;
+        Ok(found)
     }
+}
 
-    /// Samples filtered by `count` functions, whose values `filters` writes.
-    pub(super) fn filtered_by(
-        &self,
-        motion: &[f64],
-        count: usize,
-        mut filters: impl FnMut(&Place, &mut [Complex]) -> Result<()>,
-    ) -> Result<Vec<SiteMotion>> {
-        let Self { length, decay, .. } = *self;
-        let needed = 12.0 * length as f64 * count as f64;
-        memory::check("motions in a site", count as f64, needed)?;
-        let end = self.end()?.im;
+/// Spectrum of a motion along a contour, and those of the motions that functions of s make of it.
+pub(super) struct Transform {
+    contour: Contour,
+    /// Number of samples of the motion.
+    samples: usize,
+    spectrum: Vec<Complex64>,
+    /// √Σx² of the windowed samples, for rounding.
+    size: f64,
+    /// Share of the highest frequency's rule at each frequency of the band.
+    transition: Vec<f64>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+    values: Vec<f64>,
+    scratch: Vec<Complex64>,
+    filtered: Vec<Vec<Complex64>>,
+    sums: Vec<Sums>,
+}
+
+impl Transform {
+    /// Spectrum of `motion`.
+    pub(super) fn new(contour: Contour, motion: &[f64]) -> Result<Self> {
+        let length = contour.length;
         let mut planner = RealFftPlanner::<f64>::new();
         let (forward, inverse) =
             (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
         let mut values = forward.make_input_vec();
-        let window = |i: f64| (-self.window * i / length as f64).exp();
         for (i, (value, sample)) in values.iter_mut().zip(motion).enumerate() {
-            *value = finite("sample of a motion", *sample)? * window(i as f64);
+            *value = finite("sample of a motion", *sample)? * contour.window_at(i as f64);
         }
         let size = values.iter().map(|value| value * value).sum::<f64>().sqrt();
         let quantity = "largest sample of a motion through a site";
         require(quantity, largest(motion), size.is_finite(), "at most 1e150")?;
         let mut spectrum = forward.make_output_vec();
-        let failed = |_| Error::Singular { matrix: "spectrum of a motion", order: length };
-        forward.process(&mut values, &mut spectrum).map_err(failed)?;
-        let last = spectrum.len() - 1;
-        let transition = self.transition();
-        let below = last + 1 - transition.len();
-        let mut spectra = vec![spectrum.clone(); count];
-        let mut products = vec![Complex::default(); count];
-        // Σ|F|² and Σ|FX|², for rounding.
-        let mut sums = vec![[0.0; 2]; count];
-        for (l, value) in spectrum.iter().enumerate() {
+        forward.process(&mut values, &mut spectrum).map_err(|_| contour.failed())?;
+        let (transition, scratch) = (contour.transition(), inverse.make_scratch_vec());
+        let (samples, filtered, sums) = (motion.len(), vec![], vec![]);
+        Ok(Self {
+            contour,
+            samples,
+            spectrum,
+            size,
+            transition,
+            inverse,
+            values,
+            scratch,
+            filtered,
+            sums,
+        })
+    }
+
+    /// Contour of the spectrum.
+    pub(super) fn contour(&self) -> &Contour {
+        &self.contour
+    }
+
+    /// Multiplies the spectrum by `count` functions, whose values at places `filters` writes one function after the
+    /// other.
+    pub(super) fn filter(
+        &mut self,
+        count: usize,
+        pace: &mut Pace<'_, '_>,
+        mut filters: impl FnMut(&[Place], &mut [Complex]) -> Result<()>,
+    ) -> Result<()> {
+        let Contour { length, decay, .. } = self.contour;
+        let needed = 12.0 * length as f64 * count as f64;
+        memory::check("motions in a site", count as f64, needed)?;
+        let end = self.contour.end()?.im;
+        let last = self.spectrum.len() - 1;
+        let below = last + 1 - self.transition.len();
+        self.filtered.resize(count, vec![]);
+        for filtered in &mut self.filtered {
+            filtered.resize(last + 1, Complex64::default());
+        }
+        self.sums.clear();
+        self.sums.resize(count, Sums::default());
+        let mut products = vec![Complex::default(); count * BLOCK];
+        let mut places = Vec::with_capacity(BLOCK);
+        let place = |l: usize, transition: &[f64]| {
             let ratio = l as f64 / last as f64;
             let nearness = if l < below { 0.0 } else { transition[l - below] };
             // Beside s = 0, where strains are 0/0 and some laws have no modulus.
             let beside = if l == 0 && decay == 0.0 { BESIDE_REST / last as f64 } else { ratio };
-            let place = Place { s: Complex::new(decay, end * beside), nearness, ratio };
-            filters(&place, &mut products)?;
-            for ((spectrum, filter), sums) in spectra.iter_mut().zip(&products).zip(&mut sums) {
-                let product = Complex::new(value.re, value.im) * *filter;
-                // Real by itself, but for rounding.
-                let imaginary = if l == 0 || l == last { 0.0 } else { product.im };
-                spectrum[l] = Complex64::new(product.re, imaginary);
-                sums[0] += filter.square();
-                sums[1] += product.square();
+            Place { s: Complex::new(decay, end * beside), nearness, ratio }
+        };
+        for begin in (0..=last).step_by(BLOCK) {
+            let stop = (begin + BLOCK).min(last + 1);
+            places.clear();
+            places.extend((begin..stop).map(|l| place(l, &self.transition)));
+            let products = &mut products[..count * places.len()];
+            filters(&places, products)?;
+            let functions = products.chunks_exact(places.len()).zip(&mut self.filtered);
+            for ((products, filtered), sums) in functions.zip(&mut self.sums) {
+                let own = self.spectrum[begin..stop].iter().zip(products).zip(&places);
+                for (((value, filter), place), filtered) in own.zip(&mut filtered[begin..stop]) {
+                    let product = Complex::new(value.re, value.im) * *filter;
+                    *filtered = Complex64::new(product.re, product.im);
+                    sums.add(*filter, product, place.s.im);
+                }
             }
+            pace.reach(0.5 * stop as f64 / (last + 1) as f64)?;
         }
-        let mut found = vec![SiteMotion::default(); count];
-        for ((mut spectrum, [gain, power]), found) in spectra.into_iter().zip(sums).zip(&mut found)
-        {
-            let mut band = spectrum.clone();
-            band[..below].fill(Complex64::default());
-            for (value, nearness) in band[below..].iter_mut().zip(&transition) {
-                *value *= nearness;
-            }
-            // At a time in samples, which may be before the first.
-            let scale = 1.0 / length as f64;
-            let at = |value: f64, time: f64| {
-                finite("motion through a site", value * scale / window(time))
-            };
-            let count = motion.len();
-            inverse.process(&mut band, &mut values).map_err(failed)?;
-            for (i, value) in values[..count].iter().enumerate() {
-                found.near_nyquist = found.near_nyquist.max(at(*value, i as f64)?.abs());
-            }
-            inverse.process(&mut spectrum, &mut values).map_err(failed)?;
-            let (first, others) = values.split_at(length / 2);
-            let first = first.iter().enumerate();
-            found.samples = first.map(|(i, x)| at(*x, i as f64)).collect::<Result<_>>()?;
-            for (i, value) in others.iter().rev().take(length / 4).enumerate() {
-                found.before = found.before.max(at(*value, -1.0 - i as f64)?.abs());
-            }
-            let error = f64::EPSILON * (length as f64).log2().sqrt() * scale;
-            let error = error * (size * gain.sqrt() + power.sqrt());
-            found.rounding = error / window(count as f64);
+        // Real by themselves, but for rounding.
+        for filtered in &mut self.filtered {
+            filtered[0].im = 0.0;
+            filtered[last].im = 0.0;
         }
+        Ok(())
+    }
+
+    /// Samples of motion `k`, as many as those of the motion that was given; to be called once.
+    pub(super) fn samples(&mut self, k: usize) -> Result<Vec<f64>> {
+        self.invert(k)?;
+        let own = self.values[..self.samples].iter().enumerate();
+        own.map(|(i, value)| self.at(*value, i as f64)).collect()
+    }
+
+    /// Largest sample of motion `k`, with what follows the end of the motion that was given; to be called once.
+    pub(super) fn peak(&mut self, k: usize) -> Result<f64> {
+        let length = self.contour.length;
+        self.invert(k)?;
+        let first = &self.values[..length / 2];
+        let peak = largest(first) / length as f64;
+        if first.iter().all(|value| value.is_finite()) && peak.is_finite() {
+            Ok(peak)
+        } else {
+            finite("motion through a site", f64::NAN)
+        }
+    }
+
+    /// Motion `k`, with what follows the end of the motion that was given; to be called once.
+    pub(super) fn motion(&mut self, k: usize) -> Result<SiteMotion> {
+        let mut found = SiteMotion::default();
+        let length = self.contour.length;
+        let below = self.spectrum.len() - self.transition.len();
+        let mut band = self.filtered[k].clone();
+        band[..below].fill(Complex64::default());
+        for (value, nearness) in band[below..].iter_mut().zip(&self.transition) {
+            *value *= nearness;
+        }
+        std::mem::swap(&mut band, &mut self.filtered[k]);
+        self.invert(k)?;
+        for (i, value) in self.values[..self.samples].iter().enumerate() {
+            found.near_nyquist = found.near_nyquist.max(self.at(*value, i as f64)?.abs());
+        }
+        self.filtered[k] = band;
+        self.invert(k)?;
+        let (first, others) = self.values.split_at(length / 2);
+        let first = first.iter().enumerate();
+        found.samples = first.map(|(i, x)| self.at(*x, i as f64)).collect::<Result<_>>()?;
+        for (i, value) in others.iter().rev().take(length / 4).enumerate() {
+            found.before = found.before.max(self.at(*value, -1.0 - i as f64)?.abs());
+        }
+        let Sums { gain, power, amplified, lowest } = self.sums[k];
+        let is_mostly_amplified = amplified > 0.5 * power;
+        found.amplified_from = lowest.filter(|_| is_mostly_amplified);
+        let error = f64::EPSILON * (length as f64).log2().sqrt() / length as f64;
+        let error = error * (self.size * gain.sqrt() + power.sqrt());
+        found.rounding = error / self.contour.window_at(self.samples as f64);
         Ok(found)
     }
-}
 
-/// A motion that went through a site, at the times of the one that was given, and the sizes of what
-/// its samples do not hold.
-///
-/// Motions are taken to be zero outside their samples, so what is cut off here is missing on the way
-/// back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record with quiet
-/// time around it goes through a site and returns to 1e-9 of its peak, whatever its frequencies, if
-/// [`SiteMotion::is_whole`] on both ways.
-#[derive(Debug, Clone, PartialEq, Default)]
-#[non_exhaustive]
-pub struct SiteMotion {
-    /// Samples of the motion.
-    pub samples: Vec<f64>,
-    /// Largest sample before the first one, cut off: on the way down motion comes earlier.
-    pub before: f64,
-    /// Largest sample after the last one, cut off: what is still on its way.
-    pub after: f64,
-    /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt, where layers
-    /// delay by whole time steps: the error of that, which is at most half a step from the surface to
-    /// any depth, to a factor of four.
-    pub near_nyquist: f64,
-    /// Rounding, estimated: large if damped layers amplify high frequencies on the way down.
-    pub rounding: f64,
-}
-
-impl SiteMotion {
-    /// Fraction of the peak below which motion counts as rest.
-    pub const LIMIT: f64 = 1e-9;
-
-    /// Largest sample.
-    pub fn peak(&self) -> f64 {
-        largest(&self.samples)
+    /// Sample of a motion at a time in samples, which may be before the first.
+    fn at(&self, value: f64, time: f64) -> Result<f64> {
+        let scale = 1.0 / self.contour.length as f64;
+        finite("motion through a site", value * scale / self.contour.window_at(time))
     }
 
-    /// Whether nothing above [`SiteMotion::LIMIT`] of the peak is cut off or rounded away.
-    pub fn is_whole(&self) -> bool {
-        self.before.max(self.after).max(self.rounding) <= Self::LIMIT * self.peak()
-    }
-
-    /// Number of samples up to the last one that is something.
-    pub(super) fn duration(&self) -> usize {
-        let least = Self::LIMIT * self.peak();
-        self.samples.iter().rposition(|x| x.abs() > least).map_or(0, |last| last + 1)
-    }
-
-    /// Leaves `count` samples.
-    pub(super) fn cut(&mut self, count: usize) {
-        let count = count.min(self.samples.len());
-        self.after = largest(&self.samples[count..]);
-        self.samples.truncate(count);
+    /// Overwrites the values with motion `k`, and its spectrum with what the transform leaves.
+    fn invert(&mut self, k: usize) -> Result<()> {
+        let Self { filtered, values, scratch, .. } = self;
+        let made = self.inverse.process_with_scratch(&mut filtered[k], values, scratch);
+        made.map_err(|_| self.contour.failed())
     }
 }
 
-/// Sizes relative to the peak.
-impl fmt::Display for SiteMotion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let peak = self.peak();
-        write!(
-            f,
-            "peak {peak:.3e}; of that cut off before {:.1e}, after {:.1e}, near the highest frequency \
-             {:.1e}, rounding {:.1e}",
-            self.before / peak,
-            self.after / peak,
-            self.near_nyquist / peak,
-            self.rounding / peak
-        )
+/// Σ|F|² and Σ|FX|² of a function and the spectrum.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    gain: f64,
+    power: f64,
+    /// Part of the power where |F| is above the limit of amplification, and the lowest frequency there, Hz.
+    amplified: f64,
+    lowest: Option<f64>,
+}
+
+impl Sums {
+    /// Adds the next frequency, ω in rad/s.
+    fn add(&mut self, filter: Complex, product: Complex, omega: f64) {
+        let (gain, power) = (filter.square(), product.square());
+        self.gain += gain;
+        self.power += power;
+        if gain > AMPLIFICATION_LIMIT * AMPLIFICATION_LIMIT {
+            self.amplified += power;
+            self.lowest.get_or_insert(omega / std::f64::consts::TAU);
+        }
     }
 }

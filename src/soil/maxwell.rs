@@ -4,7 +4,7 @@ use super::relaxation::{Kind, Relaxation, rounded};
 use crate::error::{
     LayeredError, Result, damping_ratio, not_negative, positive, require, same_length,
 };
-use crate::linalg::Complex;
+use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
 
 /// Nearly constant damping over a band: a generalised Maxwell body.
 ///
@@ -139,6 +139,10 @@ impl Relaxation for GeneralizedMaxwell {
         sum.scale(self.long_term)
     }
 
+    fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
+        vectorized(Moduli { body: self, s, moduli });
+    }
+
     fn describe(&self) -> String {
         match self.fitted {
             Some([ratio, low, high]) => {
@@ -152,6 +156,32 @@ impl Relaxation for GeneralizedMaxwell {
     fn identity(&self) -> Option<Vec<f64>> {
         let sizes = [self.long_term, self.rates.len() as f64];
         Some(Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.ratios).chain(&self.rates)))
+    }
+}
+
+/// Moduli of a body at many Laplace variables.
+struct Moduli<'a> {
+    body: &'a GeneralizedMaxwell,
+    s: &'a [Complex],
+    moduli: &'a mut [Complex],
+}
+
+impl WithSimd for Moduli<'_> {
+    type Output = ();
+
+    #[allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { body, s, moduli } = self;
+        let count = Lanes::<S>::COUNT;
+        for (s, moduli) in s.chunks(count).zip(moduli.chunks_mut(count)) {
+            let s = Lanes::load(simd, s);
+            let mut sum = s.like_real(1.0);
+            for (ratio, rate) in body.ratios.iter().zip(&body.rates) {
+                sum = sum + s.scale(*ratio) * (s + s.like_real(*rate)).inverse();
+            }
+            sum.scale(body.long_term).store(moduli);
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{LayeredError, Result, SiteError, at_least, positive, require};
+use crate::error::{LayeredError, Result, SiteError, at_least, positive, require, require_part};
 use crate::linalg::Complex;
 
 /// Layer: an elastic soil, its thickness and its damping.
@@ -63,6 +63,9 @@ pub enum Base {
 pub struct SoilProfile {
     layers: Vec<SoilLayer>,
     base: Base,
+    /// Whether a damping came before any layer.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    damped_first: bool,
 }
 
 validated! {
@@ -78,12 +81,13 @@ const MOST_LAYERS: usize = 1000;
 impl SoilProfile {
     /// A half-plane of an elastic soil, without layers so far.
     pub fn on_half_plane(soil: Soil) -> Self {
-        Self { layers: vec![], base: Base::HalfPlane { soil, damping: Arc::new(Elastic) } }
+        let base = Base::HalfPlane { soil, damping: Arc::new(Elastic) };
+        Self { layers: vec![], base, damped_first: false }
     }
 
     /// A rigid base without layers so far; add at least one.
     pub fn on_rigid_base() -> Self {
-        Self { layers: vec![], base: Base::Rigid }
+        Self { layers: vec![], base: Base::Rigid, damped_first: false }
     }
 
     /// Profile from its layers, from the surface down, and its base.
@@ -92,7 +96,7 @@ impl SoilProfile {
     /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
     /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for a rigid base without layers.
     pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self> {
-        let profile = Self { layers, base };
+        let profile = Self { layers, base, damped_first: false };
         profile.check_depth()?;
         profile.check()?;
         Ok(profile)
@@ -103,19 +107,22 @@ impl SoilProfile {
     ///
     /// # Errors
     /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
-    /// more than 1000 layers.
+    /// more than 1000 layers, [`Error::Scene`](crate::Error::Scene) for the first layer after
+    /// [`with_damping`](SoilProfile::with_damping), which does not damp it.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
+        let needed = "it damps the layer before it: call it after `with_layer`, or `with_base_damping` for the base";
+        require_part("`with_damping` before the first soil layer", !self.damped_first, needed)?;
         self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
         self.check_depth()?;
         Ok(self)
     }
 
-    /// Sets the damping of the layer added last, or of the base if there are no layers.
+    /// Sets the damping of the layer added last, or of the base if no layer follows either.
     #[must_use]
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
             Some(layer) => layer.damping = Arc::new(damping),
-            None => return self.with_base_damping(damping),
+            None => return Self { damped_first: true, ..self.with_base_damping(damping) },
         }
         self
     }
@@ -226,26 +233,53 @@ impl SoilProfile {
         moduli.clear();
         for (index, (soil, damping)) in self.soils().enumerate() {
             let modulus = damping.modulus(s).scale(soil.shear_modulus());
-            let layer = index + 1;
-            let at_rest = s == Complex::default();
-            if !(modulus.is_finite() && modulus.abs() > 0.0) || (at_rest && modulus.re <= 0.0) {
-                let needed = if at_rest { "finite and above zero" } else { "finite and not zero" };
-                let (value, re, im) = (modulus.re, s.re, s.im);
-                return Err(LayeredError::Modulus { layer, value, re, im, needed }.into());
-            }
-            let ratio = modulus / s;
-            let value = ratio.re / ratio.abs();
-            // On the imaginary axis Re(μ/s) of an elastic law is zero up to rounding. Its modulus must then
-            // be positive.
-            let passive = value >= ROUNDING || (value >= -ROUNDING && modulus.re > 0.0);
-            if !(at_rest || passive) {
-                let (re, im) = (s.re, s.im);
-                return Err(LayeredError::ActiveDamping { layer, value, re, im }.into());
-            }
+            check_modulus(index, s, modulus)?;
             moduli.push(modulus);
         }
         Ok(())
     }
+
+    /// Overwrites `moduli` with the complex shear moduli μ(s) at each of `s`, Pa: those of the first soil, then those
+    /// of the next one down.
+    pub(crate) fn moduli_at(&self, s: &[Complex], moduli: &mut Vec<Complex>) -> Result<()> {
+        moduli.clear();
+        for (index, (soil, damping)) in self.soils().enumerate() {
+            let begin = moduli.len();
+            moduli.resize(begin + s.len(), Complex::default());
+            let own = &mut moduli[begin..];
+            damping.moduli(s, own);
+            for (modulus, s) in own.iter_mut().zip(s) {
+                *modulus = modulus.scale(soil.shear_modulus());
+                // Re(μ/s) > 0 by far, in range: no need to look closer.
+                let passed = modulus.re * s.re + modulus.im * s.im;
+                let size = modulus.square() * s.square();
+                if !(passed > 0.0 && passed * passed > 1e-20 * size && size.is_normal()) {
+                    check_modulus(index, *s, *modulus)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Error for the modulus of a soil, from 0 at the surface, at `s` that no passive soil has.
+fn check_modulus(index: usize, s: Complex, modulus: Complex) -> Result<()> {
+    let layer = index + 1;
+    let at_rest = s == Complex::default();
+    if !(modulus.is_finite() && modulus.abs() > 0.0) || (at_rest && modulus.re <= 0.0) {
+        let needed = if at_rest { "finite and above zero" } else { "finite and not zero" };
+        let (value, re, im) = (modulus.re, s.re, s.im);
+        return Err(LayeredError::Modulus { layer, value, re, im, needed }.into());
+    }
+    let ratio = modulus / s;
+    let value = ratio.re / ratio.abs();
+    // On the imaginary axis Re(μ/s) of an elastic law is zero up to rounding. Its modulus must then be positive.
+    let passive = value >= ROUNDING || (value >= -ROUNDING && modulus.re > 0.0);
+    if !(at_rest || passive) {
+        let (re, im) = (s.re, s.im);
+        return Err(LayeredError::ActiveDamping { layer, value, re, im }.into());
+    }
+    Ok(())
 }
 
 /// A half-plane without layers.

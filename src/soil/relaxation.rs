@@ -42,6 +42,16 @@ pub trait Relaxation: Any + Debug + Send + Sync {
     /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; at s = 0, the long-term modulus ratio.
     fn modulus(&self, s: Complex) -> Complex;
 
+    /// Overwrites `moduli` with μ(s)/μ₀ at each of `s`, lists of one length.
+    ///
+    /// Site response calls it for many frequencies at once. The default calls [`modulus`](Relaxation::modulus) for
+    /// each; a law that is quicker for many may agree with that to rounding.
+    fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
+        for (modulus, s) in moduli.iter_mut().zip(s) {
+            *modulus = self.modulus(*s);
+        }
+    }
+
     /// Description of the law in a few words, for tables.
     fn describe(&self) -> String {
         "own law".into()

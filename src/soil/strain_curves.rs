@@ -58,7 +58,7 @@ pub enum StrainCurves {
         /// Number of cycles; usually 10.
         cycles: f64,
     },
-    /// Rows of strain, G/G_max and damping ratio, strains increasing.
+    /// Rows of strain, G/G_max and damping ratio, strains increasing, G/G_max nowhere.
     Table(Vec<[f64; 3]>),
 }
 
@@ -235,13 +235,15 @@ fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
 fn checked(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
     let quantity = "number of rows of a table of strain curves";
     require(quantity, rows.len() as f64, !rows.is_empty(), "at least 1")?;
-    let mut before = 0.0;
+    let (mut before, mut stiffness) = (0.0, 1.0);
     for &[strain, reduction, damping] in rows {
         finite("strain of a table", strain)?;
         let needed = "above zero and above the one before";
         before = require("strain of a table", strain, strain > before, needed)?;
         let fits = reduction > 0.0 && reduction <= 1.0;
         require("G/G_max of a table", reduction, fits, "above 0 and at most 1")?;
+        let needed = "at most the one before: soil softens as strain grows";
+        stiffness = require("G/G_max of a table", reduction, reduction <= stiffness, needed)?;
         damping_ratio("damping ratio of a table", damping)?;
     }
     Ok(rows)

@@ -381,6 +381,22 @@ fn two_kernels_have_the_same_bits() {
 }
 
 /// 100 · 0.07 is 7.000000000000001.
+/// Damping before the first layer would be that of the base, and the layer elastic.
+#[test]
+fn damping_comes_after_its_layer() {
+    let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
+    let damping = || Hysteretic::new(0.05).unwrap();
+    for profile in [SoilProfile::on_half_plane(soil), SoilProfile::on_rigid_base()] {
+        let found = profile.clone().with_damping(damping()).with_layer(soil, 6.0);
+        assert!(matches!(found, Err(Error::Scene { .. })), "{found:?}");
+        assert!(found.err().unwrap().to_string().contains("with_base_damping"));
+        let layered = profile.with_base_damping(damping()).with_layer(soil, 6.0).unwrap();
+        assert!(layered.with_damping(damping()).with_layer(soil, 6.0).is_ok());
+    }
+    let bare = SoilProfile::on_half_plane(soil).with_damping(damping());
+    assert!(bare.to_string().contains("hysteretic, 5 %"));
+}
+
 #[test]
 fn profiles_print_numbers_for_people() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();

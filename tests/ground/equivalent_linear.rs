@@ -9,7 +9,8 @@ use std::fmt::Write as _;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use basemat::results::log_spaced;
 use basemat::site::{
-    ControlPoint, EquivalentLinear, EquivalentLinearOptions, SiteWarning, SoilColumn, VerticalWave,
+    ComplexModulus, ControlPoint, EquivalentLinear, EquivalentLinearOptions, SiteWarning,
+    SoilColumn, VerticalWave,
 };
 use basemat::soil::{Hysteretic, SoilProfile, StrainCurves};
 use basemat::{Complex, Error, SiteError, Soil};
@@ -223,11 +224,20 @@ fn uniform(damping: f64) -> SoilProfile {
 /// k sin kz/(ω² cos kH) with k = ω/c complex. A long harmonic, well after its beginning.
 #[test]
 fn strains_of_a_harmonic_are_those_of_theory() {
-    let (damping, depth) = (0.08, 20.0);
+    strains_of_a_harmonic(ComplexModulus::RealPart, 0.08, Complex::new(1.0, 0.16).sqrt());
+    // Of magnitude G and twice the angle asin ξ, G e^(2i asin ξ): c turns by the angle.
+    let (sine, cosine) = (0.2_f64, (1.0 - 0.04_f64).sqrt());
+    strains_of_a_harmonic(ComplexModulus::Magnitude, sine, Complex::new(cosine, sine));
+}
+
+/// `root` is √(G*/G).
+fn strains_of_a_harmonic(complex_modulus: ComplexModulus, damping: f64, root: Complex) {
+    let depth = 20.0;
     let column = SoilColumn::new(uniform(0.5), VerticalWave::Shear).unwrap();
     let curves = vec![StrainCurves::Linear { damping }; 4];
     let options = EquivalentLinearOptions {
         control: ControlPoint::Within,
+        complex_modulus,
         ..EquivalentLinearOptions::default()
     };
     for frequency in [0.8, 2.5, 4.0, 7.5, 9.0] {
@@ -237,7 +247,6 @@ fn strains_of_a_harmonic_are_those_of_theory() {
         let motion = Record::from_fn(0.001, 40.0, wave).unwrap();
         let found = column.equivalent_linear(&motion, &curves, &options).unwrap();
         assert_eq!((found.iterations, found.last_change), (1, 0.0));
-        let root = Complex::new(1.0, 2.0 * damping).sqrt();
         let wavenumber = Complex::real(omega / 200.0) / root;
         let cosine = |x: Complex| {
             let e = (Complex::new(0.0, 1.0) * x).exp();
@@ -411,6 +420,7 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
         StrainCurves::Table(vec![[0.0, 1.0, 0.01]]),
         StrainCurves::Table(vec![[1e-4, 1.0, 0.01], [1e-4, 0.9, 0.02]]),
         StrainCurves::Table(vec![[1e-4, 1.1, 0.01]]),
+        StrainCurves::Table(vec![[1e-4, 0.8, 0.01], [1e-3, 0.9, 0.02]]),
         StrainCurves::Table(vec![[1e-4, 0.0, 0.01]]),
         StrainCurves::Table(vec![[1e-4, 1.0, -0.01]]),
         StrainCurves::Table(vec![[f64::INFINITY, 1.0, 0.01]]),
@@ -461,6 +471,14 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     let found =
         column.equivalent_linear(&quiet, &rings, &EquivalentLinearOptions::default()).unwrap_err();
     assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.0, .. })), "{found}");
+    // A modulus by its magnitude has no real part left at so much damping.
+    let options = EquivalentLinearOptions {
+        complex_modulus: ComplexModulus::Magnitude,
+        ..Default::default()
+    };
+    let half = StrainCurves::Linear { damping: 0.6 };
+    let found = column.equivalent_linear(&quiet, &[good.clone(), half], &options).unwrap_err();
+    assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.6, .. })), "{found}");
     // So much damping that no body has it, and a motion beyond all numbers.
     let damped = StrainCurves::Linear { damping: 0.99 };
     let found = column

@@ -1,5 +1,5 @@
 //! GOAL: long calls tell how far they have come and can be stopped, and nothing else changes.
-//! SCENE: convolution weights, impedances, response spectra; a block on layers, built and run.
+//! SCENE: convolution weights, impedances, response spectra, motions through a site; a block on layers, built and run.
 //! REFERENCE: the same calls without an observer, to the last bit.
 
 use std::ops::ControlFlow::{Break, Continue};
@@ -10,8 +10,12 @@ use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
 use basemat::interface::Coulomb;
-use basemat::motion::el_centro_1940;
-use basemat::soil::{Elastic, SoilProfile};
+use basemat::motion::{FreeField, TravellingWave, Triaxial, el_centro_1940};
+use basemat::site::{
+    ControlPoint, EquivalentLinear, EquivalentLinearOptions, InclinedControl, InclinedWave,
+    SoilColumn, VerticalWave,
+};
+use basemat::soil::{Elastic, SoilProfile, StrainCurves};
 use basemat::structure::RigidBlock;
 use basemat::{Error, Observer, Progress, Result, Simulation, Soil};
 
@@ -109,6 +113,74 @@ fn response_spectra_are_watched_and_stopped() {
     let periods: Vec<f64> = (0..20).map(|i| 1e-4 * 1.6_f64.powi(i)).collect();
     let wanted = record.response_spectrum(&periods, 0.05).unwrap();
     watched(|observer| record.response_spectrum_observed(&periods, 0.05, observer), Some(&wanted));
+}
+
+/// Motions through a site are heard of in as many parts as a Ctrl-C needs, and stopped.
+#[test]
+fn site_response_is_watched_and_stopped() {
+    let soil = |speed| Soil::from_shear_wave_speed(speed, 0.3, 1900.0).unwrap();
+    let rock = SoilProfile::on_half_plane(soil(800.0)).with_base_damping(gmb(1));
+    let mut profile = rock;
+    for k in 0..12 {
+        let layer = soil(180.0 + 10.0 * f64::from(k));
+        profile = profile.with_layer(layer, 3.0).unwrap().with_damping(gmb(5));
+    }
+    let (record, control) = (el_centro_1940(), ControlPoint::Outcrop);
+    let (step, samples) = (record.time_step(), record.accelerations());
+    let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();
+    let parts = std::cell::Cell::new(0);
+    let heard = |call: &dyn Fn(&mut Observer<'_>)| {
+        parts.set(0);
+        call(&mut |_| {
+            parts.set(parts.get() + 1);
+            Continue(())
+        });
+        parts.get()
+    };
+
+    let wanted = column.to_surface(control, step, samples).unwrap();
+    let up = |own: &mut Observer<'_>| column.to_surface_observed(control, step, samples, own);
+    watched(up, Some(&wanted));
+    assert!(heard(&|own| drop(up(own))) > 50);
+    let wanted = column.from_surface(control, step, samples).unwrap();
+    watched(|own| column.from_surface_observed(control, step, samples, own), Some(&wanted));
+
+    let frequencies: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
+    let found = column.transfers(control, &frequencies, &mut |_| Continue(())).unwrap();
+    for (frequency, found) in frequencies.iter().zip(&found) {
+        let wanted = column.transfer(control, *frequency).unwrap();
+        assert!((*found + wanted * -1.0).abs() < 1e-13 * wanted.abs(), "{frequency}");
+    }
+    watched(|own| column.transfers(control, &frequencies, own), Some(&found));
+
+    let wave = InclinedWave::sv(profile.clone(), 0.2).unwrap();
+    let control = InclinedControl::OutcropHorizontal;
+    let wanted = wave.to_surface(control, step, samples).unwrap();
+    watched(|own| wave.to_surface_observed(control, step, samples, own), Some(&wanted));
+    let wanted = wave.surface_records(control, &record, &mut |_| Continue(())).unwrap();
+    watched(|own| wave.surface_records(control, &record, own), Some(&wanted));
+    let field = wave.field(control, &record, -3.0).unwrap();
+    let travelled = TravellingWave::new(wanted, wave.apparent_velocity(), -3.0).unwrap();
+    assert_eq!(field.displacement(2.0, 4.0), travelled.displacement(2.0, 4.0));
+
+    let motion = Triaxial { x: Some(record.clone()), y: None, up: Some(record.clone()) };
+    let control = ControlPoint::Outcrop;
+    let wanted = SoilColumn::surface_in_plan(&profile, control, &motion).unwrap();
+    let call = |own: &mut Observer<'_>| {
+        SoilColumn::surface_in_plan_observed(&profile, control, &motion, own)
+    };
+    watched(call, Some(&wanted));
+
+    let curves = vec![StrainCurves::VuceticDobry { plasticity_index: 30.0 }; 12];
+    let options = EquivalentLinearOptions::default();
+    let numbers = |found: EquivalentLinear| (found.surface, found.accelerations, found.layers);
+    let wanted = column.equivalent_linear(&record, &curves, &options).map(numbers).unwrap();
+    let call = |own: &mut Observer<'_>| {
+        column.equivalent_linear_observed(&record, &curves, &options, own).map(numbers)
+    };
+    watched(call, Some(&wanted));
+    // Every iteration, in its frequencies and in its layers.
+    assert!(heard(&|own| drop(call(own))) > 300);
 }
 
 fn scene() -> SimulationBuilder {

@@ -2,7 +2,8 @@
 //! SCENE: damped and elastic layers on rock and on a rigid base.
 //! REFERENCE: a table of another program, sums of reflections, the motion itself.
 
-use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
+use basemat::motion::{Record, el_centro_1940};
+use basemat::site::{ControlPoint, SiteWarning, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Soil};
 
@@ -147,4 +148,39 @@ fn bad_motions_are_refused() {
     let found = column.to_surface(control, 0.1, &[1.0]);
     assert!(matches!(found, Err(Error::Layered(LayeredError::NotCausal { layer: 1, .. }))));
     assert!(found.unwrap_err().to_string().contains("GeneralizedMaxwell"));
+}
+
+/// El Centro taken down through 100 m of soft, damped soil: noise at the highest frequencies, which a low-pass removes.
+/// Firm soil deconvolves without a warning.
+#[test]
+fn deconvolution_warns_of_what_it_amplifies() {
+    let rock = Soil::from_shear_wave_speed(760.0, 0.25, 2200.0).unwrap();
+    let column = |speed: f64, depth: f64, ratio: f64| {
+        let soil = Soil::from_shear_wave_speed(speed, 0.4, 1700.0).unwrap();
+        let law = GeneralizedMaxwell::constant_q(ratio, [0.2, 30.0], 1.0).unwrap();
+        let profile = SoilProfile::on_half_plane(rock).with_layer(soil, depth).unwrap();
+        SoilColumn::new(profile.with_damping(law), VerticalWave::Shear).unwrap()
+    };
+    let record = el_centro_1940().padded(10.0, 40.0).unwrap();
+    let down = |column: &SoilColumn, record: &Record| {
+        let samples = record.accelerations();
+        column.from_surface(ControlPoint::Outcrop, record.time_step(), samples).unwrap()
+    };
+    let soft = column(100.0, 100.0, 0.15);
+    let found = down(&soft, &record);
+    assert!(found.peak() > 1e5);
+    let Some(SiteWarning::Amplified { frequency }) = found.warning() else { panic!("{found}") };
+    // There the way down amplifies a hundredfold, and above it more.
+    let gain = |frequency| soft.transfer(ControlPoint::Outcrop, frequency).unwrap().abs().recip();
+    assert!((gain(frequency) / 100.0 - 1.0).abs() < 0.05, "{frequency} {}", gain(frequency));
+    assert!(gain(2.0 * frequency) > 1e3 && gain(0.8 * frequency) < 100.0);
+    let filtered = record.low_pass(0.5 * frequency, 8).unwrap();
+    let calm = down(&soft, &filtered);
+    assert_eq!(calm.warning(), None);
+    assert!(calm.peak() < 1e-3 * found.peak(), "{calm}");
+    let firm = column(300.0, 30.0, 0.05);
+    assert_eq!(down(&firm, &record).warning(), None);
+    let samples = record.accelerations();
+    let up = soft.to_surface(ControlPoint::Outcrop, record.time_step(), samples).unwrap();
+    assert_eq!(up.warning(), None);
 }

@@ -82,3 +82,24 @@ fn bad_input_is_refused() {
     }
     assert!(record.response_spectrum(&[], 0.05).unwrap().is_empty());
 }
+
+/// A long sine at its own period: samples that are joined by lines keep (sin x/x)² of it, x = π/n for n in a period.
+/// The warning says so from fewer than ten on.
+#[test]
+fn spectra_of_few_samples_warn() {
+    let (period, damping) = (0.5, 0.05);
+    for count in [40.0, 20.0, 10.0, 5.0, 2.5] {
+        let step = period / count;
+        let wave = |t: f64| (std::f64::consts::TAU * t / period).sin();
+        let record = Record::from_fn(step, 30.0, wave).unwrap();
+        let found = record.response_spectrum(&[period], damping).unwrap()[0].pseudo_acceleration;
+        let x = std::f64::consts::PI / count;
+        let wanted = 0.5 / damping * (x.sin() / x).powi(2);
+        // Samples at 2.5 in a period hold harmonics near it, too.
+        assert!((found / wanted - 1.0).abs() < 0.04, "{count}: {found} {wanted}");
+        let warning = record.coarse_spectrum(&[2.0, period, 1.0]);
+        assert_eq!(warning.map(|own| own.period), (count < 10.0).then_some(period), "{count}");
+        assert!(warning.is_none_or(|own| own.to_string().contains("at 0.500 s")));
+        assert_eq!(record.coarse_spectrum(&[]), None);
+    }
+}

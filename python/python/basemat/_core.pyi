@@ -326,10 +326,11 @@ class Impedances:
         """Horizontal force by rotation: complex array of shape (m,), N/m."""
     def to_frame(self) -> Any:
         """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
-    def plot(self, axes: Any = None) -> list[Any]:
+    def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> list[Any]:
         """Draws real and imaginary parts over the frequency; returns the list of four axes.
 
-        ``axes``: four of matplotlib to draw into; those of a new figure unless given.
+        ``axes``: four of matplotlib to draw into; those of a new figure unless given. For several grounds in the same axes:
+        ``label``, a name before those of the curves, and ``color`` of both.
         """
 
 @final
@@ -654,6 +655,11 @@ class Record(FreeField):
         for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
         displacement do not return to zero.
         """
+    def low_pass(self, corner: float, *, order: int = 4) -> Record:
+        """Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
+        forwards and backwards, so without phase shift; longer as by :meth:`high_pass`. Deconvolution needs it
+        (:meth:`SoilColumn.from_surface`).
+        """
     def tapered(self, beginning: float, end: float) -> Record:
         """Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends."""
     def padded(self, before: float, after: float) -> Record:
@@ -684,16 +690,20 @@ class Spectrum:
     @property
     def acceleration(self) -> NDArray[np.float64]:
         """Largest total accelerations: array of shape (m,), m/s²."""
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact."""
     def broadened(self, fraction: float = 0.15) -> Spectrum:
         """Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
         by default (U.S. NRC R.G. 1.122).
         """
     def to_frame(self) -> Any:
         """The spectrum as a pandas frame, indexed by the period (s)."""
-    def plot(self, axes: Any = None) -> Any:
+    def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> Any:
         """Draws total and pseudo-accelerations over the period; returns the axes.
 
-        ``axes``: those of matplotlib to draw into; those of a new figure unless given.
+        ``axes``: those of matplotlib to draw into; those of a new figure unless given. For several spectra in the same axes:
+        ``label``, a name before those of the curves, and ``color`` of both.
         """
     def __len__(self) -> int: ...
 
@@ -766,7 +776,8 @@ class SoilColumn:
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
-        surface (deconvolution); it warns as :meth:`to_surface`.
+        surface (deconvolution); it warns as :meth:`to_surface`, and of a motion that is mostly noise which the way down
+        amplifies more than a hundredfold: :meth:`Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
         """
     def equivalent_linear(
         self,
@@ -778,13 +789,15 @@ class SoilColumn:
         tolerance: float | None = None,
         most_iterations: int | None = None,
         band: Sequence[float] | None = None,
+        complex_modulus: Literal["real part", "magnitude"] = "real part",
     ) -> EquivalentLinear:
         """Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
         point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
 
         ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
         ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
-        ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
+        ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
+        layers: "real part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
         """
     @staticmethod
     def surface_in_plan(
@@ -1344,12 +1357,13 @@ class Run(Summary):
             damping: damping ratio; 0.05 by default.
             probes: names of acceleration probes; all those with the unit "m/s²" unless given.
         """
-    def plot(self, axes: Any = None) -> list[Any]:
+    def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> list[Any]:
         """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
         Contact modes are those of the snapshots, if ``contact_every`` was given to
         :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
-        new figure unless given.
+        new figure unless given. For several runs in the same axes: ``label``, a name before those of the curves, and
+        ``color`` of the base shear.
         """
     def plot_modes(self, axes: Any = None) -> Any:
         """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
@@ -1369,7 +1383,7 @@ class Run(Summary):
         :meth:`plot_contact_plan` draws.
 
         It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
-        on gaps; the largest one is a tenth of the base's length unless given. Returns a
+        on gaps, which are then drawn in m; in mm, as they are, unless given. Returns a
         ``matplotlib.animation.FuncAnimation``, whose ``save`` writes a file.
         """
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -1382,7 +1396,8 @@ class Run(Summary):
         """The :class:`Record` of the acceleration probe called ``probe``."""
     def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
         """Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
-        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default).
+        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A :class:`BasematWarning`
+        tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
         """
     @property
     def probes(self) -> dict[str, Any]:

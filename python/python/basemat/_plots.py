@@ -46,36 +46,59 @@ def _label(axes: Any, x: str | None, y: str) -> None:
     axes.margins(x=0.0)
 
 
-def plot_run(self: Run, axes: Any = None) -> list[Any]:
+def _legend(axes: Any, **options: Any) -> None:
+    """Key to the curves at the right of the axes, where it hides none."""
+    axes.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0), **options)
+
+
+def _logarithmic(axes: Any) -> None:
+    """A logarithmic x-axis with plain numbers at 1, 2 and 5, at more on a short one."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    marks = (1.0, 2.0, 5.0) if high > 10.0 * low else (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0)
+    axes.xaxis.set_major_locator(LogLocator(subs=marks))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _named(label: str | None, name: str) -> str:
+    return name if label is None else f"{label}, {name}"
+
+
+def plot_run(self: Run, axes: Any = None, *, label: str | None = None, color: str | None = None) -> list[Any]:
     """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
     Contact modes are those of the snapshots, if ``contact_every`` was given to
     :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
-    new figure unless given.
+    new figure unless given. For several runs in the same axes: ``label``, a name before those of the curves, and
+    ``color`` of the base shear.
     """
     has_modes = False
     with suppress(InputError):
         has_modes = bool(self.contact)
     own = _axes(axes, 3 if has_modes else 2)
     names = {"base_shear": "base shear", "shear_across": "across"} if self.in_plan else {"base_shear": "base shear"}
-    for name, color in zip(names, ("black", "#3182bd")):
-        own[0].plot(self.time, 1e-3 * self[name], linewidth=0.8, color=color, label=names[name])
+    for name, usual in zip(names, ("black", "#3182bd")):
+        shown = _named(label, names[name])
+        own[0].plot(self.time, 1e-3 * self[name], linewidth=0.8, color=color or usual, label=shown)
     _label(own[0], None, f"base shear, k{self.units['base_shear']}")
-    if self.in_plan:
-        own[0].legend(fontsize="small", ncols=2)
+    if self.in_plan or label is not None:
+        _legend(own[0])
     if has_modes:
         plot_modes(self, own[1])
         own[1].set_xlabel("")
     terms = {**self.energy_balances}
     time, total = terms.pop("time"), terms.pop("input")
-    own[-1].plot(time, 1e-3 * total, color="black", label="input")
+    own[-1].plot(time, 1e-3 * total, color=color or "black", label=_named(label, "input"))
     for name in ("residual", "largest", "relative_input", "soil_error_bound"):
         terms.pop(name, None)
     for name, values in terms.items():
         if np.nanmax(np.abs(values), initial=0.0) > 1e-3 * np.nanmax(np.abs(total), initial=0.0):
-            own[-1].plot(time, 1e-3 * values, linewidth=0.8, label=name.replace("_", " "))
+            own[-1].plot(time, 1e-3 * values, linewidth=0.8, label=_named(label, name.replace("_", " ")))
     _label(own[-1], "time, s", f"energy, k{self.units['input']}")
-    own[-1].legend(fontsize="small", ncols=2)
+    _legend(own[-1])
     return own
 
 
@@ -187,7 +210,7 @@ def animate(self: Run, scale: float | None = None) -> Any:
     :meth:`plot_contact_plan` draws.
 
     It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
-    on gaps; the largest one is a tenth of the base's length unless given. Returns a
+    on gaps, which are then drawn in m; in mm, as they are, unless given. Returns a
     ``matplotlib.animation.FuncAnimation``, whose ``save`` writes a file.
     """
     frames = self.contact
@@ -200,13 +223,13 @@ def animate(self: Run, scale: float | None = None) -> Any:
 
     left, right = self.envelope["left"], self.envelope["right"]
     largest = float(np.max(frames["gap"], initial=0.0))
-    if scale is None:
-        scale = 0.1 * float(right[-1] - left[0]) / largest if largest > 0.0 else 1.0
+    name = "gap, mm" if scale is None else f"gap × {scale:g}, m"
+    scale = 1e3 if scale is None else scale
     x = np.column_stack([left, right]).ravel()
     [base] = above.plot([], [], color="black")
     above.axhline(0.0, color="#a6611a")
     above.set_ylim(-0.1 * max(scale * largest, 1e-9), 1.2 * max(scale * largest, 1e-9))
-    _label(above, None, f"gap × {scale:.3g}, m")
+    _label(above, None, name)
     pressures = 1e-3 * frames["pressure"]
     [pressure] = below.plot([], [], color="#3182bd")
     below.set_ylim(1.1 * min(float(pressures.min()), 0.0), 1.1 * max(float(pressures.max()), 1e-9))
@@ -222,16 +245,21 @@ def animate(self: Run, scale: float | None = None) -> Any:
     return FuncAnimation(above.figure, draw, frames=len(frames["time"]), interval=40, blit=False)
 
 
-def plot_spectrum(self: Spectrum, axes: Any = None) -> Any:
+def plot_spectrum(
+    self: Spectrum, axes: Any = None, *, label: str | None = None, color: str | None = None
+) -> Any:
     """Draws total and pseudo-accelerations over the period; returns the axes.
 
-    ``axes``: those of matplotlib to draw into; those of a new figure unless given.
+    ``axes``: those of matplotlib to draw into; those of a new figure unless given. For several spectra in the same axes:
+    ``label``, a name before those of the curves, and ``color`` of both.
     """
     [own] = _axes(axes, 1)
-    own.semilogx(self.period, self.acceleration, color="black", label="total acceleration")
-    own.semilogx(self.period, self.pseudo_acceleration, "--", label="pseudo-acceleration")
+    total, pseudo = _named(label, "total acceleration"), _named(label, "pseudo-acceleration")
+    own.plot(self.period, self.acceleration, color=color or "black", label=total)
+    own.plot(self.period, self.pseudo_acceleration, "--", color=color, label=pseudo)
+    _logarithmic(own)
     _label(own, "period, s", "acceleration, m/s²")
-    own.legend(fontsize="small")
+    _legend(own)
     return own
 
 
@@ -252,23 +280,26 @@ def plot_profile(self: SoilProfile, axes: Any = None) -> Any:
     _label(own, "speed of shear waves, m/s", "depth, m")
     if self.base is None:
         own.axhline(depths[-1], color="#a6611a", linewidth=3.0, label="rigid base")
-        own.legend(fontsize="small")
+        _legend(own)
     own.set_xlim(0.0, 1.1 * max(speeds, default=1.0))
     own.set_ylim(depths[-1], 0.0)
     return own
 
 
-def plot_impedances(self: Impedances, axes: Any = None) -> list[Any]:
+def plot_impedances(
+    self: Impedances, axes: Any = None, *, label: str | None = None, color: str | None = None
+) -> list[Any]:
     """Draws real and imaginary parts over the frequency; returns the list of four axes.
 
-    ``axes``: four of matplotlib to draw into; those of a new figure unless given.
+    ``axes``: four of matplotlib to draw into; those of a new figure unless given. For several grounds in the same axes:
+    ``label``, a name before those of the curves, and ``color`` of both.
     """
     own = _axes(axes, 4)
     units = {"horizontal": "N/m²", "vertical": "N/m²", "rocking": "N", "coupling": "N/m"}
     for place, (name, unit) in zip(own, units.items()):
         values = getattr(self, name)
-        place.plot(self.frequency, values.real, color="black", label="real part")
-        place.plot(self.frequency, values.imag, "--", label="imaginary part")
+        place.plot(self.frequency, values.real, color=color or "black", label=_named(label, "real part"))
+        place.plot(self.frequency, values.imag, "--", color=color, label=_named(label, "imaginary part"))
         _label(place, "frequency, Hz" if place is own[-1] else None, f"{name}, {unit}")
-    own[0].legend(fontsize="small")
+    _legend(own[0])
     return own

@@ -185,6 +185,14 @@ impl PyRecord {
         Self::of(self.0.high_pass(corner, order))
     }
 
+    /// Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
+    /// forwards and backwards, so without phase shift; longer as by :meth:`high_pass`. Deconvolution needs it
+    /// (:meth:`SoilColumn.from_surface`).
+    #[pyo3(signature = (corner, *, order=4))]
+    fn low_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
+        Self::of(self.0.low_pass(corner, order))
+    }
+
     /// Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends.
     fn tapered(&self, beginning: f64, end: f64) -> PyResult<Self> {
         Self::of(self.0.tapered(beginning, end))
@@ -208,7 +216,7 @@ impl PyRecord {
         let spectrum = py.detach(|| {
             watched(None, |own| record.response_spectrum_observed(&periods.0, damping, own))
         });
-        Ok(PySpectrum(spectrum?))
+        Ok(PySpectrum(spectrum?, coarse(record, &periods.0)))
     }
 
     fn __len__(&self) -> usize {
@@ -329,7 +337,12 @@ impl FileOptions<'_> {
 /// A response spectrum: arrays of shape (m,), one value per natural period.
 #[pyclass(name = "Spectrum", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
-pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>);
+pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>, pub(crate) Vec<String>);
+
+/// Warnings of a spectrum of the record at these periods.
+pub(crate) fn coarse(record: &Record, periods: &[f64]) -> Vec<String> {
+    record.coarse_spectrum(periods).iter().map(ToString::to_string).collect()
+}
 
 /// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
 /// (count,).
@@ -354,6 +367,8 @@ members! {
     pseudo_acceleration: Array = own.0.iter().map(|ordinate| ordinate.pseudo_acceleration).collect();
     /// Largest total accelerations: array of shape (m,), m/s².
     acceleration: Array = own.0.iter().map(|ordinate| ordinate.acceleration).collect();
+    /// Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact.
+    warnings: Vec<String> = own.1.clone();
 }
 
 #[pymethods]
@@ -362,7 +377,8 @@ impl PySpectrum {
     /// by default (U.S. NRC R.G. 1.122).
     #[pyo3(signature = (fraction=0.15))]
     fn broadened(&self, fraction: f64) -> PyResult<Self> {
-        Ok(Self(basemat::results::broadened(&self.0, fraction).or_raise()?))
+        let broadened = basemat::results::broadened(&self.0, fraction).or_raise()?;
+        Ok(Self(broadened, self.1.clone()))
     }
 
     fn __len__(&self) -> usize {

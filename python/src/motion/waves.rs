@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use basemat::Complex;
+use basemat::Observer;
 use basemat::motion::{
     PlaneWave, Record, RickerDisplacement, TravellingWave, Triaxial, VerticalIncidence,
 };
@@ -19,6 +19,7 @@ use crate::error::{OrRaise, refuse};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
+use crate::ticker::watched;
 
 /// Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
 /// same everywhere at once; the one that is None rests.
@@ -192,13 +193,19 @@ fn through(
     py: Python<'_>,
     record: &PyRecord,
     control: &str,
-    column: impl FnOnce(ControlPoint, f64, &[f64]) -> basemat::Result<SiteMotion>,
+    column: impl Send
+    + FnOnce(ControlPoint, f64, &[f64], &mut Observer<'_>) -> basemat::Result<SiteMotion>,
 ) -> PyResult<PyRecord> {
     let (control, step) = (self::control(control)?, record.0.time_step());
-    let motion = column(control, step, record.0.accelerations()).or_raise()?;
+    let samples = record.0.accelerations();
+    let motion =
+        py.detach(|| watched(None, |observer| column(control, step, samples, observer)))?;
     if motion.before.max(motion.after).max(motion.rounding) > UNSEEN * motion.peak() {
         let text = format!("{motion}: give the record quiet time on both sides (padded)");
         crate::error::warn(py, text)?;
+    }
+    if let Some(warning) = motion.warning() {
+        crate::error::warn(py, warning.to_string())?;
     }
     PyRecord::of(Record::new(step, motion.samples))
 }
@@ -217,11 +224,16 @@ impl PyColumn {
     /// shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
     /// base without layers) or "within" (the base under them).
     #[pyo3(signature = (frequencies, *, control="outcrop"))]
-    fn transfer(&self, frequencies: Numbers, control: &str) -> PyResult<Array<Complex64>> {
+    fn transfer(
+        &self,
+        py: Python<'_>,
+        frequencies: Numbers,
+        control: &str,
+    ) -> PyResult<Array<Complex64>> {
         let control = self::control(control)?;
-        let at = |frequency: &f64| self.0.transfer(control, *frequency);
-        let values: Vec<Complex> =
-            frequencies.0.iter().map(at).collect::<Result<_, _>>().or_raise()?;
+        let call =
+            |observer: &mut Observer<'_>| self.0.transfers(control, &frequencies.0, observer);
+        let values = py.detach(|| watched(None, call))?;
         Ok(values.into_iter().map(complex).collect())
     }
 
@@ -230,15 +242,20 @@ impl PyColumn {
     /// cut off, from 1e-4 of the peak on: :meth:`Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
-        through(py, record, control, |control, step, own| self.0.to_surface(control, step, own))
+        through(py, record, control, |control, step, own, observer| {
+            self.0.to_surface_observed(control, step, own, observer)
+        })
     }
 
     /// The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
-    /// surface (deconvolution); it warns as :meth:`to_surface`.
+    /// surface (deconvolution); it warns as :meth:`to_surface`, and of a motion that is mostly noise which the way down
+    /// amplifies more than a hundredfold: :meth:`Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
     #[pyo3(signature = (record, *, control="outcrop"))]
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
-        through(py, record, control, |control, step, own| self.0.from_surface(control, step, own))
+        through(py, record, control, |control, step, own, observer| {
+            self.0.from_surface_observed(control, step, own, observer)
+        })
     }
 
     /// Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
@@ -247,6 +264,7 @@ impl PyColumn {
     #[staticmethod]
     #[pyo3(signature = (profile, x=None, y=None, up=None, *, control="outcrop"))]
     fn surface_in_plan(
+        py: Python<'_>,
         profile: &PySoilProfile,
         x: Option<Bound<'_, PyRecord>>,
         y: Option<Bound<'_, PyRecord>>,
@@ -254,7 +272,10 @@ impl PyColumn {
         control: &str,
     ) -> PyResult<[Option<PyRecord>; 3]> {
         let (motion, control) = (records([x, y, up]), self::control(control)?);
-        let found = SoilColumn::surface_in_plan(&profile.0, control, &motion).or_raise()?;
+        let call = |observer: &mut Observer<'_>| {
+            SoilColumn::surface_in_plan_observed(&profile.0, control, &motion, observer)
+        };
+        let found = py.detach(|| watched(None, call))?;
         Ok([found.x, found.y, found.up].map(|own| own.map(|own| PyRecord(Arc::new(own)))))
     }
 }
@@ -290,6 +311,7 @@ impl PyInclinedWave {
     #[pyo3(signature = (record, origin, *, control="outcrop horizontal", azimuth=0.0))]
     fn field(
         &self,
+        py: Python<'_>,
         record: &PyRecord,
         origin: f64,
         control: &str,
@@ -301,7 +323,10 @@ impl PyInclinedWave {
             ("incident", InclinedControl::Incident),
         ];
         let control = choice("control", control, &all)?;
-        let (wave, record) = (self.0.clone(), Arc::clone(&record.0));
-        turned(azimuth, move || wave.field(control, &record, origin))
+        let call =
+            |observer: &mut Observer<'_>| self.0.surface_records(control, &record.0, observer);
+        let surface = py.detach(|| watched(None, call))?;
+        let speed = self.0.apparent_velocity();
+        turned(azimuth, move || TravellingWave::new(surface.clone(), speed, origin))
     }
 }

@@ -11,9 +11,10 @@ use pyo3::types::{IntoPyDict, PyDict};
 use super::base::preformatted;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
 use crate::array::{Array, Named, Numbers};
-use crate::error::{OrRaise, in_python, refuse};
-use crate::motion::{PyRecord, PySpectrum};
+use crate::error::{OrRaise, in_python, refuse, warn};
+use crate::motion::{PyRecord, PySpectrum, coarse};
 use crate::structure::{PyFemModel, PyShearBuilding, PyStoreyBuilding, recipe};
+use crate::ticker::watched;
 
 /// The shape of a structure for pictures: its elements or storeys, of another one a box of this `height`.
 fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
@@ -202,7 +203,8 @@ impl PyRun {
     }
 
     /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
-    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default).
+    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A :class:`BasematWarning`
+    /// tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
     #[pyo3(signature = (probe, periods, damping=0.05))]
     fn floor_spectrum(
         &self,
@@ -211,9 +213,15 @@ impl PyRun {
         periods: Numbers,
         damping: f64,
     ) -> PyResult<PySpectrum> {
-        let time_series = self.probed(probe)?;
-        let spectrum = py.detach(|| time_series.floor_spectrum(probe, &periods.0, damping));
-        Ok(PySpectrum(spectrum.or_raise()?))
+        let record = self.probed(probe)?.acceleration_record(probe).or_raise()?;
+        let spectrum = py.detach(|| {
+            watched(None, |own| record.response_spectrum_observed(&periods.0, damping, own))
+        })?;
+        let warnings = coarse(&record, &periods.0);
+        for warning in &warnings {
+            warn(py, warning.clone())?;
+        }
+        Ok(PySpectrum(spectrum, warnings))
     }
 
     /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of

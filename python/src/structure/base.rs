@@ -76,7 +76,8 @@ pub(crate) fn made<'py>(
         let copy = own.object(object.py());
         return Ok((Box::new(own), copy));
     }
-    Ok((recipe(object)?().or_raise()?, object.clone()))
+    let make = recipe(object)?;
+    Ok((object.py().detach(|| make()).or_raise()?, object.clone()))
 }
 
 /// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.

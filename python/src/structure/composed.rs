@@ -144,6 +144,7 @@ members! {
         ratios: Numbers,
         fixed_base: bool,
     ) = {
+        let py = structure.py();
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let own = structure().or_raise()?;
         let names = DofNames::of(&object, own.dofs())?;
@@ -151,7 +152,9 @@ members! {
         let damped = move |structure| {
             if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
         };
-        let frequencies = damped(own).or_raise()?.frequencies().to_vec();
+        // Modes of a large structure take seconds.
+        let frequencies = py.detach(|| damped(own).map(|own| own.frequencies().to_vec()));
+        let frequencies = frequencies.or_raise()?;
         let base = PyStructure::new(move || damped(structure()?)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
     };

@@ -1,0 +1,376 @@
+//! Complex numbers in the lanes of vector instructions.
+//!
+//! Where a number leaves the range of this arithmetic it becomes infinite or NaN, and the caller computes with
+//! [`Complex`].
+
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
+use std::f64::consts::{FRAC_1_PI, LOG2_E};
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::{Complex, Number, Simd};
+
+/// Most lanes of any instructions.
+const MOST: usize = 8;
+
+/// Complex number in each lane of a vector.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lanes<S: Simd> {
+    simd: S,
+    re: S::f64s,
+    im: S::f64s,
+}
+
+/// Added to a number below 2⁵¹, it rounds that to an integer, which is then in the lowest bits.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// Parts of π: the first two have 26 bits, so that products with integers up to 2²⁷ are exact.
+const PI_PARTS: [f64; 3] =
+    [3.141_592_621_803_283_7, 3.178_650_942_459_171_3e-8, 1.224_646_799_147_353_2e-16];
+/// Largest angle that is reduced exactly.
+const LARGEST_ANGLE: f64 = 1.0e8;
+/// Parts of ln 2: the first has 32 bits.
+const LN_2_PARTS: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
+/// Real parts below the first and above the second leave the range of the exponential.
+const EXPONENTS: [f64; 2] = [-708.0, 708.0];
+/// 1/k! from k = 0 up to 21: series end below rounding, e^x at |x| ≤ ½ ln 2 and the others at |x| ≤ π/2.
+const INVERSE_FACTORIALS: [f64; 22] = {
+    let mut values = [1.0; 22];
+    let mut k = 1;
+    while k < 22 {
+        values[k] = values[k - 1] / k as f64;
+        k += 1;
+    }
+    values
+};
+
+impl<S: Simd> Lanes<S> {
+    /// Number of lanes.
+    pub(crate) const COUNT: usize = S::F64_LANES;
+
+    /// Number `k` of `numbers` in lane k; the last one in lanes beyond.
+    #[inline(always)]
+    pub(crate) fn load(simd: S, numbers: &[Complex]) -> Self {
+        let last = numbers.len() - 1;
+        let (mut re, mut im) = ([0.0; MOST], [0.0; MOST]);
+        for k in 0..Self::COUNT {
+            let number = numbers[k.min(last)];
+            (re[k], im[k]) = (number.re, number.im);
+        }
+        let (re, im) = (&re[..Self::COUNT], &im[..Self::COUNT]);
+        Self { simd, re: S::as_simd_f64s(re).0[0], im: S::as_simd_f64s(im).0[0] }
+    }
+
+    /// Writes as many lanes as `numbers` has.
+    #[inline(always)]
+    pub(crate) fn store(self, numbers: &mut [Complex]) {
+        let (mut re, mut im) = ([0.0; MOST], [0.0; MOST]);
+        S::as_mut_simd_f64s(&mut re[..Self::COUNT]).0[0] = self.re;
+        S::as_mut_simd_f64s(&mut im[..Self::COUNT]).0[0] = self.im;
+        for (k, number) in numbers.iter_mut().enumerate().take(Self::COUNT) {
+            *number = Complex::new(re[k], im[k]);
+        }
+    }
+
+    #[inline(always)]
+    fn with(self, re: S::f64s, im: S::f64s) -> Self {
+        Self { simd: self.simd, re, im }
+    }
+
+    /// `x` where the mask is set, `y` elsewhere. What pulp has for numbers is not compiled for its caller, as is what it
+    /// has for bits.
+    #[inline(always)]
+    fn select(simd: S, mask: S::m64s, x: S::f64s, y: S::f64s) -> S::f64s {
+        let [x, y] = [simd.transmute_u64s_f64s(x), simd.transmute_u64s_f64s(y)];
+        simd.transmute_f64s_u64s(simd.select_u64s(mask, x, y))
+    }
+
+    #[inline(always)]
+    fn negative(simd: S, x: S::f64s) -> S::f64s {
+        let sign = simd.splat_u64s(1 << 63);
+        simd.transmute_f64s_u64s(simd.xor_u64s(simd.transmute_u64s_f64s(x), sign))
+    }
+
+    #[inline(always)]
+    fn absolute(simd: S, x: S::f64s) -> S::f64s {
+        let size = simd.splat_u64s(u64::MAX >> 1);
+        simd.transmute_f64s_u64s(simd.and_u64s(simd.transmute_u64s_f64s(x), size))
+    }
+
+    /// `size`, not negative, with the sign of `x`.
+    #[inline(always)]
+    fn with_sign(simd: S, size: S::f64s, x: S::f64s) -> S::f64s {
+        let sign = simd.and_u64s(simd.transmute_u64s_f64s(x), simd.splat_u64s(1 << 63));
+        simd.transmute_f64s_u64s(simd.or_u64s(simd.transmute_u64s_f64s(size), sign))
+    }
+
+    #[inline(always)]
+    fn square(self) -> S::f64s {
+        let simd = self.simd;
+        simd.add_f64s(simd.mul_f64s(self.re, self.re), simd.mul_f64s(self.im, self.im))
+    }
+
+    /// Σ x^k/(first + step k)!, up to 1/last!.
+    #[inline(always)]
+    fn series(simd: S, [first, step, last]: [usize; 3], x: S::f64s) -> S::f64s {
+        let mut sum = simd.splat_f64s(INVERSE_FACTORIALS[last]);
+        let mut k = last;
+        while k > first {
+            k -= step;
+            sum = simd.add_f64s(simd.mul_f64s(sum, x), simd.splat_f64s(INVERSE_FACTORIALS[k]));
+        }
+        sum
+    }
+
+    /// e^x; NaN above the range, and the least value below.
+    #[inline(always)]
+    fn real_exp(simd: S, x: S::f64s) -> S::f64s {
+        let splat = |value: f64| simd.splat_f64s(value);
+        let least = splat(EXPONENTS[0]);
+        let x = Self::select(simd, simd.less_than_f64s(x, least), least, x);
+        let shifted = simd.add_f64s(simd.mul_f64s(x, splat(LOG2_E)), splat(ROUND));
+        let n = simd.sub_f64s(shifted, splat(ROUND));
+        let mut r = x;
+        for part in LN_2_PARTS {
+            r = simd.sub_f64s(r, simd.mul_f64s(n, splat(part)));
+        }
+        let value = Self::series(simd, [0, 1, 13], r);
+        // 2ⁿ by its exponent.
+        let bits = simd.add_u64s(simd.transmute_u64s_f64s(shifted), simd.splat_u64s(1023));
+        let bits = simd.mul_u64s(bits, simd.splat_u64s(1 << 52));
+        let value = simd.mul_f64s(value, simd.transmute_f64s_u64s(bits));
+        Self::select(simd, simd.less_than_f64s(splat(EXPONENTS[1]), x), splat(f64::NAN), value)
+    }
+
+    /// cos x and sin x; NaN for angles that are too large.
+    #[inline(always)]
+    fn cosine_and_sine(simd: S, x: S::f64s) -> [S::f64s; 2] {
+        let splat = |value: f64| simd.splat_f64s(value);
+        let round = |x| simd.sub_f64s(simd.add_f64s(x, splat(ROUND)), splat(ROUND));
+        let n = round(simd.mul_f64s(x, splat(FRAC_1_PI)));
+        let mut r = x;
+        for part in PI_PARTS {
+            r = simd.sub_f64s(r, simd.mul_f64s(n, splat(part)));
+        }
+        let is_large = simd.less_than_f64s(splat(LARGEST_ANGLE), Self::absolute(simd, x));
+        let r = Self::select(simd, is_large, splat(f64::NAN), r);
+        let square = Self::negative(simd, simd.mul_f64s(r, r));
+        // −1 for odd n: 1 − 4 |n/2 − round(n/2)|.
+        let half = simd.mul_f64s(n, splat(0.5));
+        let odd = Self::absolute(simd, simd.sub_f64s(half, round(half)));
+        let sign = simd.sub_f64s(splat(1.0), simd.mul_f64s(odd, splat(4.0)));
+        let cosine = Self::series(simd, [0, 2, 20], square);
+        let sine = simd.mul_f64s(r, Self::series(simd, [1, 2, 21], square));
+        [simd.mul_f64s(cosine, sign), simd.mul_f64s(sine, sign)]
+    }
+}
+
+impl<S: Simd> Add for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let simd = self.simd;
+        self.with(simd.add_f64s(self.re, other.re), simd.add_f64s(self.im, other.im))
+    }
+}
+
+impl<S: Simd> Sub for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        let simd = self.simd;
+        self.with(simd.sub_f64s(self.re, other.re), simd.sub_f64s(self.im, other.im))
+    }
+}
+
+impl<S: Simd> Mul for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let simd = self.simd;
+        let [a, b, c, d] = [self.re, self.im, other.re, other.im];
+        let re = simd.sub_f64s(simd.mul_f64s(a, c), simd.mul_f64s(b, d));
+        self.with(re, simd.add_f64s(simd.mul_f64s(a, d), simd.mul_f64s(b, c)))
+    }
+}
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.with(Self::negative(self.simd, self.re), Self::negative(self.simd, self.im))
+    }
+}
+
+impl<S: Simd> Number for Lanes<S> {
+    #[inline(always)]
+    fn like(self, value: Complex) -> Self {
+        self.with(self.simd.splat_f64s(value.re), self.simd.splat_f64s(value.im))
+    }
+
+    #[inline(always)]
+    fn scale(self, factor: f64) -> Self {
+        let (simd, factor) = (self.simd, self.simd.splat_f64s(factor));
+        self.with(simd.mul_f64s(self.re, factor), simd.mul_f64s(self.im, factor))
+    }
+
+    #[inline(always)]
+    fn inverse(self) -> Self {
+        let (simd, square) = (self.simd, self.square());
+        // Not finite if the square is zero or infinite.
+        let scale = simd.div_f64s(simd.splat_f64s(1.0), square);
+        let scale = simd.add_f64s(scale, simd.mul_f64s(square, simd.splat_f64s(0.0)));
+        self.with(
+            simd.mul_f64s(self.re, scale),
+            Self::negative(simd, simd.mul_f64s(self.im, scale)),
+        )
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let simd = self.simd;
+        let half = simd.splat_f64s(0.5);
+        let size = simd.add_f64s(simd.sqrt_f64s(self.square()), Self::absolute(simd, self.re));
+        let large = simd.sqrt_f64s(simd.mul_f64s(half, size));
+        // NaN at zero.
+        let small = simd.div_f64s(simd.mul_f64s(half, self.im), large);
+        let is_left = simd.less_than_f64s(self.re, simd.splat_f64s(0.0));
+        self.with(
+            Self::select(simd, is_left, Self::absolute(simd, small), large),
+            Self::select(simd, is_left, Self::with_sign(simd, large, self.im), small),
+        )
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        let simd = self.simd;
+        let size = Self::real_exp(simd, self.re);
+        let [cosine, sine] = Self::cosine_and_sine(simd, self.im);
+        self.with(simd.mul_f64s(size, cosine), simd.mul_f64s(size, sine))
+    }
+
+    #[inline(always)]
+    fn at_least(self, least: Self) -> Self {
+        let simd = self.simd;
+        let is_less = simd.less_than_f64s(self.square(), least.square());
+        self.with(
+            Self::select(simd, is_less, least.re, self.re),
+            Self::select(simd, is_less, least.im, self.im),
+        )
+    }
+
+    #[inline(always)]
+    fn negated_where_negative(self, other: Self, fraction: f64) -> Self {
+        let simd = self.simd;
+        let size = simd.sqrt_f64s(other.square());
+        let limit = simd.mul_f64s(size, simd.splat_f64s(-fraction));
+        let is_negative = simd.less_than_f64s(other.re, limit);
+        self.with(
+            Self::select(simd, is_negative, Self::negative(simd, self.re), self.re),
+            Self::select(simd, is_negative, Self::negative(simd, self.im), self.im),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{WithSimd, vectorized};
+    use super::*;
+
+    /// A function of one number, written for lanes and for single ones.
+    trait Function {
+        fn of<C: Number>(&self, x: C) -> C;
+    }
+
+    struct Each<'a, F>(&'a F, &'a [Complex]);
+
+    impl<F: Function> WithSimd for Each<'_, F> {
+        type Output = Vec<Complex>;
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> Vec<Complex> {
+            let mut found = vec![Complex::default(); self.1.len()];
+            let count = Lanes::<S>::COUNT;
+            for (numbers, found) in self.1.chunks(count).zip(found.chunks_mut(count)) {
+                self.0.of(Lanes::load(simd, numbers)).store(found);
+            }
+            found
+        }
+    }
+
+    /// Results in the widest lanes, in single ones, and as complex numbers.
+    fn each(function: &impl Function, numbers: &[Complex]) -> [Vec<Complex>; 3] {
+        [
+            vectorized(Each(function, numbers)),
+            Each(function, numbers).with_simd(pulp::Scalar::new()),
+            numbers.iter().map(|x| function.of(*x)).collect(),
+        ]
+    }
+
+    struct Arithmetic;
+
+    impl Function for Arithmetic {
+        fn of<C: Number>(&self, x: C) -> C {
+            let other = x.like(Complex::new(0.3, -1.7));
+            let root = (x * x + other).sqrt() - x.scale(3.3);
+            let floored = root.at_least(x.like_real(2.0)).inverse();
+            floored.negated_where_negative(x, 1e-12) - other.sqrt()
+        }
+    }
+
+    struct Exponential;
+
+    impl Function for Exponential {
+        fn of<C: Number>(&self, x: C) -> C {
+            x.exp()
+        }
+    }
+
+    struct Inverse;
+
+    impl Function for Inverse {
+        fn of<C: Number>(&self, x: C) -> C {
+            x.inverse()
+        }
+    }
+
+    fn spread(sizes: &[f64]) -> Vec<Complex> {
+        let angle = |k: usize| 0.1 + 0.613 * k as f64;
+        let one = |k: usize| Complex::polar(sizes[k % sizes.len()], angle(k));
+        (0..40 * sizes.len()).map(one).collect()
+    }
+
+    /// Against the arithmetic of single numbers and the functions of the standard library.
+    #[test]
+    fn lanes_compute_as_single_numbers() {
+        let numbers = spread(&[1e-3, 1.0, 7.0, 1e5, 1e12]);
+        let [wide, single, wanted] = each(&Arithmetic, &numbers);
+        for (k, wanted) in wanted.iter().enumerate() {
+            for found in [wide[k], single[k]] {
+                assert!((found - *wanted).abs() <= 4e-15 * wanted.abs(), "{:?}", numbers[k]);
+            }
+        }
+        // Pure decay and pure rotation, and both; quarters of a turn.
+        let mut numbers = spread(&[1e-9, 0.3, 1.0, 20.0, 300.0, 700.0]);
+        let quarter = std::f64::consts::FRAC_PI_4;
+        numbers.extend((-400..400).map(|k| Complex::new(0.0, quarter * f64::from(k))));
+        numbers.extend((0..400).map(|k| Complex::new(-0.5, 2.47e5 * f64::from(k))));
+        numbers.extend((0..400).map(|k| Complex::new(-1.8 * f64::from(k), 1e-3)));
+        let [wide, single, wanted] = each(&Exponential, &numbers);
+        for (k, wanted) in wanted.iter().enumerate() {
+            for found in [wide[k], single[k]] {
+                let slack = 1e-15 * wanted.abs() + 1e-307;
+                assert!((found - *wanted).abs() <= slack, "{:?} {found:?}", numbers[k]);
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_out_of_range_are_not_finite() {
+        let beyond = [0.0, 1e-200, 1e200].map(Complex::real);
+        let [wide, single, _] = each(&Inverse, &beyond);
+        assert!(wide.iter().chain(&single).all(|x| !x.is_finite()), "{wide:?}");
+        let beyond = [[0.0, 1e9], [800.0, 1.0], [f64::NAN, 1.0], [0.0, f64::INFINITY]];
+        let [wide, single, _] = each(&Exponential, &beyond.map(|[re, im]| Complex::new(re, im)));
+        assert!(wide.iter().chain(&single).all(|x| !x.is_finite()), "{wide:?}");
+    }
+}

@@ -1,0 +1,295 @@
+//! Iteration for strain-compatible properties of a soil column.
+
+use std::sync::Arc;
+
+use super::pace::Pace;
+use super::site_motion::SiteMotion;
+use super::soil_column::SoilColumn;
+use super::transform::Transform;
+use super::vertical::{ControlPoint, Sought, VerticalWave};
+use crate::error::{Error, LayeredError, Result, SiteError, Watch, positive, require};
+use crate::motion::Record;
+use crate::soil::{
+    Base, GeneralizedMaxwell, Hysteretic, Relaxation, Resolved, Soil, SoilLayer, SoilProfile,
+    StrainCurves,
+};
+
+/// Effective strain that stands for none.
+const LEAST_STRAIN: f64 = 1e-12;
+/// Damping ratio from which the modulus by its magnitude has an imaginary part almost as large as laws may have.
+const MOST_DAMPED: f64 = 0.52;
+/// Least and largest relaxation factor.
+const FACTORS: [f64; 2] = [0.3, 20.0];
+
+/// Options of [`SoilColumn::equivalent_linear`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EquivalentLinearOptions {
+    /// Place at which the motion is given.
+    pub control: ControlPoint,
+    /// Effective strain over the largest, at most 1.
+    pub strain_ratio: f64,
+    /// Largest relative change of a modulus or damping ratio by all further iterations, as estimated, that passes for
+    /// none.
+    pub tolerance: f64,
+    /// Most iterations, at least 1.
+    pub most_iterations: usize,
+    /// Frequencies (Hz) over which the damping of the resulting profile is constant.
+    pub band: [f64; 2],
+    /// Complex modulus of the layers by their shear modulus and damping ratio.
+    pub complex_modulus: ComplexModulus,
+}
+
+/// Complex modulus of a layer by its shear modulus G and damping ratio ξ.
+///
+/// The two differ by 2ξ² in the stiffness, so that surface peaks differ by per cents from about 10 % of damping on.
+/// Comparisons with another program need its convention.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum ComplexModulus {
+    /// G(1 + 2iξ): its real part is G, as in SHAKE (Schnabel, Lysmer & Seed 1972).
+    #[default]
+    RealPart,
+    /// G(1 − 2ξ² + 2iξ√(1 − ξ²)): its magnitude is G, as in SHAKE91 (Idriss & Sun 1992). ξ must be below 0.52.
+    Magnitude,
+}
+
+impl ComplexModulus {
+    /// Modulus G' and damping ratio ξ' with which G'(1 + 2iξ') is the complex modulus of a layer, counted from 0.
+    fn real_part_and_ratio(self, index: usize, [modulus, damping]: [f64; 2]) -> Result<[f64; 2]> {
+        if self == Self::RealPart {
+            return Ok([modulus, damping]);
+        }
+        if damping >= MOST_DAMPED {
+            let (layer, quantity) = (index + 1, "strain-compatible damping ratio");
+            let needed = "below 0.52 for a complex modulus by its magnitude";
+            return Err(SiteError::Layer { layer, quantity, value: damping, needed }.into());
+        }
+        let square = damping * damping;
+        let real = 1.0 - 2.0 * square;
+        Ok([modulus * real, damping * (1.0 - square).sqrt() / real])
+    }
+}
+
+/// The rock's outcrop, 0.65 of the largest strain, 1e-3 in at most 50 iterations, 0.1 to 30 Hz, G(1 + 2iξ).
+impl Default for EquivalentLinearOptions {
+    fn default() -> Self {
+        let (control, band) = (ControlPoint::Outcrop, [0.1, 30.0]);
+        let complex_modulus = ComplexModulus::RealPart;
+        Self {
+            control,
+            strain_ratio: 0.65,
+            tolerance: 1e-3,
+            most_iterations: 50,
+            band,
+            complex_modulus,
+        }
+    }
+}
+
+impl EquivalentLinearOptions {
+    /// The default with the strain ratio (M − 1)/10 of a `magnitude` M (Idriss & Sun 1992).
+    pub fn of_magnitude(magnitude: f64) -> Self {
+        Self { strain_ratio: 0.1 * (magnitude - 1.0), ..Self::default() }
+    }
+
+    fn check(&self) -> Result<()> {
+        let (ratio, most) = (self.strain_ratio, self.most_iterations);
+        let needed = "above 0 and at most 1 (a magnitude above 1 and at most 11)";
+        require("effective strain ratio", ratio, ratio > 0.0 && ratio <= 1.0, needed)?;
+        require("most iterations of a site", most as f64, most > 0, "at least 1")?;
+        positive("tolerance of strain-compatible properties", self.tolerance)?;
+        GeneralizedMaxwell::constant_q(0.0, self.band, self.band[0]).map(drop)
+    }
+}
+
+impl SoilColumn {
+    /// The profile with these modulus ratios and damping ratios, by a damping law of the ratio.
+    pub(super) fn compatible<L: Relaxation + 'static>(
+        &self,
+        properties: &[[f64; 2]],
+        complex_modulus: ComplexModulus,
+        law: impl Fn(f64) -> Result<L>,
+    ) -> Result<SoilProfile> {
+        let layer = |(k, (layer, [modulus, damping])): (usize, (&SoilLayer, &[f64; 2]))| {
+            let SoilLayer { soil, thickness, .. } = layer;
+            let [modulus, damping] =
+                complex_modulus.real_part_and_ratio(k, [*modulus, *damping])?;
+            let made = Soil::new(modulus * soil.shear_modulus(), soil.poisson(), soil.density());
+            let made = made.and_then(|soil| Ok((soil, law(damping)?)));
+            let (soil, damping) = made.map_err(|error| of_layer(k, error))?;
+            Ok(SoilLayer { soil, thickness: *thickness, damping: Arc::new(damping) })
+        };
+        let layers = self.profile.layers().iter().zip(properties).enumerate().map(layer);
+        SoilProfile::new(layers.collect::<Result<_>>()?, self.profile.base().clone())
+    }
+}
+
+/// Input of an iteration: column, motion, curves of its layers and options.
+pub(super) struct Iteration<'a> {
+    column: &'a SoilColumn,
+    motion: &'a Record,
+    pub(super) curves: Vec<Resolved>,
+    options: &'a EquivalentLinearOptions,
+    /// Spectrum of the motion, on the contour of the last linear calculation.
+    transform: Option<Transform>,
+}
+
+/// Modulus ratio and damping ratio of each layer, and the largest strains with them.
+pub(super) struct Converged {
+    pub(super) properties: Vec<[f64; 2]>,
+    pub(super) strains: Vec<f64>,
+    pub(super) iterations: usize,
+    pub(super) last_change: f64,
+}
+
+impl<'a> Iteration<'a> {
+    pub(super) fn new(
+        column: &'a SoilColumn,
+        motion: &'a Record,
+        curves: &[StrainCurves],
+        options: &'a EquivalentLinearOptions,
+    ) -> Result<Self> {
+        options.check()?;
+        if column.wave != VerticalWave::Shear {
+            return Err(SiteError::PressureWaves.into());
+        }
+        let layers = column.profile.layers().len();
+        if curves.len() != layers {
+            return Err(SiteError::Curves { curves: curves.len(), layers }.into());
+        }
+        let base = column.profile.base();
+        let reflects = matches!(base, Base::Rigid) || options.control == ControlPoint::Within;
+        let resolved = |(index, curves): (usize, &StrainCurves)| {
+            let resolved = curves.resolved().map_err(|error| of_layer(index, error))?;
+            if reflects && resolved.at(0.0)[1] == 0.0 {
+                let (quantity, layer) = ("damping ratio at small strain", index + 1);
+                let needed = "above 0 on a rigid base or under a motion within: nothing leaves";
+                return Err(SiteError::Layer { layer, quantity, value: 0.0, needed }.into());
+            }
+            Ok(resolved)
+        };
+        let curves = curves.iter().enumerate().map(resolved).collect::<Result<_>>()?;
+        Ok(Self { column, motion, curves, options, transform: None })
+    }
+
+    /// Modulus ratios and damping ratios at the logarithms of effective strains.
+    fn read(&self, logs: &[f64]) -> Vec<[f64; 2]> {
+        self.curves.iter().zip(logs).map(|(curves, log)| curves.at(log.exp())).collect()
+    }
+
+    /// Spectra in the linear column with these properties.
+    fn inside(
+        &mut self,
+        properties: &[[f64; 2]],
+        sought: Sought,
+        pace: &mut Pace<'_, '_>,
+    ) -> Result<&mut Transform> {
+        let profile =
+            self.column.compatible(properties, self.options.complex_modulus, Hysteretic::new)?;
+        let column = SoilColumn { profile, wave: self.column.wave };
+        let (step, samples) = (self.motion.time_step(), self.motion.accelerations());
+        let contour = column.contour(step, samples.len())?;
+        let transform = match self.transform.take() {
+            Some(own) if *own.contour() == contour => own,
+            _ => Transform::new(contour, samples)?,
+        };
+        let transform = self.transform.insert(transform);
+        column.inside(sought, self.options.control, transform, pace)?;
+        Ok(transform)
+    }
+
+    /// Largest strains of the layers with these properties.
+    fn strains(&mut self, properties: &[[f64; 2]], pace: &mut Pace<'_, '_>) -> Result<Vec<f64>> {
+        let count = properties.len();
+        let transform = self.inside(properties, Sought::Strains, pace)?;
+        let mut strains = Vec::with_capacity(count);
+        for k in 0..count {
+            strains.push(transform.peak(k)?);
+            pace.reach(0.5 + 0.5 * (k + 1) as f64 / count as f64)?;
+        }
+        Ok(strains)
+    }
+
+    /// Motion of the surface, and accelerations of the tops of layers and base, as long as the motion that is given.
+    pub(super) fn accelerations(
+        &mut self,
+        properties: &[[f64; 2]],
+        pace: &mut Pace<'_, '_>,
+    ) -> Result<(SiteMotion, Vec<Vec<f64>>)> {
+        let samples = self.motion.len();
+        let transform = self.inside(properties, Sought::Accelerations, pace)?;
+        let mut surface = transform.motion(0)?;
+        surface.cut(samples);
+        let mut accelerations = vec![surface.samples.clone()];
+        for k in 1..=properties.len() {
+            accelerations.push(transform.samples(k)?);
+            pace.reach(0.5 + 0.5 * k as f64 / properties.len() as f64)?;
+        }
+        Ok((surface, accelerations))
+    }
+
+    /// Iterates the moduli and damping ratios, beginning at small strain.
+    pub(super) fn converged(&mut self, watch: &mut Watch<'_>) -> Result<Converged> {
+        let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
+            *self.options;
+        let mut logs = vec![f64::NEG_INFINITY; self.curves.len()];
+        let (mut properties, mut aitken) = (self.read(&logs), Aitken::default());
+        let mut iterations = 0;
+        loop {
+            let strains = self.strains(&properties, &mut Pace::part(watch, iterations))?;
+            iterations += 1;
+            let log = |strain: &f64| (strain_ratio * strain).max(LEAST_STRAIN).ln();
+            let found: Vec<f64> = strains.iter().map(log).collect();
+            logs = if iterations == 1 { found.clone() } else { aitken.next(&logs, &found) };
+            let [plain, next] = [self.read(&found), self.read(&logs)];
+            let changes = [plain, next.clone()].map(|other| largest_change(&properties, &other));
+            let last_change = changes[0].max(changes[1]);
+            if last_change <= tolerance || iterations == most_iterations {
+                return Ok(Converged { properties, strains, iterations, last_change });
+            }
+            properties = next;
+        }
+    }
+}
+
+/// Fixed-point iteration with one relaxation factor, from the last two residuals (Irons & Tuck 1969): about 1/(1 − ρ)
+/// where each iteration leaves the share ρ of the distance, so that its step is an estimate of all that is left.
+#[derive(Debug, Default)]
+struct Aitken {
+    residual: Vec<f64>,
+    factor: f64,
+}
+
+impl Aitken {
+    /// Next argument after `old`, whose image is `new`.
+    fn next(&mut self, old: &[f64], new: &[f64]) -> Vec<f64> {
+        let residual: Vec<f64> = old.iter().zip(new).map(|(old, new)| new - old).collect();
+        let pairs =
+            || self.residual.iter().zip(&residual).map(|(before, now)| [*before, now - before]);
+        let [along, size] = pairs().fold([0.0; 2], |[a, b], [r, d]| [a + r * d, b + d * d]);
+        let factor = -self.factor * along / size;
+        // Without a residual before, or if the last step went astray: a plain step.
+        self.factor = if factor > 0.0 { factor.clamp(FACTORS[0], FACTORS[1]) } else { 1.0 };
+        let next = old.iter().zip(&residual).map(|(old, r)| old + self.factor * r).collect();
+        self.residual = residual;
+        next
+    }
+}
+
+/// Largest change of a modulus or damping ratio, relative to the new one.
+fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
+    let pairs = old.as_flattened().iter().zip(new.as_flattened());
+    let changes = pairs.map(|(old, new)| if old == new { 0.0 } else { (new - old).abs() / new });
+    changes.fold(0.0, f64::max)
+}
+
+/// An error with its layer, counted from 0; that of a damping ratio which no law fits, as one of the layer.
+fn of_layer(index: usize, error: Error) -> Error {
+    let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
+        return SiteError::of_layer(index, error);
+    };
+    let quantity = "strain-compatible damping ratio";
+    let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
+    SiteError::Layer { layer: index + 1, quantity, value: ratio, needed }.into()
+}

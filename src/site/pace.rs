@@ -1,0 +1,31 @@
+//! Progress of a part of a watched call.
+
+use crate::error::{Result, Watch};
+
+/// One of the equal parts of a call through a site, as its observer counts them.
+pub(super) struct Pace<'p, 'w> {
+    watch: &'p mut Watch<'w>,
+    begin: usize,
+}
+
+impl<'p, 'w> Pace<'p, 'w> {
+    /// Parts that an observer counts for each.
+    pub(super) const PARTS: usize = 1000;
+
+    /// A call that is one part.
+    pub(super) fn whole(watch: &'p mut Watch<'w>) -> Self {
+        Self::part(watch, 0)
+    }
+
+    /// Part of this number, from 0.
+    pub(super) fn part(watch: &'p mut Watch<'w>, number: usize) -> Self {
+        Self { watch, begin: number.saturating_mul(Self::PARTS) }
+    }
+
+    /// Says which fraction of the part is done.
+    pub(super) fn reach(&mut self, fraction: f64) -> Result<()> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
+        let done = (Self::PARTS as f64 * fraction.clamp(0.0, 1.0)) as usize;
+        self.watch.reach(self.begin.saturating_add(done))
+    }
+}

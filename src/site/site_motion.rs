@@ -1,0 +1,110 @@
+//! Motion that went through a site.
+
+use std::fmt;
+
+use super::SiteWarning;
+use crate::linalg::largest;
+
+/// Ratio of a motion to the one that was given above which it counts as amplified.
+pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
+
+/// A motion that went through a site, at the times of the one that was given, and the sizes of what
+/// its samples do not hold.
+///
+/// Motions are taken to be zero outside their samples, so what is cut off here is missing on the way
+/// back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record with quiet
+/// time around it goes through a site and returns to 1e-9 of its peak, whatever its frequencies, if
+/// [`SiteMotion::is_whole`] on both ways.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct SiteMotion {
+    /// Samples of the motion.
+    pub samples: Vec<f64>,
+    /// Largest sample before the first one, cut off: on the way down motion comes earlier.
+    pub before: f64,
+    /// Largest sample after the last one, cut off: what is still on its way.
+    pub after: f64,
+    /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt, where layers
+    /// delay by whole time steps: the error of that, which is at most half a step from the surface to
+    /// any depth, to a factor of four.
+    pub near_nyquist: f64,
+    /// Rounding, estimated: large if damped layers amplify high frequencies on the way down.
+    pub rounding: f64,
+    /// Lowest frequency (Hz) at which the motion is more than a hundred times the given one, if most of its energy comes
+    /// from such frequencies: see [`SiteMotion::warning`].
+    pub amplified_from: Option<f64>,
+}
+
+impl SiteMotion {
+    /// Fraction of the peak below which motion counts as rest.
+    pub const LIMIT: f64 = 1e-9;
+
+    /// Largest sample.
+    pub fn peak(&self) -> f64 {
+        largest(&self.samples)
+    }
+
+    /// Whether nothing above [`SiteMotion::LIMIT`] of the peak is cut off or rounded away.
+    pub fn is_whole(&self) -> bool {
+        self.before.max(self.after).max(self.rounding) <= Self::LIMIT * self.peak()
+    }
+
+    /// Warning that the motion is mostly amplification: on the way down through soft, damped soil noise at high
+    /// frequencies becomes more than the motion. Practice removes it before ([`Record::low_pass`], as a rule at 15 to
+    /// 25 Hz), or softens the demand on the soil model.
+    ///
+    /// [`Record::low_pass`]: crate::motion::Record::low_pass
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
+    /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+    /// let rock = Soil::from_shear_wave_speed(760.0, 0.25, 2200.0)?;
+    /// let profile = SoilProfile::on_half_plane(rock)
+    ///     .with_layer(Soil::from_shear_wave_speed(100.0, 0.4, 1700.0)?, 60.0)?
+    ///     .with_damping(GeneralizedMaxwell::constant_q(0.1, [0.2, 30.0], 1.0)?);
+    /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
+    /// let record = el_centro_1940().padded(10.0, 20.0)?;
+    /// let down = |record: &basemat::motion::Record| {
+    ///     column.from_surface(ControlPoint::Outcrop, record.time_step(), record.accelerations())
+    /// };
+    /// let found = down(&record)?;
+    /// assert!(found.warning().is_some() && found.peak() > 100.0);
+    /// let found = down(&record.low_pass(4.0, 8)?)?;
+    /// assert!(found.warning().is_none() && found.peak() < 20.0);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn warning(&self) -> Option<SiteWarning> {
+        self.amplified_from.map(|frequency| SiteWarning::Amplified { frequency })
+    }
+
+    /// Number of samples up to the last one that is something.
+    pub(super) fn duration(&self) -> usize {
+        let least = Self::LIMIT * self.peak();
+        self.samples.iter().rposition(|x| x.abs() > least).map_or(0, |last| last + 1)
+    }
+
+    /// Leaves `count` samples.
+    pub(super) fn cut(&mut self, count: usize) {
+        let count = count.min(self.samples.len());
+        self.after = largest(&self.samples[count..]);
+        self.samples.truncate(count);
+    }
+}
+
+/// Sizes relative to the peak.
+impl fmt::Display for SiteMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let peak = self.peak();
+        write!(
+            f,
+            "peak {peak:.3e}; of that cut off before {:.1e}, after {:.1e}, near the highest frequency \
+             {:.1e}, rounding {:.1e}",
+            self.before / peak,
+            self.after / peak,
+            self.near_nyquist / peak,
+            self.rounding / peak
+        )
+    }
+}

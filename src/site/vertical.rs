@@ -1,0 +1,203 @@
+//! Waves up and down a soil column, as in SHAKE (Schnabel, Lysmer & Seed 1972).
+//!
+//! Each layer carries Aⱼ e^(κz) up and Bⱼ e^(−κz) down, κ = s/c. With A₁ = B₁ = 1 at the free surface and
+//! the impedance ratio aⱼ = √(ρⱼMⱼ/(ρⱼ₊₁Mⱼ₊₁)),
+//!
+//! Aⱼ₊₁ = ½ Aⱼ(1+aⱼ) e^(κh) + ½ Bⱼ(1−aⱼ) e^(−κh),   Bⱼ₊₁ = ½ Aⱼ(1−aⱼ) e^(κh) + ½ Bⱼ(1+aⱼ) e^(−κh)
+//!
+//! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2. Amplitudes are computed without
+//! the factor e^(Σκh) of the layers above, which may leave the range of f64.
+
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
+use super::sampled::{At, Functions, Highest};
+use crate::error::Result;
+use crate::linalg::{Complex, Number};
+use crate::soil::{Base, Soil, SoilProfile};
+
+/// Kind of wave that travels along a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum VerticalWave {
+    /// Shear waves: horizontal motion.
+    #[default]
+    Shear,
+    /// Pressure waves: vertical motion.
+    Pressure,
+}
+
+/// Place to which a motion at depth belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum ControlPoint {
+    /// The surface of the base where no layers cover it: rock outcrop.
+    #[default]
+    Outcrop,
+    /// The base under the layers, with what they send back. The same as the outcrop if it is rigid.
+    Within,
+}
+
+/// Functions of s of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sought {
+    /// Control motion by surface motion without its factor e^x, and x.
+    Inverse,
+    /// Acceleration at the tops of all layers and of the base, by the control motion.
+    Accelerations,
+    /// Strain in the middle of all layers, by the control motion's acceleration.
+    Strains,
+}
+
+/// Functions of a profile for one kind of wave, whose layers may be as sampled motions see them.
+#[derive(Debug)]
+pub(super) struct Column<'a> {
+    profile: &'a SoilProfile,
+    /// Soils from the surface down: density, and M/(μρ) of the wave's stiffness M.
+    soils: Vec<[f64; 2]>,
+    control: ControlPoint,
+    sought: Sought,
+    highest: Highest<1>,
+}
+
+impl<'a> Column<'a> {
+    /// Functions of layers as they are.
+    pub(super) fn exact(
+        profile: &'a SoilProfile,
+        wave: VerticalWave,
+        control: ControlPoint,
+        sought: Sought,
+    ) -> Self {
+        let stiffness = |soil: Soil| match wave {
+            VerticalWave::Shear => 1.0,
+            VerticalWave::Pressure => 1.0 / soil.speed_ratio_squared(),
+        };
+        let of = |soil: Soil| [soil.density(), stiffness(soil) / soil.density()];
+        let soils = profile.soils().map(|(soil, _)| of(soil)).collect();
+        Self { profile, soils, control, sought, highest: Highest::default() }
+    }
+
+    /// These functions with layers as samples see them on a contour that ends at s = `end`.
+    pub(super) fn sampled(self, end: Complex) -> Result<Self> {
+        let travel = |index: usize, modulus| [self.travel(index, end, self.speed(index, modulus))];
+        Ok(Self { highest: Highest::new(self.profile, end, travel)?, ..self })
+    }
+
+    #[inline(always)]
+    fn speed<C: Number>(&self, index: usize, modulus: C) -> [C; 2] {
+        let speed = modulus.scale(self.soils[index][1]).sqrt();
+        [speed, speed.inverse()]
+    }
+
+    #[inline(always)]
+    fn travel<C: Number>(&self, index: usize, s: C, [_, slowness]: [C; 2]) -> C {
+        s.scale(self.profile.layers()[index].thickness) * slowness
+    }
+
+    /// Waves (up, down) below an interface by those above it, whose impedance is `above`.
+    #[inline(always)]
+    fn cross<C: Number>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
+        let sum = (up + down).scale(0.5);
+        let difference = (up - down).scale(0.5) * above * below;
+        [sum + difference, sum - difference]
+    }
+}
+
+impl Functions for Column<'_> {
+    /// Waves up and down at the top of a layer, its travel κh and e^(−κh/2).
+    type Kept<C: Number> = [C; 4];
+
+    fn profile(&self) -> &SoilProfile {
+        self.profile
+    }
+
+    fn count(&self) -> usize {
+        let layers = self.profile.layers().len();
+        match self.sought {
+            Sought::Inverse => 2,
+            Sought::Accelerations => layers + 1,
+            Sought::Strains => layers,
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate<C: Number>(
+        &self,
+        at: &At<C>,
+        moduli: &[C],
+        kept: &mut Vec<[C; 4]>,
+        found: &mut [C],
+    ) {
+        kept.clear();
+        let [none, one] = [at.s.like_real(0.0), at.s.like_real(1.0)];
+        let (mut waves, mut total) = ([one; 2], none);
+        let mut above: Option<C> = None;
+        let layers = self.profile.layers().len();
+        for (index, modulus) in moduli.iter().enumerate() {
+            let speeds = self.speed(index, *modulus);
+            let mut now = speeds;
+            let is_layer = index < layers;
+            let mut travel = none;
+            if is_layer {
+                travel = self.travel(index, at.s, speeds);
+            }
+            if at.is_near() {
+                now = self.speed(index, self.highest.modulus(index, at, *modulus));
+                if is_layer {
+                    [travel] = self.highest.travels(index, at, [travel]);
+                }
+            }
+            let [speed, slowness] = now;
+            let density = self.soils[index][0];
+            if let Some(above) = above {
+                waves = Self::cross(waves, above, slowness.scale(1.0 / density));
+            }
+            above = Some(speed.scale(density));
+            if !is_layer {
+                break;
+            }
+            let [up, down] = waves;
+            total = total + travel;
+            let both = if self.sought == Sought::Inverse {
+                travel.scale(-2.0).exp()
+            } else {
+                let half = travel.scale(-0.5).exp();
+                kept.push([up, down, travel, half]);
+                let once = half * half;
+                once * once
+            };
+            waves = [up, down * both];
+        }
+        let [up, down] = waves;
+        // A rigid base moves as the layer's bottom does.
+        let is_outcrop = self.control == ControlPoint::Outcrop
+            && matches!(self.profile.base(), Base::HalfPlane { .. });
+        let value = if is_outcrop { up } else { (up + down).scale(0.5) };
+        let mut decay = value.inverse().scale(0.5);
+        match self.sought {
+            Sought::Inverse => {
+                found[0] = value;
+                found[1] = total;
+            }
+            Sought::Accelerations => {
+                found[layers] = (up + down) * decay;
+                for (found, [up, down, _, half]) in found.iter_mut().zip(&*kept).rev() {
+                    decay = decay * *half * *half;
+                    *found = (*up + *down) * decay;
+                }
+            }
+            Sought::Strains => {
+                let square = (at.s * at.s).inverse();
+                let sizes = self.profile.layers().iter().zip(&*kept);
+                for (found, (layer, [up, down, travel, half])) in found.iter_mut().zip(sizes).rev()
+                {
+                    decay = decay * *half;
+                    let wavenumber = travel.scale(1.0 / layer.thickness) * square;
+                    *found = (*up - *down * *half * *half) * wavenumber * decay;
+                    decay = decay * *half;
+                }
+            }
+        }
+    }
+}
