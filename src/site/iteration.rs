@@ -284,7 +284,7 @@ fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// An error with its layer, counted from 0; that of a damping ratio which no law fits, as one of the layer.
+/// An error with its layer, counted from 0; a damping ratio that no law fits becomes an error of the layer.
 fn of_layer(index: usize, error: Error) -> Error {
     let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
         return SiteError::of_layer(index, error);

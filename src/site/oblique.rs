@@ -29,7 +29,7 @@ pub(super) enum Kind {
     Sh,
 }
 
-/// Motion of the surface, horizontal and up, by that of the control point.
+/// Motion of the surface, horizontal and up, for a unit motion of the control point.
 pub(super) struct Surface<'a> {
     profile: &'a SoilProfile,
     base: Soil,

@@ -134,7 +134,7 @@ pub(super) trait Functions {
     }
 }
 
-/// Overwrites `found` with the functions at the places: all numbers of the first function, then those of the next.
+/// Overwrites `found` with the functions at the places: all numbers of the first function, then all of the next.
 pub(super) fn evaluate(
     functions: &impl Functions,
     places: &[Place],

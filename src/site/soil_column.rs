@@ -63,7 +63,7 @@ impl SoilColumn {
         Ok(upwards(found[0], found[1]))
     }
 
-    /// Motion of the surface by that of `control` for e^(iωt) at each of `frequencies` (Hz), with an observer; quicker
+    /// Motion of the surface for a unit motion e^(iωt) of `control` at each of `frequencies` (Hz), with an observer; quicker
     /// than [`transfer`](SoilColumn::transfer) for each.
     ///
     /// ```

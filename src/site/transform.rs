@@ -136,7 +136,7 @@ impl Contour {
     }
 }
 
-/// Spectrum of a motion along a contour, and those of the motions that functions of s make of it.
+/// Spectrum of a motion along a contour, and the spectra of its products with functions of s.
 pub(super) struct Transform {
     contour: Contour,
     /// Number of samples of the motion.
@@ -244,7 +244,7 @@ impl Transform {
         Ok(())
     }
 
-    /// Samples of motion `k`, as many as those of the motion that was given; to be called once.
+    /// Samples of motion `k`, as many as the given motion has; to be called once.
     pub(super) fn samples(&mut self, k: usize) -> Result<Vec<f64>> {
         self.invert(k)?;
         let own = self.values[..self.samples].iter().enumerate();

@@ -239,7 +239,7 @@ impl SoilProfile {
         Ok(())
     }
 
-    /// Overwrites `moduli` with the complex shear moduli μ(s) at each of `s`, Pa: those of the first soil, then those
+    /// Overwrites `moduli` with the complex shear moduli μ(s) at each of `s`, Pa: all moduli of the first soil, then all
     /// of the next one down.
     pub(crate) fn moduli_at(&self, s: &[Complex], moduli: &mut Vec<Complex>) -> Result<()> {
         moduli.clear();

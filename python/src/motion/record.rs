@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use basemat::motion::{
     AccelerationUnit, AfadFormat, Baseline, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
-    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat, SpectralOrdinate,
+    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::PyFreeField;
+use super::spectrum::{PySpectrum, coarse};
 use crate::array::{Array, Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::ticker::watched;
@@ -331,62 +332,6 @@ impl FileOptions<'_> {
             ))),
             _ => Ok(()),
         }
-    }
-}
-
-/// A response spectrum: arrays of shape (m,), one value per natural period.
-#[pyclass(name = "Spectrum", module = "basemat", frozen)]
-#[derive(serde::Serialize, serde::Deserialize)]
-pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>, pub(crate) Vec<String>);
-
-/// Warnings of a spectrum of the record at these periods.
-pub(crate) fn coarse(record: &Record, periods: &[f64]) -> Vec<String> {
-    record.coarse_spectrum(periods).iter().map(ToString::to_string).collect()
-}
-
-/// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
-/// (count,).
-#[pyfunction]
-pub(crate) fn log_spaced(
-    first: f64,
-    last: f64,
-    #[pyo3(from_py_with = whole)] count: usize,
-) -> PyResult<Array> {
-    Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
-}
-
-members! {
-    PySpectrum, own;
-    /// Natural periods: array of shape (m,), s.
-    period: Array = own.0.iter().map(|ordinate| ordinate.period).collect();
-    /// Largest displacements relative to the ground or floor: array of shape (m,), m.
-    displacement: Array = own.0.iter().map(|ordinate| ordinate.displacement).collect();
-    /// Pseudo-velocities: array of shape (m,), m/s.
-    pseudo_velocity: Array = own.0.iter().map(|ordinate| ordinate.pseudo_velocity).collect();
-    /// Pseudo-accelerations: array of shape (m,), m/s².
-    pseudo_acceleration: Array = own.0.iter().map(|ordinate| ordinate.pseudo_acceleration).collect();
-    /// Largest total accelerations: array of shape (m,), m/s².
-    acceleration: Array = own.0.iter().map(|ordinate| ordinate.acceleration).collect();
-    /// Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact.
-    warnings: Vec<String> = own.1.clone();
-}
-
-#[pymethods]
-impl PySpectrum {
-    /// Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
-    /// by default (U.S. NRC R.G. 1.122).
-    #[pyo3(signature = (fraction=0.15))]
-    fn broadened(&self, fraction: f64) -> PyResult<Self> {
-        let broadened = basemat::results::broadened(&self.0, fraction).or_raise()?;
-        Ok(Self(broadened, self.1.clone()))
-    }
-
-    fn __len__(&self) -> usize {
-        self.0.len()
-    }
-
-    fn __repr__(&self) -> String {
-        format!("Spectrum({} periods)", self.0.len())
     }
 }
 
