@@ -212,9 +212,9 @@ pub mod sweep;
 
 pub use coupled::simulation::Simulation;
 pub use error::{
-    CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
-    MemoryError, Observer, PlanError, Progress, RecordError, ReducedError, Result, SiteError,
-    StabilityError, StepError, SweepError, memory_limit, set_memory_limit,
+    CaseError, CaseFileError, CheckpointError, CoarseBaseError, Error, KernelFileError, LawError,
+    LayeredError, MemoryError, Observer, PlanError, Progress, RecordError, ReducedError, Result,
+    SiteError, StabilityError, StepError, SweepError, memory_limit, set_memory_limit,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

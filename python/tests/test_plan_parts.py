@@ -151,6 +151,14 @@ def test_what_does_not_fit_is_said(call, text: str) -> None:
         call()
 
 
+@pytest.mark.parametrize("entry", [float("nan"), 2, -1, 0.5, "True", None])
+def test_a_mask_has_no_other_entries_than_true_and_false(entry: object) -> None:
+    with pytest.raises(bm.InputError, match="True and False"):
+        bm.Plan.masked((0.0, 0.0), (1.0, 1.0), [[True, entry], [1, 1.0]])
+    for mask in (np.array([[True, False], [True, True]]), [[1, 0], [1.0, True]]):
+        assert len(bm.Plan.masked((0.0, 0.0), (1.0, 1.0), mask)) == 3
+
+
 def test_one_face_may_be_given_by_itself() -> None:
     [square] = bm_square(2.0)
     assert len(bm.Plan(square, 4)) == len(bm.Plan([square], 4)) == 16

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::elastic_source::ElasticSource;
 use super::layered::{Cost, Stages};
-use super::plan::{Plan, gate_sample};
+use super::plan::{Plan, gate_sample, static_compliance};
 use super::{Grading, Ground, SharedKernels, Strip, WeightsGround, WeightsSource};
 use crate::error::{Observer, Result, positive, require};
 use crate::geometry::{ContactElement, SPACE, check_count, check_order};
@@ -132,6 +132,10 @@ impl ElasticGround {
     /// graded towards the edges, where tractions are singular: [`Strip::under`] with
     /// [`Grading::Cosine`]. Under a structure with [faces](Structure::contact_faces) it is a ground
     /// [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of them all: [`Plan::on_faces`].
+    ///
+    /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
+    /// triangles count as one): elements see means of its displacement only, and shapes in between are held by the
+    /// structure alone. Strips or a plan of your own may have fewer; `build` then checks that they are enough.
     ///
     /// # Errors
     /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`].
@@ -334,6 +338,19 @@ impl Ground for ElasticGround {
         self.ground.prepare(time_step)?;
         self.used = self.source.stages(time_step);
         Ok(())
+    }
+
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        let Some(plan) = &self.source.plan else { return self.ground.finer_compliance() };
+        let (source, plan) = (&self.source, plan.quartered());
+        let mut matrix = vec![0.0; (4 * SPACE * self.elements().len()).pow(2)];
+        let (profile, tolerance) = (&source.profile, source.tolerance);
+        let find = |cells: &mut [f64]| static_compliance(profile, &plan, tolerance, cells);
+        match plan.unions() {
+            Some(unions) => unions.reduce(&mut matrix, find)?,
+            None => find(&mut matrix)?,
+        }
+        Ok(Some(matrix))
     }
 
     fn soils(&self) -> Vec<Soil> {

@@ -123,6 +123,16 @@ pub trait Ground: Any + Send {
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
+    /// Static compliance, as [`Ground::static_compliance`], of the two halves of each element in its place; in plan of
+    /// its four quarters: left front, right front, left back, right back. `None` (the default) if it is not known: by
+    /// it `build` finds whether a flexible base needs more elements.
+    ///
+    /// # Errors
+    /// If it cannot be computed.
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        Ok(None)
+    }
+
     /// Speed of shear waves in the soil, m/s, which decides what elements resolve; `None` (the default) for
     /// a ground without waves.
     fn shear_wave_speed(&self) -> Option<f64> {

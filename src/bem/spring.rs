@@ -233,6 +233,16 @@ impl Ground for SpringGround {
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.fill_diagonal(matrix, |component| 1.0 / self.stiffness[component])
     }
+
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        let parts = if self.depths.is_some() { 4 } else { 2 };
+        let size = parts * self.displacement.len();
+        let mut matrix = vec![0.0; size * size];
+        for i in 0..size {
+            matrix[i * (size + 1)] = 1.0 / self.stiffness[self.component(i / parts)];
+        }
+        Ok(Some(matrix))
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::error::{Error, Result, finite, positive, require};
 use crate::fundamental::branch::Weight;
 use crate::geometry::{ContactElement, PLANE, check_count};
-use crate::structure::{Structure, foundation_nodes, from_the_left};
+use crate::structure::{FaceNode, Structure, foundation_nodes, from_the_left};
 
 /// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -92,7 +92,8 @@ impl Strip {
         Self::new(range, count, Grading::Uniform)
     }
 
-    /// Strips of `count` elements under each foundation of `structure`, as wide as that is.
+    /// Strips of `count` elements under each foundation of `structure`, as wide as that is; of at least one element for
+    /// each segment of a flexible base, as between elements nothing but the structure holds its nodes.
     ///
     /// ```
     /// use basemat::bem::{Grading, Strip};
@@ -110,10 +111,12 @@ impl Strip {
     pub fn under(structure: &dyn Structure, count: usize, grading: Grading) -> Result<Vec<Self>> {
         let nodes = structure.contact_nodes();
         let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
+        let nodes: Vec<_> = nodes.into_iter().map(FaceNode::from).collect();
         let strip = |own: Range<usize>| {
             let (first, last) = (nodes[own.start].x, nodes[own.end - 1].x);
             from_the_left(first, last)?;
-            Self::new(first..last, count, grading)
+            let segments = FaceNode::segments(&nodes[own]);
+            Self::new(first..last, if count == 0 { 0 } else { count.max(segments) }, grading)
         };
         foundations.into_iter().map(strip).collect()
     }

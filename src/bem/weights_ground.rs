@@ -317,4 +317,14 @@ impl Ground for WeightsGround {
             None => find(matrix),
         }
     }
+
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        if self.depths.is_some() {
+            return Ok(None);
+        }
+        let halves: Vec<_> = self.elements.iter().flat_map(ContactElement::halves).collect();
+        let mut matrix = vec![0.0; (PLANE * halves.len()).pow(2)];
+        self.source.static_compliance(&halves, &mut matrix)?;
+        Ok(Some(matrix))
+    }
 }

@@ -328,16 +328,17 @@ impl Resolution {
                 warnings.push(Warning::UnresolvedMotion { frequency, time_step, needed, error });
             }
         }
-        let Some(speed) = self.shear_wave_speed else { return };
-        let crossing = self.axes[0].width.min(self.axes[1].width) / speed;
+        let width = self.axes[0].width.min(self.axes[1].width);
+        let crossing = self.shear_wave_speed.map_or(f64::INFINITY, |speed| width / speed);
         if self.in_plan && !self.follows() && crossing < CROSSING_STEPS[0] * time_step {
             let needed = crossing / CROSSING_STEPS[1];
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
-        let few = |axis: &Axis| axis.elements < axis.needed();
-        if let Some(found) = self.axes.iter().position(few) {
+        // Springs need no more than two.
+        let least = |axis: &Axis| if self.shear_wave_speed.is_some() { axis.needed() } else { TWO };
+        if let Some(found) = self.axes.iter().position(|axis| axis.elements < least(axis)) {
             let Axis { elements, .. } = self.axes[found];
-            let (foundation, needed) = (self.foundation, self.axes[found].needed());
+            let (foundation, needed) = (self.foundation, least(&self.axes[found]));
             let axis = axis_name(self.in_plan, found);
             warnings.push(Warning::FewElements { foundation, elements, needed, axis });
         }

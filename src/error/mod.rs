@@ -19,15 +19,15 @@ pub use file::RecordError;
 pub use file::{MatrixFileError, MeshFileError};
 pub use ground::{KernelFileError, LayeredError, PlanError, SiteError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
-pub use part::{LawError, ReducedError};
+pub use part::{CoarseBaseError, LawError, ReducedError};
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, short,
 };
-pub(crate) use step::along;
 pub use step::{CheckpointError, StabilityError, StepError};
+pub(crate) use step::{along, place};
 
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -315,6 +315,9 @@ pub enum Error {
     /// Weight and loads at t = 0 cannot be carried, and why.
     #[error("the structure cannot stand: {0}")]
     Stability(Box<StabilityError>),
+    /// A flexible base on so few contact elements that its static state is another one.
+    #[error(transparent)]
+    CoarseBase(#[from] CoarseBaseError),
     /// An interface law returned an invalid value before the first step.
     #[error(transparent)]
     Law(#[from] LawError),
@@ -391,9 +394,4 @@ impl std::fmt::Debug for Error {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Display::fmt(self, f)
     }
-}
-
-/// A line of a file, or the file as a whole.
-fn place(file: &str, line: usize) -> String {
-    if line == 0 { file.to_owned() } else { format!("{file}, line {line}") }
 }

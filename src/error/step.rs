@@ -347,6 +347,11 @@ fn force(across: Option<[f64; 2]>) -> &'static str {
     if across.is_some() { "N" } else { "N/m" }
 }
 
+/// A line of a file, or the file as a whole.
+pub(crate) fn place(file: &str, line: usize) -> String {
+    if line == 0 { file.to_owned() } else { format!("{file}, line {line}") }
+}
+
 /// Text that names the axis in plan, empty in the plane.
 pub(crate) fn along(axis: Option<char>) -> String {
     axis.map_or(String::new(), |axis| format!(" along {axis}"))

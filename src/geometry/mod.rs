@@ -21,6 +21,13 @@ pub struct ContactElement {
 }
 
 impl ContactElement {
+    /// Left and right half.
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let Self { left, right } = *self;
+        let middle = self.center();
+        [Self { left, right: middle }, Self { left: middle, right }]
+    }
+
     /// Length, m.
     pub fn length(&self) -> f64 {
         self.right - self.left
@@ -156,6 +163,22 @@ impl Patch {
         let areas = sides.map(|(along, [front, back])| along.length() * (back - front));
         let areas = areas.zip(&inside).map(|(area, part)| area * part).collect();
         Ok(Self { elements, depths, inside, areas, components })
+    }
+
+    /// Both halves of each element in its place, in plan its quarters: left front, right front, left back, right back.
+    pub(crate) fn finer(&self) -> Result<Self> {
+        let (mut elements, mut depths, mut inside) = (vec![], vec![], vec![]);
+        for (e, element) in self.elements.iter().enumerate() {
+            let [front, back] = self.depths[e];
+            let middle = 0.5 * (front + back);
+            let rows = [[front, middle], [middle, back]];
+            for ends in if self.is_plan() { &rows[..] } else { &self.depths[e..=e] } {
+                elements.extend(element.halves());
+                depths.extend([*ends; 2]);
+                inside.extend([self.inside[e]; 2]);
+            }
+        }
+        Self::new(self.components, elements, depths, inside)
     }
 
     /// Order of the numbers of a contact vector.

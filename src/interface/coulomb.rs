@@ -66,6 +66,9 @@ pub(super) fn check_friction(friction: f64) -> Result<()> {
 impl Coulomb {
     /// Law with a friction coefficient of zero or more; if it is infinite, nothing ever slides.
     ///
+    /// In plan, steps with a coefficient of 3 or more may have several solutions: hold a run against one of the scene's
+    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) says so.
+    ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.
     pub fn new(friction: f64) -> Result<Self> {
@@ -73,7 +76,7 @@ impl Coulomb {
         Ok(Self { friction, ..Self::frictionless() })
     }
 
-    /// Law that opens but never slides (infinite friction).
+    /// Law that opens but never slides (infinite friction). In plan, steps may have several solutions: see [`Coulomb::new`].
     pub fn uplift_only() -> Self {
         Self { friction: f64::INFINITY, ..Self::frictionless() }
     }

@@ -6,6 +6,9 @@ use super::{DofCombination, Structure};
 use crate::error::{Error, Result, at_least, finite, in_bounds, require};
 use crate::geometry::{PLANE, SPACE};
 
+/// Relative difference of displacements, and of a distance from a line, that counts as rounding.
+const FLAT: f64 = 1e-9;
+
 /// A point of the base: where it is, and how the degrees of freedom move it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -130,6 +133,49 @@ impl FaceNode {
         ]
     }
 
+    /// Number of segments, from node to node, of which a base in the plane consists; nodes that cannot leave the line
+    /// between their neighbours divide none.
+    pub(crate) fn segments(nodes: &[Self]) -> usize {
+        1 + nodes.windows(3).filter(|three| !Self::are_flat(three)).count()
+    }
+
+    /// Whether the nodes stay a flat, uniformly strained body, whatever the degrees of freedom are: displacements are
+    /// linear in the coordinates, as on any rigid base.
+    pub(crate) fn are_flat(nodes: &[Self]) -> bool {
+        let Some(first) = nodes.first() else { return true };
+        let from = |node: &Self| [node.x - first.x, node.y - first.y];
+        let farthest = |distance: &dyn Fn([f64; 2]) -> f64| {
+            let far = nodes.iter().map(|node| (distance(from(node)), node));
+            far.fold((0.0, first), |most, own| if own.0 > most.0 { own } else { most })
+        };
+        let (length, second) = farthest(&|[x, y]| x.hypot(y));
+        if length == 0.0 {
+            return nodes.iter().all(|node| node.rows() == first.rows());
+        }
+        let axis = from(second).map(|x| x / length);
+        let aside = |[x, y]: [f64; 2]| axis[0] * y - axis[1] * x;
+        let (width, third) = farthest(&|place| aside(place).abs());
+        let is_line = width <= FLAT * length;
+        nodes.iter().all(|node| {
+            let place = from(node);
+            let off = if is_line { 0.0 } else { aside(place) / aside(from(third)) };
+            let [x, y] = [0, 1].map(|k| place[k] - off * from(third)[k]);
+            let along = (axis[0] * x + axis[1] * y) / length;
+            let weighted = [(first, 1.0 - along - off), (second, along), (third, off)];
+            node.rows().into_iter().enumerate().all(|(k, row)| {
+                let mut rest = row.clone();
+                for (own, weight) in weighted.into_iter().filter(|(_, weight)| *weight != 0.0) {
+                    rest -= weight * own.rows()[k].clone();
+                }
+                let largest = |row: &DofCombination| {
+                    row.iter().fold(0.0_f64, |most, (_, weight)| most.max(weight.abs()))
+                };
+                let scale = [row, first.rows()[k], second.rows()[k], third.rows()[k]];
+                largest(&rest) <= FLAT * scale.into_iter().map(largest).fold(0.0, f64::max)
+            })
+        })
+    }
+
     /// Coordinates `[x, y]`, m.
     pub(crate) fn place(&self) -> [f64; 2] {
         [self.x, self.y]
@@ -219,4 +265,38 @@ pub(crate) fn foundation_nodes(count: usize, ends: &[usize]) -> Result<Vec<Range
         first = last + 1;
     }
     Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rigid base is flat in the plane and in plan, wherever it lies; a node of its own divides it.
+    #[test]
+    fn only_nodes_that_leave_the_flat_divide_a_base() {
+        for far in [0.0, 4500.0] {
+            let rigid = |x: f64| FaceNode::from(ContactNode::rigid(far + x, far, [0, 1, 2]));
+            let mut nodes: Vec<_> = [-3.0, -1.0, 0.5, 2.0, 3.0].map(rigid).into();
+            assert!(FaceNode::are_flat(&nodes));
+            assert_eq!(FaceNode::segments(&nodes), 1);
+            nodes[2].vertical = 7.into();
+            assert!(!FaceNode::are_flat(&nodes));
+            assert_eq!(FaceNode::segments(&nodes), 4);
+            let dofs = [0, 1, 2, 3, 4, 5];
+            let corner = |[x, y]: [f64; 2]| FaceNode::rigid([far + x, y - far], [far, -far], dofs);
+            let mut face: Vec<_> =
+                [[0.0, 0.0], [4.0, 1.0], [5.0, 4.0], [1.0, 3.0], [0.0, 0.0]].map(corner).into();
+            assert!(FaceNode::are_flat(&face));
+            face[3].vertical = 7.into();
+            assert!(!FaceNode::are_flat(&face));
+        }
+        // Nodes on the line through free ends are carried by these; free ends alone are one segment.
+        let [left, right] = [ContactNode::free(0.0, 0, 1), ContactNode::free(4.0, 2, 3)];
+        let mut between = ContactNode::free(1.0, 0, 1);
+        between.vertical = [(1, 0.75), (3, 0.25)].into();
+        between.horizontal = [(0, 0.75), (2, 0.25)].into();
+        let nodes = [left, between, right].map(FaceNode::from);
+        assert_eq!(FaceNode::segments(&nodes), 1);
+        assert_eq!(FaceNode::segments(&nodes[..1]), 1);
+    }
 }

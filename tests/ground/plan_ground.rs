@@ -295,6 +295,11 @@ fn unions_are_sums_of_cells() {
     {
         assert!(plan.clone().with_unions(columns, rows).is_err(), "{columns:?} {rows:?}");
     }
+    // Sums beyond what a number holds, and unions of nothing.
+    for columns in [&[usize::MAX, 5][..], &[usize::MAX, usize::MAX, 1], &[0, 1, 3, 1]] {
+        assert!(plan.clone().with_unions(columns, rows).is_err(), "{columns:?}");
+        assert!(plan.clone().with_unions(&[1, 3, 1], columns).is_err(), "{columns:?}");
+    }
     // A corner that is not there.
     assert!(l_shape().with_unions(&[1, 2, 1], &[1, 1, 1, 1]).is_err());
     assert!(l_shape().with_unions(&[1, 1, 1, 1], &[1, 1, 1, 1]).is_ok());

@@ -15,6 +15,7 @@ mod random;
 mod refused;
 mod results;
 mod several;
+mod slabs;
 mod sliding;
 mod springs;
 mod storeys;

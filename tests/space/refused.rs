@@ -5,7 +5,9 @@ use basemat::bem::{Ground, SpringGround};
 use basemat::coupled::Load;
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::STANDARD_GRAVITY;
-use basemat::structure::{ContactNode, RigidBlock, RigidBody, Structure, StructureGroup, Triplets};
+use basemat::structure::{
+    ContactNode, FaceNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
+};
 use basemat::{Error, PlanError, Result, Simulation, StabilityError};
 
 use super::cells::{BED, Cells};
@@ -210,4 +212,66 @@ fn a_torque_beyond_friction_is_named() {
         "{ratio} {resistance}"
     );
     assert!((torque / (1.1 * most) - 1.0).abs() < 1e-9, "{torque}");
+}
+
+/// A rigid body of 200 t on a convex face with these corners from its `center`, m.
+fn on_face(corners: &[[f64; 2]], center: [f64; 2]) -> MatrixModel {
+    let masses = [2e5, 2e5, 2e5, 1e6, 1e6, 1e6];
+    let mass = Triplets::from_entries(6, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
+    let face = FaceNode::rigid_base(corners, center, [0, 1, 2, 3, 4, 5]);
+    MatrixModel::in_plan(mass, Triplets::new(6), vec![face]).unwrap()
+}
+
+/// Site coordinates are as good as others: the static state and its moments are those at the origin.
+#[test]
+fn mats_stand_anywhere() {
+    for (side, place) in
+        [(2.0, [128.0, -64.0]), (6.0, [500.0, 350.0]), (20.0, [4500.0, 3150.0]), (9.0, [5e5, 4e6])]
+    {
+        let half = 0.5 * side;
+        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+        let pressures = |center: [f64; 2]| {
+            let body = on_face(&corners, center);
+            let simulation = Simulation::builder(0.01)
+                .ground(SpringGround::under(&body, 4, 4e7, 3e7).unwrap())
+                .structure(body)
+                .interface(Coulomb::new(0.5).unwrap())
+                .build();
+            let simulation = simulation.unwrap_or_else(|error| panic!("{center:?}: {error}"));
+            simulation.state().contact.iter().map(|own| own.pressure).collect::<Vec<_>>()
+        };
+        let (there, here) = (pressures(place), pressures([0.0; 2]));
+        assert_eq!(there.len(), 16);
+        for (there, here) in there.iter().zip(&here) {
+            assert!((there / here - 1.0).abs() < 1e-6, "{place:?}: {there} {here}");
+        }
+    }
+}
+
+/// Any convex quadrilateral carries a rigid body, whether or not bilinear displacements have a continuation beyond it.
+#[test]
+fn all_convex_quadrilaterals_carry_a_rigid_body() {
+    let mut state = 7_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut built = 0;
+    for _ in 0..300 {
+        let square = [[-5.0, -5.0], [5.0, -5.0], [5.0, 5.0], [-5.0, 5.0]];
+        let corners = square.map(|[x, y]| [x + 6.0 * random() - 3.0, y + 6.0 * random() - 3.0]);
+        let body = on_face(&corners, [0.0; 2]);
+        // Narrow corners, and faces that are not convex, are refused for other reasons.
+        let Ok(plan) = Plan::under(&body, 8) else { continue };
+        let simulation = Simulation::builder(0.01)
+            .ground(SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap())
+            .structure(body)
+            .interface(Bonded)
+            .build();
+        match simulation {
+            Ok(_) => built += 1,
+            Err(error) => assert!(!error.to_string().contains("distance"), "{corners:?}: {error}"),
+        }
+    }
+    assert!(built > 150, "{built}");
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::coupled::{Load, Warning};
-use basemat::interface::{Bonded, Cohesive};
+use basemat::interface::{Bonded, Cohesive, Coulomb};
 use basemat::motion::{FreeField, Record, TravellingWave, Triaxial, el_centro_1940};
 use basemat::results::Run;
 use basemat::structure::{PlanStorey, RigidBlock, RigidBody, StoreyBuilding};
@@ -221,4 +221,39 @@ fn motion_along_y_has_no_place_in_the_plane() {
     assert!(warns(Box::new(motion(record.clone(), true))));
     assert!(warns(Box::new(wave().with_azimuth(0.3).unwrap())));
     assert!(!warns(Box::new(wave().with_azimuth(std::f64::consts::PI).unwrap())));
+}
+
+/// A base of 6 × 6 m on cells of 4 × 4 m; one row of cells on springs; friction with several solutions.
+#[test]
+fn a_base_beyond_few_cells_a_single_row_and_high_friction_are_told() {
+    let found = |half: [f64; 2], counts: [usize; 2], law: Coulomb| {
+        let [columns, rows] = counts;
+        let pitch = [2.0 * half[0] / columns as f64, 2.0 * half[1] / rows as f64];
+        let mask = vec![true; columns * rows];
+        let plan = Plan::masked([-half[0], -half[1]], pitch, columns, &mask).unwrap();
+        let mut simulation = Simulation::builder(5e-3)
+            .ground(SpringGround::in_plan(plan, [4e8, 3e8, 3e8]).unwrap())
+            .structure(RigidBody::cuboid([6.0, 6.0, 1.0], 2400.0).unwrap())
+            .interface(law)
+            .motion(motion(el_centro_1940().scaled(0.1).unwrap(), false))
+            .build()
+            .unwrap();
+        simulation.run(100, |_| {}).unwrap().warnings
+    };
+    let law = |friction| Coulomb::new(friction).unwrap();
+    let has = |warnings: &[Warning], of: &dyn Fn(&Warning) -> bool| warnings.iter().any(of);
+    let uncovered =
+        |own: &Warning| matches!(own, Warning::UncoveredBase { reach, .. } if *reach == 1.0);
+    let few = |own: &Warning| {
+        matches!(own, Warning::FewElements { elements: 1, needed: 2, axis: Some('y'), .. })
+    };
+    let high = |own: &Warning| matches!(own, Warning::HighFriction { .. });
+    assert!(has(&found([2.0; 2], [3, 3], law(0.5)), &uncovered));
+    for friction in [3.0, 99.0, f64::INFINITY] {
+        assert!(has(&found([3.0; 2], [4, 4], law(friction)), &high), "{friction}");
+    }
+    let warnings = found([3.0; 2], [4, 4], law(2.9));
+    assert!(!has(&warnings, &|own| uncovered(own) || few(own) || high(own)), "{warnings:?}");
+    let row = found([3.0, 3.0], [6, 1], law(0.5));
+    assert!(has(&row, &few), "{row:?}");
 }

@@ -1,6 +1,7 @@
 //! Structures: finite elements, hysteresis, matrices, groups.
 
 mod fem;
+mod flexible_base;
 mod group;
 mod hysteresis;
 mod matrices;

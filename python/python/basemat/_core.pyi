@@ -282,6 +282,7 @@ class ElasticGround(Ground):
         """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
         structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base; an error says if they miss or
         exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
+        A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
 
         ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -367,6 +368,7 @@ class SpringGround(Ground):
         """Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
         the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
         and ``theta`` are those of the class, the last three if given.
+        A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
         """
 
 @final
@@ -406,8 +408,8 @@ class Plan:
     def masked(
         corner: tuple[float, float], pitch: tuple[float, float], mask: Any
     ) -> Plan:
-        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
-        away, each a list from left to right.
+        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
+        rows from the ``corner`` (x and y, m) away, each a list from left to right.
         """
     def with_unions(self, along: Sequence[int], across: Sequence[int]) -> Plan:
         """The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
@@ -461,6 +463,7 @@ class Coulomb(InterfaceLaw):
     """Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 
     ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
+    With 3 or more, steps in plan may have several solutions: hold the run against one of a mirror image.
     ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
     contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
     rule); on the gap unless given.

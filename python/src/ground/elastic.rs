@@ -102,6 +102,7 @@ impl PyElasticGround {
     /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
     /// structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base; an error says if they miss or
     /// exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
+    /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
     ///
     /// ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and

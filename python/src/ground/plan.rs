@@ -29,15 +29,14 @@ members! {
     /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
     disc(center: (f64, f64), radius: f64, cells: Count) =
         Plan::disc(center.into(), radius, cells.0).or_raise().map(Self);
-    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is true: a list of rows from the ``corner`` (x and y, m)
-    /// away, each a list from left to right.
+    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
+    /// rows from the ``corner`` (x and y, m) away, each a list from left to right.
     masked(corner: [f64; 2], pitch: [f64; 2], mask: Vec<Vec<Bound<'_, PyAny>>>) = {
         let columns = mask.first().map_or(0, Vec::len);
         if mask.iter().any(|row| row.len() != columns) {
             return Err(refuse(format!("mask has a row that is not {columns} cells long")));
         }
-        let mask = mask.iter().flatten().map(PyAnyMethods::is_truthy);
-        let mask = mask.collect::<PyResult<Vec<_>>>()?;
+        let mask = mask.iter().flatten().map(is_cell).collect::<PyResult<Vec<_>>>()?;
         Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
     };
     /// Sides of a cell along x and y, m.
@@ -46,6 +45,20 @@ members! {
     middle: [f64; 2] = own.0.middle();
     /// Area of the cells inside the outline less that of the faces, relative to it.
     area_error: f64 = own.0.area_error();
+}
+
+/// An entry of a mask: true or false, or a number that is 1 or 0.
+fn is_cell(entry: &Bound<'_, PyAny>) -> PyResult<bool> {
+    match entry.extract::<f64>() {
+        Ok(1.0) => Ok(true),
+        Ok(0.0) => Ok(false),
+        _ => {
+            let found = entry.repr()?;
+            Err(refuse(format!(
+                "mask has the entry {found}, but must be of True and False, or of 1 and 0"
+            )))
+        }
+    }
 }
 
 #[pymethods]

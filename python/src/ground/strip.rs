@@ -2,7 +2,6 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{Grading, Strip};
-use basemat::structure::FaceNode;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
@@ -59,14 +58,11 @@ impl Elements {
     ) -> PyResult<Py<PyAny>> {
         let py = structure.py();
         let structure = crate::structure::recipe(structure)?().or_raise()?;
-        let faces = structure.contact_faces();
-        if faces.is_empty() {
+        if structure.contact_faces().is_empty() {
             let strips = Strip::under(&*structure, count, grading).or_raise()?;
             return strips.into_iter().map(PyStrip).collect::<Vec<_>>().into_py_any(py);
         }
-        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
-        let faces: Vec<_> = faces.iter().map(corners).collect();
-        PyPlan(Plan::on_faces(&faces, count).or_raise()?).into_py_any(py)
+        PyPlan(Plan::under(&*structure, count).or_raise()?).into_py_any(py)
     }
 }
 

@@ -26,6 +26,7 @@ members! {
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 ///
 /// ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
+/// With 3 or more, steps in plan may have several solutions: hold the run against one of a mirror image.
 /// ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
 /// contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
 /// rule); on the gap unless given.

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::faces::{Face, apart, mat_by_mat, owners};
 use super::unions::Unions;
-use crate::error::{Error, PlanError, Result, finite, memory, positive, require};
+use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
 use crate::structure::{FaceNode, Structure};
@@ -71,12 +71,10 @@ impl Plan {
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
     /// [`PlanError::Face`], [`PlanError::NoCells`], [`PlanError::TooClose`], [`PlanError::Uncovered`].
     pub fn on_faces(faces: &[Vec<[f64; 2]>], cells: usize) -> Result<Self> {
-        if faces.is_empty() {
-            return Err(Error::Size { quantity: "list of faces of a mat", found: 0, needed: 1 });
-        }
+        check_faces(faces.len())?;
         let faces: Result<Vec<_>> =
             faces.iter().enumerate().map(|(number, corners)| Face::new(number, corners)).collect();
-        Self::under(faces?, cells, OVERHANG)
+        Self::covering(faces?, cells, OVERHANG)
     }
 
     /// A disc, as those of `cells` × `cells` whose centres lie on it, with sides for the same area.
@@ -181,20 +179,48 @@ impl Plan {
             });
         }
         let (faces, cells) = self.faces;
-        Self::under(faces, cells, 0.0)
+        Self::covering(faces, cells, 0.0)
     }
 
-    /// Cells under the faces of a structure, `cells` along the shorter side of them all; none without faces.
-    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
-        let faces = structure.contact_faces();
-        if faces.is_empty() {
-            return Ok(None);
+    /// Cells under the faces of a structure, with `cells` along the shorter side of them all: [`Plan::on_faces`]. Under
+    /// flexible faces there are at least as many cells as faces, of which two triangles count as one, as between cells
+    /// nothing but the structure holds its nodes.
+    ///
+    /// # Errors
+    /// As for [`Plan::on_faces`].
+    pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
+        let bodies = structure.contact_faces();
+        let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
+        let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
+        let numbered = corners.iter().enumerate();
+        let faces = numbered.map(|(number, corners)| Face::new(number, corners));
+        let faces = faces.collect::<Result<Vec<_>>>()?;
+        check_faces(faces.len())?;
+        let mats = Face::mats(&faces);
+        let mut most = cells;
+        for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
+            let own = || (0..mats.len()).filter(|face| mats[*face] == mat);
+            let nodes: Vec<_> = own().flat_map(|face| bodies[face].iter().cloned()).collect();
+            if cells > 1 && !FaceNode::are_flat(&nodes) {
+                let pieces: f64 = own().map(|face| 0.5 * (corners[face].len() as f64 - 2.0)).sum();
+                let area = own().map(|face| faces[face].area()).sum::<f64>();
+                let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
+                let along = sides[0].min(sides[1]) * f64::sqrt(pieces / area);
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+                let along = (along * (1.0 - 1e-9)).ceil() as usize;
+                most = most.max(along);
+            }
         }
-        let corners = |face: &Vec<FaceNode>| face.iter().map(|node| [node.x, node.y]).collect();
-        Self::on_faces(&faces.iter().map(corners).collect::<Vec<_>>(), cells).map(Some)
+        Self::covering(faces, most, OVERHANG)
     }
 
-    fn under(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
+    /// Cells under the faces of a structure; none without faces.
+    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
+        let is_in_plan = !structure.contact_faces().is_empty();
+        is_in_plan.then(|| Self::under(structure, cells)).transpose()
+    }
+
+    fn covering(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
         let bounds = Face::bounds(&faces);
         let sides = bounds.map(|[least, greatest]| greatest - least);
         let shorter = sides[0].min(sides[1]);
@@ -262,6 +288,15 @@ impl Plan {
     /// Contact element of a cell.
     pub(super) fn owner(&self, cell: usize) -> usize {
         self.owners.as_ref().map_or(cell, |owners| owners[cell])
+    }
+
+    /// The plan of the quarters of all elements: left front, right front, left back, right back of each.
+    pub(in crate::bem) fn quartered(&self) -> Self {
+        let (cells, owners) = Unions::quarters(&self.cells, |cell| self.owner(cell));
+        let Lattice { pitch, counts } = &self.lattice;
+        let lattice = Lattice { pitch: pitch.map(|x| 0.5 * x), counts: counts.map(|n| 2 * n) };
+        let owners = Some(owners);
+        Self { lattice, cells, overhang: 0.0, faces: (vec![], 0), owners, ..self.clone() }
     }
 
     /// Contact elements of several cells, if there are any.
@@ -333,6 +368,11 @@ impl Plan {
         };
         self.cells.iter().map(|cell| inside(*cell)).collect()
     }
+}
+
+/// Error for a mat without faces.
+fn check_faces(count: usize) -> Result<()> {
+    at_least("list of faces of a mat", count, 1)
 }
 
 /// Error for less than two cells along a side, or more than memory allows.

@@ -30,10 +30,12 @@ impl Unions {
     ) -> Result<Vec<usize>> {
         let mut lines = [vec![], vec![]];
         for ((sizes, count), lines) in [along, across].into_iter().zip(counts).zip(&mut lines) {
-            let found = sizes.iter().sum();
+            let found = sizes.iter().fold(0, |sum: usize, size| sum.saturating_add(*size));
             if found != count {
                 return Err(Error::Size { quantity: "cells in unions", found, needed: count });
             }
+            let empty = sizes.iter().any(|size| *size == 0);
+            require("cells in a union", 0.0, !empty, "1 or more")?;
             lines.extend(sizes.iter().enumerate().flat_map(|(n, size)| vec![n; *size]));
         }
         let mut on = vec![false; counts[0] * counts[1]];
@@ -65,6 +67,31 @@ impl Unions {
             }
         }
         Ok(owners)
+    }
+
+    /// Column and row of each quarter of some cells, and the quarter of an element to which it belongs: left front, right
+    /// front, left back, right back of each.
+    pub(super) fn quarters(
+        cells: &[[usize; 2]],
+        owner: impl Fn(usize) -> usize,
+    ) -> (Vec<[usize; 2]>, Vec<usize>) {
+        let count = (0..cells.len()).map(|cell| owner(cell) + 1).max().unwrap_or(0);
+        let mut ends = vec![[[usize::MAX, 0]; 2]; count];
+        for (number, cell) in cells.iter().enumerate() {
+            for (axis, [least, most]) in ends[owner(number)].iter_mut().enumerate() {
+                (*least, *most) = ((*least).min(cell[axis]), (*most).max(cell[axis] + 1));
+            }
+        }
+        let quarters = cells.iter().enumerate().flat_map(|(number, [i, j])| {
+            let (element, ends) = (owner(number), ends[owner(number)]);
+            [[0, 0], [1, 0], [0, 1], [1, 1]].map(|part| {
+                let cell = [2 * i + part[0], 2 * j + part[1]];
+                // In half cells, the middle of an element is the sum of its ends.
+                let beyond = |axis: usize| usize::from(cell[axis] >= ends[axis][0] + ends[axis][1]);
+                (cell, 4 * element + beyond(0) + 2 * beyond(1))
+            })
+        });
+        quarters.unzip()
     }
 
     /// Unions by the element of each cell.

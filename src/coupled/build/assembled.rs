@@ -75,6 +75,13 @@ impl Assembled {
         Ok((Self { influence: Arc::new(influence), ..own }, held))
     }
 
+    /// The same structure on other elements.
+    pub(super) fn on(&self, base: Base) -> Self {
+        let [mass, damping, stiffness] = self.matrices().map(Clone::clone);
+        let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
+        Self { linear: self.linear, mass, damping, stiffness, at_rest, base, influence }
+    }
+
     /// Number of degrees of freedom.
     pub(crate) fn dofs(&self) -> usize {
         self.mass.order()
@@ -105,7 +112,7 @@ impl Assembled {
     }
 
     /// K with the tangent of the nonlinear force at rest.
-    fn stiffness_at_rest(&self) -> &SparseMatrix {
+    pub(super) fn stiffness_at_rest(&self) -> &SparseMatrix {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
     }
 

@@ -2,13 +2,15 @@
 //!
 //! 1. `parts.rs`: what was given, each part checked by itself;
 //! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
-//! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`;
+//! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`; `flexible_base.rs` holds
+//!    it against that of twice the elements where these may be too few;
 //! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these; `krylov.rs` finds Ritz modes;
 //! 5. the scene, and again in `statics.rs` the motion at t = 0.
 
 pub(crate) mod assembled;
 pub(crate) mod coordinates;
 pub(crate) mod equilibrium;
+mod flexible_base;
 pub(crate) mod gravity_stage;
 pub(crate) mod held;
 mod krylov;
@@ -276,7 +278,9 @@ impl SimulationBuilder {
     /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that is not
     /// there or a name that comes twice. [`crate::Error::Stability`] if the structure cannot stand under
     /// weight and the loads at t = 0, [`crate::Error::Preload`] if no equilibrium was found for another
-    /// reason, [`crate::Error::IllConditioned`] if double precision cannot carry the scene,
+    /// reason, [`crate::Error::CoarseBase`] for a flexible base on contact elements so few that twice as many
+    /// change its static shape by more than 30 %, [`crate::Error::IllConditioned`] if double precision cannot carry the
+    /// scene,
     /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
     pub fn build(self) -> Result<Simulation> {
         self.built(None)
@@ -295,6 +299,7 @@ impl SimulationBuilder {
         let mut parts = Parts::new(self, observer)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
         let at_rest = statics::solve(&mut parts, &assembled)?;
+        let coarse = flexible_base::check(&parts, &assembled, &at_rest)?;
         let joined = supports::joined_by_force(
             parts.structure.as_ref(),
             &assembled.stiffness,
@@ -323,6 +328,7 @@ impl SimulationBuilder {
         let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
         let of_units = Warning::of_units(is_to_scale, &scene.laws, given.gravity, pressure, storey);
         warnings.extend(of_units);
+        warnings.extend(coarse);
         let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.

@@ -36,34 +36,14 @@ const TIME_STEP: f64 = 1.0;
 /// The state under weight and the loads at t = 0, which the structure's internal variables follow;
 /// trivial without gravity.
 pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
-    let Parts { structure, ground, given, elements, .. } = parts;
-    let n = assembled.dofs();
-    let mut state = StaticState::weightless(elements.layout(), n);
-    if given.is_static() {
-        let mut own = vec![0.0; n];
-        structure.load(0.0, &mut own)?;
-        all_finite("load of the structure at t = 0", &own)?;
-        let mut load = own.clone();
-        for external in &given.loads {
-            let force = external.value(0.0);
-            external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
-        }
-        let mut weight = vec![0.0; n];
-        let up = assembled.influence.of(UP, n);
-        assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
-        all_finite("weight", &weight)?;
-        all_finite("load at t = 0", &load)?;
-        let mut soil = vec![0.0; assembled.base.layout().square()];
-        ground.static_compliance(&mut soil)?;
-        elements.refer_inside(&mut soil);
-        let (standing, frictionless) = (structure.as_ref(), false);
-        let stage = Standing { assembled, structure: standing, soil: &soil, frictionless };
-        state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
-        state.load = own;
-        if let Some(force) = structure.nonlinear_mut() {
+    let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
+    if parts.given.is_static() {
+        state = under_loads(parts, assembled, &compliance(parts)?)?;
+        if let Some(force) = parts.structure.nonlinear_mut() {
             force.commit(&state.displacement);
         }
     }
+    let structure = &parts.structure;
     (state.force, state.energy) = nonlinear_state(structure.as_ref(), &state.displacement)?;
     all_finite("nonlinear force at t = 0", &state.force)?;
     if let Some(energy) = &state.energy {
@@ -71,6 +51,42 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
         finite("energy that the nonlinear force has dissipated at t = 0", energy.dissipated)?;
     }
     Ok(state)
+}
+
+/// Static compliance of the ground, for tractions inside the outline.
+pub(super) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
+    let mut soil = vec![0.0; parts.elements.layout().square()];
+    parts.ground.static_compliance(&mut soil)?;
+    parts.elements.refer_inside(&mut soil);
+    Ok(soil)
+}
+
+/// The state under weight and the loads at t = 0 on elements of this static compliance; internal variables of the
+/// structure stay as they are.
+pub(super) fn under_loads(
+    parts: &Parts,
+    assembled: &Assembled,
+    soil: &[f64],
+) -> Result<StaticState> {
+    let Parts { structure, given, .. } = parts;
+    let n = assembled.dofs();
+    let mut own = vec![0.0; n];
+    structure.load(0.0, &mut own)?;
+    all_finite("load of the structure at t = 0", &own)?;
+    let mut load = own.clone();
+    for external in &given.loads {
+        let force = external.value(0.0);
+        external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
+    }
+    let mut weight = vec![0.0; n];
+    let up = assembled.influence.of(UP, n);
+    assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
+    all_finite("weight", &weight)?;
+    all_finite("load at t = 0", &load)?;
+    let (structure, frictionless) = (structure.as_ref(), false);
+    let stage = Standing { assembled, structure, soil, frictionless };
+    let state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
+    Ok(StaticState { load: own, ..state })
 }
 
 /// The state under `weight`, placed as chosen, and then under `load`, with the interface laws.

@@ -4,9 +4,12 @@ use std::ops::Range;
 
 use super::transformation::{Rows, Terms, Transformation, Weights, accumulate};
 use crate::error::{Error, Result, at_least};
-use crate::geometry::{ContactLayout, Patch, axis_name, far_ends};
+use crate::geometry::{ContactLayout, Patch, axis_name, far_ends, span};
 use crate::linalg::dot;
 use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_base_nodes};
+
+/// Part of a foundation's length that may reach beyond the elements.
+const UNCOVERED: f64 = 0.1;
 
 /// B, which takes coordinates to element means of the base displacement (normal components down),
 /// and BᵀA, which takes tractions to forces on the coordinates: the structure's degrees of freedom, or those
@@ -21,6 +24,18 @@ pub(crate) struct Base {
     foundations: Vec<Outline>,
     elements: Patch,
     nodes: Vec<FaceNode>,
+    /// Points under flexible foundations, for integrals over elements; none of a base that is stepped.
+    points: Vec<BasePoint>,
+}
+
+/// A point of a flexible base.
+#[derive(Debug, Clone)]
+pub(crate) struct BasePoint {
+    pub(crate) element: usize,
+    /// Area that the point stands for, m²; in the plane a length.
+    pub(crate) area: f64,
+    /// Nodes, and their shares in its displacement.
+    pub(super) shares: Vec<(usize, f64)>,
 }
 
 /// Foundation: its nodes, its elements, its settlement and the rotation of its chord; in plan the rotations about the
@@ -64,20 +79,43 @@ impl Base {
         foundations: Vec<Outline>,
         weights: Vec<Vec<(usize, f64)>>,
         elements: &Patch,
+        points: Vec<BasePoint>,
     ) -> Self {
         let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
         for (e, weights) in weights.into_iter().enumerate() {
-            for (node, weight) in weights {
-                let FaceNode { horizontal, vertical, across, .. } = &nodes[node];
-                let terms = [(vertical, -weight), (horizontal, weight), (across, weight)];
-                for (component, (terms, weight)) in terms[..layout.components()].iter().enumerate()
-                {
-                    accumulate(&mut rows[layout.place(component, e)], terms, *weight);
-                }
+            for (component, terms) in components(&nodes, &weights, layout).into_iter().enumerate() {
+                rows[layout.place(component, e)] = terms;
             }
         }
-        Self { rows: Rows::Sparse(rows), foundations, elements: elements.clone(), nodes }
+        let elements = elements.clone();
+        Self { rows: Rows::Sparse(rows), foundations, elements, nodes, points }
+    }
+
+    /// Whether a foundation can take other shapes than flat ones.
+    pub(crate) fn is_flexible(&self) -> bool {
+        !self.points.is_empty()
+    }
+
+    /// Points under flexible foundations, each with its displacement against the mean over its element, component by
+    /// component.
+    pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
+        let layout = self.layout();
+        self.points.iter().map(move |point| {
+            let mut own = components(&self.nodes, &point.shares, layout);
+            for (component, terms) in own.iter_mut().enumerate() {
+                accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
+            }
+            (point, own)
+        })
+    }
+
+    /// Component `i` of the element means as a weighted sum of degrees of freedom; none of a base that is stepped.
+    pub(crate) fn mean_row(&self, i: usize) -> DofCombination {
+        match &self.rows {
+            Rows::Sparse(rows) => rows[i].iter().copied().collect(),
+            Rows::Dense(_) => DofCombination::default(),
+        }
     }
 
     /// This base in the coordinates that are stepped.
@@ -90,7 +128,8 @@ impl Base {
                 }
             }
         }
-        Self { rows: transformation.rows(&self.rows), foundations, ..self.clone() }
+        let points = Vec::new();
+        Self { rows: transformation.rows(&self.rows), foundations, points, ..self.clone() }
     }
 
     /// The degrees of freedom that move a contact node, some more than once.
@@ -109,8 +148,8 @@ impl Base {
         self.foundations.iter().map(|footing| &footing.corners[..])
     }
 
-    /// The foundations that reach beyond the ground's elements by more than their longest side there, along which axis
-    /// in plan, and how far (m).
+    /// The foundations that reach beyond the ground's elements by more than their longest side there or a tenth of the
+    /// foundation, along which axis in plan, and how far (m).
     pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
         let ground = &self.elements;
         let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
@@ -118,9 +157,9 @@ impl Base {
             let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
             let ends = sides.map(|(middle, side)| [middle - 0.5 * side, middle + 0.5 * side]);
             let [first, last] = far_ends(ends);
-            let places = nodes.iter().map(|node| node.place()[axis]);
-            let beyond = places.map(|place| (first - place).max(place - last));
-            Some(beyond.fold(0.0, f64::max)).filter(|reach| *reach > longest)
+            let [left, right] = span(nodes.iter().map(|node| node.place()[axis]));
+            let least = longest.min(UNCOVERED * (right - left));
+            Some((first - left).max(right - last)).filter(|reach| *reach > least)
         };
         let name = |axis| axis_name(ground.is_plan(), axis);
         let each = self.foundations().enumerate();
@@ -230,6 +269,19 @@ pub(super) fn mean_settlement(nodes: &[FaceNode]) -> Weights {
         accumulate(&mut terms, &node.vertical, -1.0 / nodes.len() as f64);
     }
     Weights::Sparse(terms)
+}
+
+/// Displacement by (node, weight) terms down, along x, and in plan along y.
+fn components(nodes: &[FaceNode], weights: &[(usize, f64)], layout: ContactLayout) -> Vec<Terms> {
+    let mut components = vec![Terms::new(); layout.components()];
+    for &(node, weight) in weights {
+        let FaceNode { horizontal, vertical, across, .. } = &nodes[node];
+        let terms = [(vertical, -weight), (horizontal, weight), (across, weight)];
+        for (component, (terms, weight)) in components.iter_mut().zip(terms) {
+            accumulate(component, terms, weight);
+        }
+    }
+    components
 }
 
 /// Refuses a foundation without elements.

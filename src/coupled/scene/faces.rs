@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::base::{Base, Outline, check_covered, mean_settlement};
+use super::base::{Base, BasePoint, Outline, check_covered, mean_settlement};
+use super::shares::{Point, bilinear, distance, outside, shares};
 use super::transformation::Weights;
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result, require};
@@ -10,14 +11,9 @@ use crate::geometry::Patch;
 use crate::structure::FaceNode;
 
 /// Distance of the points of Gauss' rule from the middle of an interval, of its length: 1/(2√3).
-const GAUSS: f64 = 0.288_675_134_594_812_9;
-/// Newton's steps to the coordinates of a point within a quadrilateral, and their last, relative to its size.
-const ITERATIONS: usize = 50;
-const CONVERGED: f64 = 1e-14;
+pub(super) const GAUSS: f64 = 0.288_675_134_594_812_9;
 /// Area of a triangle that is none, relative to the square of its longest side.
 const NO_AREA: f64 = 1e-12;
-
-type Point = [f64; 2];
 
 impl Base {
     /// The base of these faces: each mat of faces that touch is a foundation.
@@ -52,7 +48,11 @@ impl Base {
             weights.push(own);
         }
         check_covered(&foundations)?;
-        Ok(Self::from_weights(nodes, foundations, weights, patch))
+        let mut points = Vec::new();
+        for own in foundations.iter().filter(|own| !FaceNode::are_flat(&nodes[own.nodes.clone()])) {
+            points.extend(surface.points(own, patch));
+        }
+        Ok(Self::from_weights(nodes, foundations, weights, patch, points))
     }
 }
 
@@ -114,28 +114,60 @@ impl<'a> Faces<'a> {
     /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points. A point outside all faces continues the
     /// displacement of the nearest one; one that is farther off than half a side is an error.
     fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
-        let ([x, y], sides) = (patch.middle(element), patch.sides(element));
+        let sides = patch.sides(element);
         let reach = 0.5 * sides[0].max(sides[1]);
         let mut weights = Vec::with_capacity(16);
-        for [right, away] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
-            let point = [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]];
-            let (piece, corners, value) = self.nearest(point);
-            let refuse = |value, needed| {
-                let quantity = "distance of a contact element from the faces of the base, m";
-                Err(Error::Input { quantity, value, needed })
-            };
+        for point in gauss_points(element, patch) {
+            let (shares, value) = self.shares(point);
             if value.is_nan() || value > reach {
-                return refuse(
-                    value,
-                    "half an element or less: all lie under the structure's base",
-                );
+                let quantity = "distance of a contact element from the faces of the base, m";
+                let needed = "half an element or less: all lie under the structure's base";
+                return Err(Error::Input { quantity, value, needed });
             }
-            let Some(shares) = shares(&corners, point) else {
-                return refuse(value, "zero beside a face of this shape");
-            };
-            weights.extend(piece.iter().zip(shares).map(|(&node, share)| (node, 0.25 * share)));
+            weights.extend(shares.into_iter().map(|(node, share)| (node, 0.25 * share)));
         }
         Ok(weights)
+    }
+
+    /// (node, share) of the displacement of a point, and its distance from the faces, m.
+    fn shares(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
+        let (piece, corners, distance) = self.nearest(point);
+        (piece.iter().copied().zip(shares(&corners, point)).collect(), distance)
+    }
+
+    /// Points for integrals over the elements of a mat: those of Gauss' rule on its faces, or of 2 × 2 in an element that
+    /// has fewer.
+    fn points(&self, mat: &Outline, patch: &Patch) -> Vec<BasePoint> {
+        let mut found = vec![Vec::new(); mat.elements.len()];
+        for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {
+            let corners = self.corners(piece);
+            for shares in face_points(corners.len()) {
+                let place = [0, 1].map(|k| {
+                    corners
+                        .iter()
+                        .zip(&shares)
+                        .map(|(corner, share)| share * corner[k])
+                        .sum::<f64>()
+                });
+                let is_on = |e: &usize| {
+                    let (middle, sides) = (patch.middle(*e), patch.sides(*e));
+                    (0..2).all(|k| (place[k] - middle[k]).abs() <= 0.5 * sides[k])
+                };
+                if let Some(e) = mat.elements.clone().find(is_on) {
+                    found[e - mat.elements.start]
+                        .push(piece.iter().copied().zip(shares).collect::<Vec<_>>());
+                }
+            }
+        }
+        let mut points = Vec::new();
+        for (e, mut own) in mat.elements.clone().zip(found) {
+            if own.len() < 4 {
+                own = gauss_points(e, patch).map(|point| self.shares(point).0).into();
+            }
+            let area = patch.areas()[e] / own.len() as f64;
+            points.extend(own.into_iter().map(|shares| BasePoint { element: e, area, shares }));
+        }
+        points
     }
 
     /// The piece nearest to a point, its corners, and its distance.
@@ -192,58 +224,21 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> 
     hull
 }
 
-fn distance(a: Point, b: Point) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+/// The points of Gauss' rule of 2 × 2 on an element.
+fn gauss_points(element: usize, patch: &Patch) -> [Point; 4] {
+    let ([x, y], sides) = (patch.middle(element), patch.sides(element));
+    let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    signs.map(|[right, away]| [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]])
 }
 
-/// Distance of a point from a convex polygon; zero within.
-fn outside(corners: &[Point], p: Point) -> f64 {
-    let edges = || (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
-    let areas = || edges().map(|edge| side(edge, p));
-    if areas().all(|area| area >= 0.0) || areas().all(|area| area <= 0.0) {
-        return 0.0;
+/// Shares of the corners of a triangle or a quadrilateral in the displacements of points of Gauss' rule on it.
+fn face_points(corners: usize) -> Vec<Vec<f64>> {
+    if corners == 3 {
+        let share = |is_own: bool| if is_own { 2.0 / 3.0 } else { 1.0 / 6.0 };
+        return (0..3).map(|k| (0..3).map(|j| share(j == k)).collect()).collect();
     }
-    let from = |[a, b]: [Point; 2]| {
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let square = along[0] * along[0] + along[1] * along[1];
-        let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
-        let share = share.clamp(0.0, 1.0);
-        distance(p, [a[0] + share * along[0], a[1] + share * along[1]])
-    };
-    edges().map(from).fold(f64::INFINITY, f64::min)
-}
-
-/// Shares of the corners in the displacement of a point: linear over a triangle, bilinear over a quadrilateral, and
-/// continued beyond; `None` where that is not possible.
-fn shares(corners: &[Point], p: Point) -> Option<Vec<f64>> {
-    if let [a, b, c] = *corners {
-        let all = side([a, b], c);
-        let [one, two] = [side([b, c], p) / all, side([c, a], p) / all];
-        return Some(vec![one, two, 1.0 - one - two]);
-    }
-    let [a, b, c, d] = *corners else { return None };
-    let blend = |weights: [f64; 4], k: usize| {
-        weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k]
-    };
-    // Coordinates s, t from 0 to 1 within.
-    let [mut s, mut t] = [0.5_f64; 2];
-    for _ in 0..ITERATIONS {
-        let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
-        let rest = [0, 1].map(|k| p[k] - blend(weights, k));
-        let by_s = [0, 1].map(|k| blend([t - 1.0, 1.0 - t, t, -t], k));
-        let by_t = [0, 1].map(|k| blend([s - 1.0, -s, s, 1.0 - s], k));
-        let determinant = by_s[0] * by_t[1] - by_s[1] * by_t[0];
-        let ds = (rest[0] * by_t[1] - rest[1] * by_t[0]) / determinant;
-        let dt = (by_s[0] * rest[1] - by_s[1] * rest[0]) / determinant;
-        (s, t) = (s + ds, t + dt);
-        if !(s.is_finite() && t.is_finite()) {
-            return None;
-        }
-        if ds.abs().max(dt.abs()) <= CONVERGED * s.abs().max(t.abs()).max(1.0) {
-            return Some(vec![(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]);
-        }
-    }
-    None
+    let ends = [0.5 - GAUSS, 0.5 + GAUSS];
+    ends.into_iter().flat_map(|s| ends.map(|t| bilinear([s, t]).to_vec())).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A base in the plane: a line of nodes, the mean of its displacement over a contact element, and its chord.
 
-use super::base::{Base, Outline, check_covered, mean_settlement};
+use super::base::{Base, BasePoint, Outline, check_covered, mean_settlement};
+use super::faces::GAUSS;
 use super::transformation::{Terms, Weights, accumulate};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, short};
@@ -31,15 +32,25 @@ impl Base {
         }
         check_covered(&foundations)?;
         let mut weights = Vec::with_capacity(elements.len());
-        for Outline { nodes: own, elements: range, .. } in &foundations {
-            for element in &elements[range.clone()] {
-                check_overlap(&nodes[own.clone()], element)?;
-                let found = mean_weights(&nodes[own.clone()], element);
-                weights
-                    .push(found.into_iter().map(|(k, weight)| (own.start + k, weight)).collect());
+        let mut points = Vec::new();
+        for Outline { nodes: range, elements: under, .. } in &foundations {
+            let own = &nodes[range.clone()];
+            let numbered = |shares: Vec<(usize, f64)>| {
+                shares.into_iter().map(|(k, share)| (range.start + k, share)).collect::<Vec<_>>()
+            };
+            let is_flexible = !FaceNode::are_flat(own);
+            for e in under.clone() {
+                check_overlap(own, &elements[e])?;
+                weights.push(numbered(mean_weights(own, &elements[e])));
+                let points_of = is_flexible.then(|| gauss_points(own, &elements[e]));
+                points.extend(points_of.into_iter().flatten().map(|(area, shares)| BasePoint {
+                    element: e,
+                    area,
+                    shares: numbered(shares),
+                }));
             }
         }
-        Ok(Self::from_weights(nodes, foundations, weights, elements))
+        Ok(Self::from_weights(nodes, foundations, weights, elements, points))
     }
 }
 
@@ -75,20 +86,39 @@ fn chord_rotation(nodes: &[FaceNode]) -> Terms {
     terms
 }
 
+/// The pieces of `element` between neighbouring nodes: number of the segment, and both ends.
+fn pieces(nodes: &[FaceNode], element: &ContactElement) -> impl Iterator<Item = (usize, [f64; 2])> {
+    let segments = nodes.windows(2).enumerate().map(|(k, pair)| {
+        // The outermost segments also carry what rounding leaves outside them.
+        let from = if k == 0 { element.left } else { element.left.max(pair[0].x) };
+        let to = if k + 2 == nodes.len() { element.right } else { element.right.min(pair[1].x) };
+        (k, [from, to])
+    });
+    segments.filter(|(_, [from, to])| to > from)
+}
+
 /// (node, weight) of the mean over `element` of the piecewise linear interpolation.
 fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
     let mut weights = Vec::new();
-    for (k, pair) in nodes.windows(2).enumerate() {
-        let (x0, x1) = (pair[0].x, pair[1].x);
-        // The outermost segments also carry what rounding leaves outside them.
-        let from = if k == 0 { element.left } else { element.left.max(x0) };
-        let to = if k + 2 == nodes.len() { element.right } else { element.right.min(x1) };
-        if to > from {
-            let middle = (0.5 * (from + to) - x0) / (x1 - x0);
-            let share = (to - from) / element.length();
-            weights.push((k, share * (1.0 - middle)));
-            weights.push((k + 1, share * middle));
-        }
+    for (k, [from, to]) in pieces(nodes, element) {
+        let (x0, x1) = (nodes[k].x, nodes[k + 1].x);
+        let middle = (0.5 * (from + to) - x0) / (x1 - x0);
+        let share = (to - from) / element.length();
+        weights.push((k, share * (1.0 - middle)));
+        weights.push((k + 1, share * middle));
     }
     weights
+}
+
+/// Points of Gauss' rule on each piece of `element`: length that a point stands for, m, and shares of the nodes.
+fn gauss_points(nodes: &[FaceNode], element: &ContactElement) -> Vec<(f64, Vec<(usize, f64)>)> {
+    let points = pieces(nodes, element).flat_map(|(k, [from, to])| {
+        let (x0, x1) = (nodes[k].x, nodes[k + 1].x);
+        [-GAUSS, GAUSS].map(|place| {
+            let x = 0.5 * (from + to) + place * (to - from);
+            let share = (x - x0) / (x1 - x0);
+            (0.5 * (to - from), vec![(k, 1.0 - share), (k + 1, share)])
+        })
+    });
+    points.collect()
 }

@@ -5,6 +5,7 @@ pub(crate) mod faces;
 pub(crate) mod influence;
 mod line;
 pub(crate) mod operators;
+mod shares;
 pub(crate) mod transformation;
 
 use std::sync::Arc;

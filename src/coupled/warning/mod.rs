@@ -105,7 +105,24 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
-    /// The base reaches beyond the ground's elements, by more than one of them: nothing carries it there.
+    /// A flexible base on too few contact elements: shapes between elements are held by the structure alone, which is
+    /// softer there than the soil that they leave out, or not stiff enough beside it.
+    CoarseBase {
+        /// Number of the foundation, from the left, from 0.
+        foundation: usize,
+        /// Elements of the foundation; in plan along its shorter side.
+        elements: usize,
+        /// About as many as it needs.
+        needed: usize,
+        /// Change of its vertical static shape by twice the elements, relative, where that is known.
+        #[cfg_attr(feature = "serde", serde(default))]
+        difference: Option<f64>,
+        /// In plan: `x` for elements of a row, `y` for elements of a column.
+        #[cfg_attr(feature = "serde", serde(default))]
+        axis: Option<char>,
+    },
+    /// The base reaches beyond the ground's elements, by more than one of them or a tenth of its length: nothing carries
+    /// it there.
     UncoveredBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -130,6 +147,14 @@ pub enum Warning {
         /// Number of such steps.
         steps: usize,
         /// Least coefficient used.
+        friction: f64,
+    },
+    /// A base in plan may slide with friction of 3 or more, endless friction included: some steps then have several
+    /// solutions, and a mere mirror image of the scene may choose others. In one scene of a hundred that changes peaks by
+    /// tens of per cent.
+    HighFriction {
+        /// Greatest friction coefficient.
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         friction: f64,
     },
     /// The motion has a component along y, which a ground in the plane leaves out.

@@ -6,7 +6,7 @@ use crate::bem::Ground;
 use crate::coupled::energy_balance::EnergyBalance;
 use crate::coupled::run::{GroundMotion, Quantity, Run};
 use crate::coupled::scene::Scene;
-use crate::interface::InterfaceLaw;
+use crate::interface::{InterfaceLaw, Mode};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -90,6 +90,9 @@ impl Warning {
         warnings
     }
 
+    /// Friction from which on mirror images of scenes in plan were seen to differ.
+    const HIGH_FRICTION: f64 = 3.0;
+
     /// Warnings of a scene before its first step, of a structure with this `period` on a fixed base (s).
     pub(crate) fn of_scene(
         scene: &Scene,
@@ -108,6 +111,7 @@ impl Warning {
             reach,
             axis,
         }));
+        warnings.extend(Self::of_friction(scene));
         if motion.moves_across() && !scene.layout().is_plan() {
             warnings.push(Self::MotionAcross);
         }
@@ -170,6 +174,16 @@ impl Warning {
         let x = (rate * longest).exp_m1();
         let loss = 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x;
         (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
+    }
+
+    /// Warning of friction with which steps in plan may have several solutions.
+    fn of_friction(scene: &Scene) -> Option<Self> {
+        let can_slide =
+            |law: &&Box<dyn InterfaceLaw>| law.modes().iter().any(|mode| *mode != Mode::Stick);
+        let laws = scene.laws.iter().filter(can_slide);
+        let greatest = laws.filter_map(InterfaceLaw::friction_coefficient).fold(0.0, f64::max);
+        (scene.layout().is_plan() && greatest >= Self::HIGH_FRICTION)
+            .then_some(Self::HighFriction { friction: greatest })
     }
 
     /// Warnings of `soils` with unusual numbers.

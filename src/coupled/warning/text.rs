@@ -60,6 +60,16 @@ impl fmt::Display for Warning {
                 "elements{} under foundation {foundation}: {elements}, its rocking needs {needed}",
                 along(*axis)
             ),
+            Self::CoarseBase { foundation, elements, needed, difference, axis } => {
+                let change = difference.map_or(String::new(), |own| {
+                    format!(" (twice as many: {:.1} % of its static shape)", 100.0 * own)
+                });
+                write!(
+                    f,
+                    "elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{change}",
+                    along(*axis)
+                )
+            }
             Self::UncoveredBase { foundation, reach, axis } => write!(
                 f,
                 "foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: nothing carries it there",
@@ -71,6 +81,10 @@ impl fmt::Display for Warning {
             Self::LessFriction { steps, friction } => write!(
                 f,
                 "steps solved with friction {friction:.0} in place of more: {steps}; shear is too small there"
+            ),
+            Self::HighFriction { friction } => write!(
+                f,
+                "friction of {friction} in plan: steps may have several solutions; run a mirror image too"
             ),
             Self::MotionAcross => {
                 write!(f, "motion along y: a ground in the plane leaves it out")

@@ -223,6 +223,11 @@ impl Ground for Double {
         Ok(())
     }
 
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        self.0.asked("finer_compliance");
+        Ok(Some(vec![CORRECT]))
+    }
+
     /// Only the crate makes one: that it was asked is all there is to see.
     fn shear_wave_speed(&self) -> Option<f64> {
         self.0.asked("shear_wave_speed");

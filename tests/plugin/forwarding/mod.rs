@@ -90,6 +90,7 @@ fn boxed_grounds() {
         part.commit(&[1.0, 2.0]);
         part.static_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [3.0 * CORRECT; 4]);
+        assert_eq!(part.finer_compliance(), Ok(Some(vec![CORRECT])));
         assert_eq!(part.shear_wave_speed(), Some(CORRECT));
         assert_eq!(part.soils(), [doubles::soil()]);
         assert_eq!(part.sampled_cells(), Some([3, 4]));

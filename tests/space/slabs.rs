@@ -1,0 +1,279 @@
+//! A slab of plate elements with columns: its nodes are free to go up and down, and cells must be small enough for its
+//! bending.
+
+use basemat::bem::plan::Plan;
+use basemat::bem::{ElasticGround, Ground};
+use basemat::coupled::Warning;
+use basemat::interface::Coulomb;
+use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
+use basemat::{CoarseBaseError, Error, Result, Simulation, Soil};
+
+/// Displacement and rotations about x and y of a node: w, ∂w/∂y, −∂w/∂x.
+const NODE: usize = 3;
+/// Plate element: degrees of freedom.
+const PLATE: usize = 4 * NODE;
+/// Points of Gauss' rule of three.
+const GAUSS: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+
+/// The twelve monomials of an ACM rectangle: powers of x and y.
+const POWERS: [[i32; 2]; PLATE] = [
+    [0, 0],
+    [1, 0],
+    [0, 1],
+    [2, 0],
+    [1, 1],
+    [0, 2],
+    [3, 0],
+    [2, 1],
+    [1, 2],
+    [0, 3],
+    [3, 1],
+    [1, 3],
+];
+
+/// A derivative of the monomials at a point.
+fn monomials([x, y]: [f64; 2], [by_x, by_y]: [i32; 2]) -> [f64; PLATE] {
+    let derived = |value: f64, power: i32, times: i32| {
+        let factor: i32 = (0..times).map(|k| power - k).product();
+        if power < times { 0.0 } else { f64::from(factor) * value.powi(power - times) }
+    };
+    POWERS.map(|[a, b]| derived(x, a, by_x) * derived(y, b, by_y))
+}
+
+/// The inverse of a matrix, by Gauss and Jordan.
+fn inverse(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let n = rows.len();
+    for (k, row) in rows.iter_mut().enumerate() {
+        row.extend((0..n).map(|j| if j == k { 1.0 } else { 0.0 }));
+    }
+    for k in 0..n {
+        let most = |i: &usize, j: &usize| rows[*i][k].abs().total_cmp(&rows[*j][k].abs());
+        let pivot = (k..n).max_by(most).unwrap();
+        rows.swap(k, pivot);
+        let scale = rows[k][k];
+        rows[k].iter_mut().for_each(|x| *x /= scale);
+        let own = rows[k].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            let factor = row[k];
+            row.iter_mut().zip(&own).for_each(|(x, own)| *x -= factor * own);
+        }
+    }
+    rows.into_iter().map(|row| row[n..].to_vec()).collect()
+}
+
+/// Stiffness of the ACM plate rectangle (Adini, Clough, Melosh; Kirchhoff's theory) with these sides, row-major;
+/// corners counter-clockwise from the left front one.
+fn plate([a, b]: [f64; 2], rigidity: f64, poisson: f64) -> Vec<f64> {
+    let mut values = Vec::new();
+    for point in [[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]] {
+        values.push(monomials(point, [0, 0]).to_vec());
+        values.push(monomials(point, [0, 1]).to_vec());
+        values.push(monomials(point, [1, 0]).map(|x| -x).to_vec());
+    }
+    let shapes = inverse(values);
+    let mut stiffness = vec![0.0; PLATE * PLATE];
+    for (s, one) in GAUSS {
+        for (t, two) in GAUSS {
+            let point = [0.5 * a * (1.0 + s), 0.5 * b * (1.0 + t)];
+            let weight = 0.25 * a * b * one * two * rigidity;
+            let [xx, yy, xy] = [[2, 0], [0, 2], [1, 1]].map(|by| {
+                let own = monomials(point, by);
+                let column = |j: usize| (0..PLATE).map(|k| own[k] * shapes[k][j]).sum::<f64>();
+                (0..PLATE).map(column).collect::<Vec<_>>()
+            });
+            for i in 0..PLATE {
+                for j in 0..PLATE {
+                    let bending = xx[i] * xx[j] + yy[i] * yy[j];
+                    let both = poisson * (xx[i] * yy[j] + yy[i] * xx[j]);
+                    let twist = 2.0 * (1.0 - poisson) * xy[i] * xy[j];
+                    stiffness[i * PLATE + j] += weight * (bending + both + twist);
+                }
+            }
+        }
+    }
+    stiffness
+}
+
+/// A square slab of `count` × `count` plates, rigid in its plane, with masses on some nodes.
+struct Slab {
+    side: f64,
+    count: usize,
+    /// Thickness, m.
+    thickness: f64,
+    /// Columns, node along x and along y, and mass, kg.
+    columns: Vec<([usize; 2], f64)>,
+}
+
+impl Slab {
+    const YOUNG: f64 = 30e9;
+    const POISSON: f64 = 0.2;
+    const DENSITY: f64 = 2400.0;
+
+    fn place(&self, node: usize) -> f64 {
+        self.side * (node as f64 / self.count as f64 - 0.5)
+    }
+
+    /// First degree of freedom of a node; the three motions in the plane come before all.
+    fn dof(&self, [i, j]: [usize; 2]) -> usize {
+        3 + NODE * (j * (self.count + 1) + i)
+    }
+
+    fn rigidity(&self) -> f64 {
+        Self::YOUNG * self.thickness.powi(3) / (12.0 * (1.0 - Self::POISSON.powi(2)))
+    }
+
+    fn corners([i, j]: [usize; 2]) -> [[usize; 2]; 4] {
+        [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]]
+    }
+
+    fn model(&self) -> Result<MatrixModel> {
+        let n = 3 + NODE * (self.count + 1).pow(2);
+        let (mut mass, mut stiffness) = (Triplets::new(n), Triplets::new(n));
+        let pitch = self.side / self.count as f64;
+        let own = plate([pitch; 2], self.rigidity(), Self::POISSON);
+        let mut add = |node: [usize; 2], m: f64| {
+            let [x, y] = node.map(|k| self.place(k));
+            let terms = [[(0, 1.0), (2, -y)], [(1, 1.0), (2, x)]];
+            terms.iter().for_each(|row| mass.add_outer(row, m));
+            let first = self.dof(node);
+            // Rotary inertia, small.
+            let turned = m * 1e-2 * pitch * pitch;
+            [m, turned, turned]
+                .iter()
+                .enumerate()
+                .for_each(|(k, m)| mass.add(first + k, first + k, *m));
+        };
+        let mut faces = Vec::new();
+        for j in 0..self.count {
+            for i in 0..self.count {
+                let corners = Self::corners([i, j]);
+                let dofs: Vec<_> = corners
+                    .iter()
+                    .flat_map(|node| (0..NODE).map(|k| self.dof(*node) + k))
+                    .collect();
+                stiffness.add_block(&dofs, &own);
+                let quarter = 0.25 * pitch * pitch * self.thickness * Self::DENSITY;
+                corners.iter().for_each(|node| add(*node, quarter));
+                faces.push(corners.map(|node| self.node(node)).to_vec());
+            }
+        }
+        self.columns.iter().for_each(|(node, m)| add(*node, *m));
+        MatrixModel::in_plan(mass, stiffness, faces)
+    }
+
+    fn node(&self, node: [usize; 2]) -> FaceNode {
+        let [x, y] = node.map(|k| self.place(k));
+        FaceNode {
+            x,
+            y,
+            horizontal: [(0, 1.0), (2, -y)].into(),
+            across: [(1, 1.0), (2, x)].into(),
+            vertical: self.dof(node).into(),
+        }
+    }
+
+    fn soil() -> Soil {
+        Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap()
+    }
+
+    /// The simulation on `cells` × `cells`.
+    fn build(&self, cells: usize) -> Result<Simulation> {
+        let half = 0.5 * self.side;
+        let plan = Plan::rectangle(-half..half, -half..half, cells)?;
+        Simulation::builder(0.01)
+            .structure(self.model()?)
+            .ground(ElasticGround::in_plan(Self::soil(), plan)?)
+            .interface(Coulomb::new(0.5)?)
+            .build()
+    }
+}
+
+/// Patch test: fields of constant curvature leave no force at a node within a patch of unequal rectangles, and have the
+/// energy of Kirchhoff's plate; rigid motions have none.
+#[test]
+fn plates_pass_the_patch_test() {
+    let (rigidity, poisson) = (3.0, 0.3);
+    let sides = [[1.0, 2.0], [0.7, 1.1]];
+    let ends = sides.map(|[first, second]| [0.0, first, first + second]);
+    for (field, curvatures) in [
+        ([1.0, 0.0, 0.0], [0.0; 3]),
+        ([0.0, 2.0, -3.0], [0.0; 3]),
+        ([0.0; 3], [1.0, 0.0, 0.0]),
+        ([0.0; 3], [0.3, -0.8, 0.6]),
+    ] {
+        let [xx, yy, xy] = curvatures;
+        let at = |i: usize, j: usize| {
+            let [x, y] = [ends[0][i], ends[1][j]];
+            let w = field[0] + field[1] * x + field[2] * y;
+            let bent = 0.5 * xx * x * x + 0.5 * yy * y * y + xy * x * y;
+            [w + bent, field[2] + yy * y + xy * x, -(field[1] + xx * x + xy * y)]
+        };
+        let (mut inner, mut energy) = ([0.0; NODE], 0.0);
+        for j in 0..2 {
+            for i in 0..2 {
+                let stiffness = plate([sides[0][i], sides[1][j]], rigidity, poisson);
+                let corners = Slab::corners([i, j]);
+                let u: Vec<f64> = corners.iter().flat_map(|[i, j]| at(*i, *j)).collect();
+                let force: Vec<f64> = stiffness
+                    .chunks(PLATE)
+                    .map(|row| row.iter().zip(&u).map(|(k, u)| k * u).sum())
+                    .collect();
+                energy += 0.5 * force.iter().zip(&u).map(|(f, u)| f * u).sum::<f64>();
+                let corner = corners.iter().position(|node| *node == [1, 1]).unwrap();
+                for (sum, f) in inner.iter_mut().zip(&force[NODE * corner..]) {
+                    *sum += f;
+                }
+            }
+        }
+        let area = ends[0][2] * ends[1][2];
+        let exact = 0.5
+            * rigidity
+            * area
+            * (xx * xx + yy * yy + 2.0 * poisson * xx * yy + 2.0 * (1.0 - poisson) * xy * xy);
+        assert!((energy - exact).abs() < 1e-10, "{energy} {exact}");
+        assert!(inner.iter().all(|f| f.abs() < 1e-10), "{inner:?}");
+    }
+}
+
+/// A column in the middle of a slab of 12 × 12 m: its settlement against the middle of an edge is 2.75 mm on 16 × 16
+/// cells.
+#[test]
+fn too_few_cells_under_a_slab_are_told() {
+    let slab = Slab { side: 12.0, count: 24, thickness: 0.25, columns: vec![([12, 12], 120e3)] };
+    let error = slab.build(4).expect_err("an error");
+    let Error::CoarseBase { foundation: 0, elements: 4, needed, difference, axis: Some('x') } =
+        error
+    else {
+        panic!("{error}")
+    };
+    assert!((9..=13).contains(&needed) && (0.5..0.7).contains(&difference), "{error}");
+    for (cells, most) in [(6, 0.17), (8, 0.07), (12, 0.02)] {
+        let mut simulation = slab.build(cells).unwrap();
+        let u = simulation.static_displacement();
+        let settlement = u[slab.dof([12, 0])] - u[slab.dof([12, 12])];
+        assert!((settlement / 2.7466e-3 - 1.0).abs() < most, "{cells}: {settlement}");
+        let warnings = simulation.run(1, |_| {}).unwrap().warnings;
+        let found = warnings.iter().find_map(|own| match own {
+            Warning::CoarseBase { elements, needed, .. } => Some([*elements, *needed]),
+            _ => None,
+        });
+        let is_told = found.is_some_and(|[elements, needed]| elements == cells && needed <= 14);
+        assert_eq!(is_told, cells < 12, "{cells}: {warnings:?}");
+    }
+}
+
+/// As many cells as faces at least under a flexible slab, as many as wanted under a rigid one.
+#[test]
+fn a_slab_gets_as_many_cells_as_faces() {
+    let slab = Slab { side: 12.0, count: 10, thickness: 0.25, columns: vec![] };
+    let model = slab.model().unwrap();
+    for (wanted, along) in [(4, 10), (10, 10), (12, 12)] {
+        let ground = ElasticGround::under(Slab::soil(), &model, wanted).unwrap();
+        assert_eq!(ground.elements().len(), along * along);
+    }
+    assert!(Plan::under(&model, 1).is_err());
+    let rigid = basemat::structure::RigidBody::cuboid([12.0, 12.0, 1.0], 2400.0).unwrap();
+    assert_eq!(Plan::under(&rigid, 4).unwrap().count(), 16);
+    assert_eq!(model.contact_faces().len(), 100);
+}
