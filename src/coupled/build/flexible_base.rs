@@ -112,7 +112,7 @@ fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
 }
 
 /// The foundation whose vertical static shape differs most between two static states, and by how much: root mean
-/// squares over the nodes, relative to that of the second state, best rigid motions left out.
+/// squares over the nodes, relative to the shape of the second state, best rigid motions left out.
 fn largest_difference(base: &Base, one: &StaticState, other: &StaticState) -> (usize, f64) {
     let differences = base.foundations().map(|(nodes, _)| {
         let shape = |state: &StaticState| -> Vec<f64> {

@@ -2,8 +2,8 @@
 //!
 //! 1. `parts.rs`: what was given, each part checked by itself;
 //! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
-//! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`; `flexible_base.rs` holds
-//!    it against that of twice the elements where these may be too few;
+//! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`; `flexible_base.rs` compares
+//!    the result with the static state on twice the elements where these may be too few;
 //! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these; `krylov.rs` finds Ritz modes;
 //! 5. the scene, and again in `statics.rs` the motion at t = 0.
 

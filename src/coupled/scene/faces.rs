@@ -135,7 +135,7 @@ impl<'a> Faces<'a> {
         (piece.iter().copied().zip(shares(&corners, point)).collect(), distance)
     }
 
-    /// Points for integrals over the elements of a mat: those of Gauss' rule on its faces, or of 2 × 2 in an element that
+    /// Points for integrals over the elements of a mat: Gauss' rule on its faces, or the rule of 2 × 2 in an element that
     /// has fewer.
     fn points(&self, mat: &Outline, patch: &Patch) -> Vec<BasePoint> {
         let mut found = vec![Vec::new(); mat.elements.len()];

@@ -57,7 +57,7 @@ impl Quadrilateral {
         weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k]
     }
 
-    /// Newton's step from the coordinates `[s, t]` to those of a point.
+    /// Newton's step from the coordinates `[s, t]` to a point.
     fn step(&self, [s, t]: Point, p: Point) -> Option<Point> {
         let weights = bilinear([s, t]);
         let rest = [0, 1].map(|k| p[k] - self.blend(weights, k));
@@ -187,7 +187,7 @@ mod tests {
         assert!(without > 20, "{without}");
     }
 
-    /// Within, shares are those of the bilinear displacement, however the face lies.
+    /// Within, both ways lead to the same coordinates, however the face lies.
     #[test]
     fn coordinates_within_are_the_bilinear_ones() {
         let face = Quadrilateral([[4.0, -1.0], [5.0, 4.0], [1.0, 3.0]]);
