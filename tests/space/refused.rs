@@ -262,12 +262,9 @@ fn all_convex_quadrilaterals_carry_a_rigid_body() {
         let corners = square.map(|[x, y]| [x + 6.0 * random() - 3.0, y + 6.0 * random() - 3.0]);
         let body = on_face(&corners, [0.0; 2]);
         // Narrow corners, and faces that are not convex, are refused for other reasons.
-        let Ok(plan) = Plan::under(&body, 8) else { continue };
-        let simulation = Simulation::builder(0.01)
-            .ground(SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap())
-            .structure(body)
-            .interface(Bonded)
-            .build();
+        let Ok(ground) = SpringGround::under(&body, 8, 4e7, 3e7) else { continue };
+        let simulation =
+            Simulation::builder(0.01).ground(ground).structure(body).interface(Bonded).build();
         match simulation {
             Ok(_) => built += 1,
             Err(error) => assert!(!error.to_string().contains("distance"), "{corners:?}: {error}"),
