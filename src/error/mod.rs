@@ -19,14 +19,14 @@ pub use file::RecordError;
 pub use file::{MatrixFileError, MeshFileError};
 pub use ground::{KernelFileError, LayeredError, PlanError, SiteError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
-pub use part::{CoarseBaseError, LawError, ReducedError};
+pub use part::{LawError, ReducedError};
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress};
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, short,
 };
-pub use step::{CheckpointError, StabilityError, StepError};
+pub use step::{CheckpointError, CoarseBaseError, StabilityError, StepError};
 pub(crate) use step::{along, place};
 
 /// Result of every fallible function of the crate.

@@ -1,6 +1,6 @@
 //! Errors of parts: a user's own, interface laws, reduced structures.
 
-use super::{Error, along};
+use super::Error;
 
 impl Error {
     /// [`Error::Part`], returned by a user's own part when none of the other errors fits.
@@ -148,24 +148,4 @@ pub enum ReducedError {
         /// Least ratio that is accepted.
         least: f64,
     },
-}
-
-/// A flexible base on so few contact elements that its static state is another one: shapes between elements are held by
-/// the structure alone.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error(
-    "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed} (twice as \
-     many change its static shape by {:.0} %)", along(*axis), 100.0 * difference
-)]
-pub struct CoarseBaseError {
-    /// Number of the foundation, from the left, from 0.
-    pub foundation: usize,
-    /// Elements of the foundation; in plan along its shorter side.
-    pub elements: usize,
-    /// About as many as it needs.
-    pub needed: usize,
-    /// Change of its vertical static shape by twice the elements, relative.
-    pub difference: f64,
-    /// In plan: `x` for elements of a row, `y` for elements of a column.
-    pub axis: Option<char>,
 }

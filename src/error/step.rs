@@ -367,3 +367,23 @@ fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
         (Some(_), false) => " over its front edge",
     }
 }
+
+/// A flexible base on so few contact elements that its static state is another one: shapes between elements are held by
+/// the structure alone.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed} (twice as \
+     many change its static shape by {:.0} %)", along(*axis), 100.0 * difference
+)]
+pub struct CoarseBaseError {
+    /// Number of the foundation, from the left, from 0.
+    pub foundation: usize,
+    /// Elements of the foundation; in plan along its shorter side.
+    pub elements: usize,
+    /// About as many as it needs.
+    pub needed: usize,
+    /// Change of its vertical static shape by twice the elements, relative.
+    pub difference: f64,
+    /// In plan: `x` for elements of a row, `y` for elements of a column.
+    pub axis: Option<char>,
+}
