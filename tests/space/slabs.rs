@@ -242,8 +242,13 @@ fn plates_pass_the_patch_test() {
 fn too_few_cells_under_a_slab_are_told() {
     let slab = Slab { side: 12.0, count: 24, thickness: 0.25, columns: vec![([12, 12], 120e3)] };
     let error = slab.build(4).expect_err("an error");
-    let Error::CoarseBase { foundation: 0, elements: 4, needed, difference, axis: Some('x') } =
-        error
+    let Error::CoarseBase(CoarseBaseError {
+        foundation: 0,
+        elements: 4,
+        needed,
+        difference,
+        axis: Some('x'),
+    }) = error
     else {
         panic!("{error}")
     };
