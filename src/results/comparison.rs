@@ -152,7 +152,7 @@ impl Comparison {
             cells.extend(self.cases.iter().map(|(_, run)| row.cell(run)));
             cells
         };
-        // What no case has is no row.
+        // A quantity that no case has gets no row.
         let known = |row: &Line| {
             self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.value)(s).is_some())
         };

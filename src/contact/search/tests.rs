@@ -220,7 +220,8 @@ fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>,
     let input = problem.input();
     let known = problem.laws[0].modes();
     let count = problem.start.len();
-    let mut search = ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
+    let mut search =
+        ModeSearch::new(ContactLayout::new(PLANE, count), &[], true, ContactSearch::Robust);
     let mut found = Vec::new();
     let mut modes = vec![known[0]; count];
     for number in 0..known.len().pow(u32::try_from(count).unwrap()) {
@@ -289,7 +290,7 @@ impl Tally {
         let input = problem.input();
         let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
         let mut search =
-            ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
+            ModeSearch::new(ContactLayout::new(PLANE, count), &[], true, ContactSearch::Robust);
         self.problems += 1;
         let all = brute_force(problem, &mut solver);
         let solutions = distinct(&all);

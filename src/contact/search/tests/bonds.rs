@@ -33,7 +33,7 @@ fn bonds_break_where_brute_force_says_they_may() {
             glue(&mut problem, &mut random);
             let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
             let mut search =
-                ModeSearch::new(ContactLayout::new(PLANE, count), &[], ContactSearch::Robust);
+                ModeSearch::new(ContactLayout::new(PLANE, count), &[], true, ContactSearch::Robust);
             let mut state_variables = problem.start.state_variables().to_vec();
             for _ in 0..10 {
                 push(&mut problem, &mut random);
