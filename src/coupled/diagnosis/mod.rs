@@ -11,6 +11,7 @@ pub(crate) mod supports;
 use std::fmt;
 
 use crate::coupled::build::equilibrium::Standing;
+use crate::coupled::run::peak::resultant;
 use crate::coupled::scene::faces::hull;
 use crate::coupled::scene::operators::Operators;
 use crate::coupled::scene::{Scene, operators};
@@ -18,7 +19,7 @@ use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result, StabilityError};
 use crate::geometry::{Edge, axis_name, middle, span};
 use crate::interface::{InterfaceLaw, PreviousContacts, law_of};
-use crate::linalg::{dense_condition, dot};
+use crate::linalg::{SparseFactor, dense_condition, dot};
 use mechanism::{FIRMLY, Regular, unresisted};
 use strength::Strength;
 
@@ -66,18 +67,15 @@ fn resultants(
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
         let [along, upward, away] = part.resultants(load);
-        let horizontal = if away == 0.0 { along } else { along.hypot(away) };
-        let normal = -upward;
+        let (horizontal, normal) = (resultant(along, away), -upward);
         let nodes = part.nodes(base);
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         let (ends, across) = (bounds[0], is_plan.then_some(bounds[1]));
         let lengths = || part.elements().iter().map(|&e| base.areas()[e]);
         let pressure = normal / lengths().sum::<f64>();
-        let strengths: Vec<_> = part
-            .elements()
-            .iter()
-            .map(|&e| Strength::of(law_of(laws, e), pressure, is_plan, stage.frictionless))
-            .collect();
+        let strength =
+            |&e: &usize| Strength::of(law_of(laws, e), pressure, is_plan, stage.frictionless);
+        let strengths: Vec<_> = part.elements().iter().map(strength).collect();
         // With a bond something must have broken it: without one the state would have been found.
         let pulls = strengths.iter().any(|own| own.pulls);
         let coheres = strengths.iter().any(|own| own.coheres);
@@ -105,10 +103,7 @@ fn resultants(
         let half_widths = bounds.map(|[least, most]| 0.5 * (most - least));
         let mut moments = [0.0; 3];
         let turns = held.turns(nodes.iter().copied(), middles);
-        for (moment, mut rotation) in moments.iter_mut().zip(turns) {
-            factor.solve(&mut rotation);
-            *moment = dot(&rotation, load);
-        }
+        moments.iter_mut().zip(turns).for_each(|(own, turn)| *own = work(&mut factor, turn, load));
         // The soil's pressure stands at the distance e: M + N e = 0.
         let eccentricities = [-moments[0] / normal, -moments[1] / normal];
         let part_of = |axis: usize| eccentricities[axis].abs() / half_widths[axis];
@@ -118,9 +113,9 @@ fn resultants(
         } else {
             (part_of(0), 0)
         };
+        let eccentricity = eccentricities[axis];
         // By the right-hand rule about y, what lifts the right side is negative.
-        let sign = if is_plan && axis == 0 { -1.0 } else { 1.0 };
-        let [moment, eccentricity] = [sign * moments[axis], eccentricities[axis]];
+        let moment = if is_plan && axis == 0 { -moments[0] } else { moments[axis] };
         if ratio >= 1.0 && opens {
             let axis = axis_name(is_plan, axis);
             let error = StabilityError::Overturning {
@@ -152,35 +147,41 @@ fn resultants(
             let distance = |[x, y]: [f64; 2]| (x - middles[0]).hypot(y - middles[1]);
             let arms = all_middles.map(distance).zip(lengths());
             let resistance = friction * pressure * arms.map(|(arm, area)| arm * area).sum::<f64>();
-            let torque = moments[2];
-            let ratio = torque.abs() / resistance;
+            let (torque, ratio) = (moments[2], moments[2].abs() / resistance);
             if ratio > 1.0 {
                 let error =
                     StabilityError::Twisting { ends, across, torque, normal, resistance, ratio };
                 return broken(coheres, error);
             }
         }
-        // At most the bearing pressure everywhere between the resultant's two equal distances.
-        let bearing = || strengths.iter().map(|own| own.bearing_pressure);
-        let largest = bearing().fold(0.0, f64::max);
-        let all: f64 = bearing().zip(lengths()).map(|(pressure, l)| pressure * l).sum();
         let width = if is_plan {
             // The area that both axes leave (Meyerhof 1963).
             lengths().sum::<f64>() * (1.0 - part_of(0)) * (1.0 - part_of(1))
         } else {
             2.0 * half_widths[0] * (1.0 - ratio)
         };
-        let capacity = all.min(largest * width);
-        let ratio = normal / capacity;
-        (ratio > 1.0).then_some(StabilityError::BearingFailure {
-            ends,
-            across,
-            normal,
-            width,
-            capacity,
-            ratio,
-        })
+        let [capacity, ratio] =
+            bearing(strengths.iter().map(|own| own.bearing_pressure).zip(lengths()), normal, width);
+        let failure =
+            StabilityError::BearingFailure { ends, across, normal, width, capacity, ratio };
+        (ratio > 1.0).then_some(failure)
     })
+}
+
+/// Work of a load on the displacements that these forces cause.
+fn work(factor: &mut SparseFactor, mut force: Vec<f64>, load: &[f64]) -> f64 {
+    factor.solve(&mut force);
+    dot(&force, load)
+}
+
+/// Force that bearing pressures carry on elements of these lengths or areas, at most the largest of them on the `width`
+/// between the resultant's two equal distances, and the normal force over it.
+fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) -> [f64; 2] {
+    let (all, largest) = elements.fold((0.0, 0.0_f64), |(all, largest), (pressure, length)| {
+        (all + pressure * length, largest.max(pressure))
+    });
+    let capacity = (largest * width).min(all);
+    [capacity, normal / capacity]
 }
 
 /// Largest part of the way from `middle` to an edge of a convex outline that a resultant at this `distance` has gone,

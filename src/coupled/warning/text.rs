@@ -89,6 +89,31 @@ impl fmt::Display for Warning {
             Self::MotionAcross => {
                 write!(f, "motion along y: a ground in the plane leaves it out")
             }
+            Self::LongElements { element_length, wavelength, needed } => write!(
+                f,
+                "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \
+                 take {needed:.1e} m"
+            ),
+            Self::UnusualSoil { .. }
+            | Self::LongPeriod { .. }
+            | Self::UnusualMotion { .. }
+            | Self::UnusualInterval { .. }
+            | Self::LightStructure { .. }
+            | Self::UnusualFriction { .. }
+            | Self::TallStorey { .. }
+            | Self::UnusualGravity { .. }
+            | Self::EndsEarly { .. }
+            | Self::PeakAtEnd { .. }
+            | Self::Overturned { .. }
+            | Self::DampedSliding { .. } => self.of_input(f),
+        }
+    }
+}
+
+impl Warning {
+    /// Texts of what a user gave: numbers in another unit, the length of a run, damping.
+    fn of_input(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::UnusualSoil { shear_wave_speed, density } => write!(
                 f,
                 "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
@@ -132,14 +157,11 @@ impl fmt::Display for Warning {
             ),
             Self::DampedSliding { rate, loss } => write!(
                 f,
-                "damping brakes a sliding base at {rate:.2} 1/s: longest slip event short by about {:.0} %;                  take damping without the mass",
+                "damping resists translation ({rate:.2}/s): longest slip event short by about {:.0} %",
                 100.0 * loss
             ),
-            Self::LongElements { element_length, wavelength, needed } => write!(
-                f,
-                "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \
-                 take {needed:.1e} m"
-            ),
+            // The others have their texts above.
+            _ => Ok(()),
         }
     }
 }
