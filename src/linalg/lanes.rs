@@ -106,7 +106,7 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     fn square(self) -> S::f64s {
         let simd = self.simd;
-        simd.add_f64s(simd.mul_f64s(self.re, self.re), simd.mul_f64s(self.im, self.im))
+        simd.mul_add_e_f64s(self.re, self.re, simd.mul_f64s(self.im, self.im))
     }
 
     /// Σ x^k/(first + step k)!, up to 1/last!.
@@ -116,7 +116,7 @@ impl<S: Simd> Lanes<S> {
         let mut k = last;
         while k > first {
             k -= step;
-            sum = simd.add_f64s(simd.mul_f64s(sum, x), simd.splat_f64s(INVERSE_FACTORIALS[k]));
+            sum = simd.mul_add_e_f64s(sum, x, simd.splat_f64s(INVERSE_FACTORIALS[k]));
         }
         sum
     }
@@ -131,14 +131,24 @@ impl<S: Simd> Lanes<S> {
         let n = simd.sub_f64s(shifted, splat(ROUND));
         let mut r = x;
         for part in LN_2_PARTS {
-            r = simd.sub_f64s(r, simd.mul_f64s(n, splat(part)));
+            r = simd.mul_add_e_f64s(n, splat(-part), r);
         }
         let value = Self::series(simd, [0, 1, 13], r);
-        // 2ⁿ by its exponent.
-        let bits = simd.add_u64s(simd.transmute_u64s_f64s(shifted), simd.splat_u64s(1023));
-        let bits = simd.mul_u64s(bits, simd.splat_u64s(1 << 52));
-        let value = simd.mul_f64s(value, simd.transmute_f64s_u64s(bits));
+        let value = simd.mul_f64s(value, Self::power_of_two(simd, n));
         Self::select(simd, simd.less_than_f64s(splat(EXPONENTS[1]), x), splat(f64::NAN), value)
+    }
+
+    /// 2ⁿ by its exponent: from 2²⁰ on n is in the lowest bits of the upper half, which has the exponent at its top.
+    #[inline(always)]
+    fn power_of_two(simd: S, n: S::f64s) -> S::f64s {
+        let bits = simd.transmute_u64s_f64s(simd.add_f64s(n, simd.splat_f64s(1_572_864.0)));
+        let bits = if S::IS_SCALAR {
+            simd.mul_u64s(bits, simd.splat_u64s(1 << 20))
+        } else {
+            let halves: S::u32s = pulp::bytemuck::cast(bits);
+            pulp::bytemuck::cast(simd.wrapping_dyn_shl_u32s(halves, simd.splat_u32s(20)))
+        };
+        simd.transmute_f64s_u64s(simd.add_u64s(bits, simd.splat_u64s(1023 << 52)))
     }
 
     /// cos x and sin x; NaN for angles that are too large.
@@ -149,7 +159,7 @@ impl<S: Simd> Lanes<S> {
         let n = round(simd.mul_f64s(x, splat(FRAC_1_PI)));
         let mut r = x;
         for part in PI_PARTS {
-            r = simd.sub_f64s(r, simd.mul_f64s(n, splat(part)));
+            r = simd.mul_add_e_f64s(n, splat(-part), r);
         }
         let is_large = simd.less_than_f64s(splat(LARGEST_ANGLE), Self::absolute(simd, x));
         let r = Self::select(simd, is_large, splat(f64::NAN), r);
@@ -189,7 +199,7 @@ impl<S: Simd> Mul for Lanes<S> {
         let simd = self.simd;
         let [a, b, c, d] = [self.re, self.im, other.re, other.im];
         let re = simd.sub_f64s(simd.mul_f64s(a, c), simd.mul_f64s(b, d));
-        self.with(re, simd.add_f64s(simd.mul_f64s(a, d), simd.mul_f64s(b, c)))
+        self.with(re, simd.mul_add_e_f64s(a, d, simd.mul_f64s(b, c)))
     }
 }
 

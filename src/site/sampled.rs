@@ -25,6 +25,8 @@ pub(super) struct At<C> {
     pub(super) s: C,
     /// s, or i at frequency zero, which is the limit from above.
     pub(super) direction: C,
+    /// Whether the moduli are the ones of the call before, with the same `kept`.
+    pub(super) repeats: bool,
     /// Nearness and ratio of the places, if any is in the band.
     near: Option<[C; 2]>,
 }
@@ -45,7 +47,8 @@ impl At<Complex> {
     fn one(place: &Place) -> Self {
         let near = [place.nearness, place.ratio].map(Complex::real);
         let direction = direction(place.s);
-        Self { s: place.s, direction, near: (place.nearness > 0.0).then_some(near) }
+        let near = (place.nearness > 0.0).then_some(near);
+        Self { s: place.s, direction, repeats: false, near }
     }
 }
 
@@ -164,6 +167,8 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
         let (length, count) = (places.len(), Lanes::<S>::COUNT);
         let zero = Complex::default();
         let directions: Vec<Complex> = s.iter().map(|s| direction(*s)).collect();
+        // As of hysteretic damping.
+        let is_constant = moduli.chunks_exact(length).all(|own| own.iter().all(|m| *m == own[0]));
         let mut kept = vec![];
         let mut values = vec![Lanes::load(simd, &[zero]); functions.count()];
         let mut lanes = Vec::with_capacity(moduli.len() / length);
@@ -181,10 +186,14 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
                 [load(|place| place.nearness), load(|place| place.ratio)]
             });
             let directions = Lanes::load(simd, &directions[begin..end]);
-            let at = At { s: Lanes::load(simd, &s[begin..end]), direction: directions, near };
-            lanes.clear();
-            for moduli in moduli.chunks_exact(length) {
-                lanes.push(Lanes::load(simd, &moduli[begin..end]));
+            let repeats = begin > 0 && near.is_none() && is_constant;
+            let s = Lanes::load(simd, &s[begin..end]);
+            let at = At { s, direction: directions, repeats, near };
+            if !repeats {
+                lanes.clear();
+                for moduli in moduli.chunks_exact(length) {
+                    lanes.push(Lanes::load(simd, &moduli[begin..end]));
+                }
             }
             functions.evaluate(&at, &lanes, &mut kept, &mut values);
             let mut is_finite = true;

@@ -315,7 +315,7 @@ impl SoilColumn {
         let functions = Column::exact(&self.profile, self.wave, control, sought);
         let functions = functions.sampled(transform.contour().end()?)?;
         let mut moduli = vec![];
-        transform.filter(functions.count(), pace, |places, found| {
+        transform.filter(functions.count(), false, pace, |places, found| {
             evaluate(&functions, places, &mut moduli, found)
         })
     }

@@ -126,7 +126,7 @@ impl Contour {
         filters: impl FnMut(&[Place], &mut [Complex]) -> Result<()>,
     ) -> Result<[SiteMotion; N]> {
         let mut transform = Transform::new(self, motion)?;
-        transform.filter(N, pace, filters)?;
+        transform.filter(N, true, pace, filters)?;
         let mut found = [(); N].map(|()| SiteMotion::default());
         for (k, found) in found.iter_mut().enumerate() {
             *found = transform.motion(k)?;
@@ -191,10 +191,11 @@ impl Transform {
     }
 
     /// Multiplies the spectrum by `count` functions, whose values at places `filters` writes one function after the
-    /// other.
+    /// other; rounding and amplification of the motions are known if they are `measured`.
     pub(super) fn filter(
         &mut self,
         count: usize,
+        measured: bool,
         pace: &mut Pace<'_, '_>,
         mut filters: impl FnMut(&[Place], &mut [Complex]) -> Result<()>,
     ) -> Result<()> {
@@ -231,7 +232,9 @@ impl Transform {
                 for (((value, filter), place), filtered) in own.zip(&mut filtered[begin..stop]) {
                     let product = Complex::new(value.re, value.im) * *filter;
                     *filtered = Complex64::new(product.re, product.im);
-                    sums.add(*filter, product, place.s.im);
+                    if measured {
+                        sums.add(*filter, product, place.s.im);
+                    }
                 }
             }
             pace.reach(0.5 * stop as f64 / (last + 1) as f64)?;

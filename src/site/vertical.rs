@@ -105,8 +105,8 @@ impl<'a> Column<'a> {
 }
 
 impl Functions for Column<'_> {
-    /// Waves up and down at the top of a layer, its travel κh and e^(−κh/2).
-    type Kept<C: Number> = [C; 4];
+    /// Of a soil: c and 1/c; of a layer also waves up and down at its top, its travel κh and e^(−κh/2).
+    type Kept<C: Number> = [C; 6];
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -126,16 +126,23 @@ impl Functions for Column<'_> {
         &self,
         at: &At<C>,
         moduli: &[C],
-        kept: &mut Vec<[C; 4]>,
+        kept: &mut Vec<[C; 6]>,
         found: &mut [C],
     ) {
-        kept.clear();
         let [none, one] = [at.s.like_real(0.0), at.s.like_real(1.0)];
         let (mut waves, mut total) = ([one; 2], none);
         let mut above: Option<C> = None;
+        if kept.len() != moduli.len() {
+            kept.clear();
+            kept.resize(moduli.len(), [none; 6]);
+        }
         let layers = self.profile.layers().len();
         for (index, modulus) in moduli.iter().enumerate() {
-            let speeds = self.speed(index, *modulus);
+            if !at.repeats {
+                let [speed, slowness] = self.speed(index, *modulus);
+                kept[index] = [speed, slowness, none, none, none, none];
+            }
+            let speeds = [kept[index][0], kept[index][1]];
             let mut now = speeds;
             let is_layer = index < layers;
             let mut travel = none;
@@ -163,7 +170,7 @@ impl Functions for Column<'_> {
                 travel.scale(-2.0).exp()
             } else {
                 let half = travel.scale(-0.5).exp();
-                kept.push([up, down, travel, half]);
+                kept[index] = [speeds[0], speeds[1], up, down, travel, half];
                 let once = half * half;
                 once * once
             };
@@ -182,16 +189,17 @@ impl Functions for Column<'_> {
             }
             Sought::Accelerations => {
                 found[layers] = (up + down) * decay;
-                for (found, [up, down, _, half]) in found.iter_mut().zip(&*kept).rev() {
+                let kept = found[..layers].iter_mut().zip(&kept[..layers]);
+                for (found, [_, _, up, down, _, half]) in kept.rev() {
                     decay = decay * *half * *half;
                     *found = (*up + *down) * decay;
                 }
             }
             Sought::Strains => {
                 let square = (at.s * at.s).inverse();
-                let sizes = self.profile.layers().iter().zip(&*kept);
-                for (found, (layer, [up, down, travel, half])) in found.iter_mut().zip(sizes).rev()
-                {
+                let sizes = self.profile.layers().iter().zip(&kept[..layers]);
+                for (found, (layer, own)) in found[..layers].iter_mut().zip(sizes).rev() {
+                    let [_, _, up, down, travel, half] = own;
                     decay = decay * *half;
                     let wavenumber = travel.scale(1.0 / layer.thickness) * square;
                     *found = (*up - *down * *half * *half) * wavenumber * decay;

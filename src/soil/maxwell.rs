@@ -176,9 +176,10 @@ impl WithSimd for Moduli<'_> {
         let count = Lanes::<S>::COUNT;
         for (s, moduli) in s.chunks(count).zip(moduli.chunks_mut(count)) {
             let s = Lanes::load(simd, s);
-            let mut sum = s.like_real(1.0);
+            // y s/(s + ω) = y − y ω/(s + ω).
+            let mut sum = s.like_real(1.0 + body.ratios.iter().sum::<f64>());
             for (ratio, rate) in body.ratios.iter().zip(&body.rates) {
-                sum = sum + s.scale(*ratio) * (s + s.like_real(*rate)).inverse();
+                sum = sum - (s + s.like_real(*rate)).inverse().scale(ratio * rate);
             }
             sum.scale(body.long_term).store(moduli);
         }
