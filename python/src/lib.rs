@@ -86,9 +86,11 @@ macro_rules! extracts {
 
 mod array;
 mod cases;
+mod contact_node;
 mod dof_names;
 mod error;
 mod ground;
+mod html;
 mod interface;
 mod motion;
 mod names;
@@ -118,6 +120,7 @@ mod _core {
     use crate::{
         array::{memory_limit, set_memory_limit},
         cases::{case_numbers, merge_cases, save_cases},
+        contact_node::{PyContactNode, PyFaceNode},
         ground::{
             PyElasticGround, PyGround, PyImpedances, PyPlan, PySharedKernels, PySpringGround,
             PyStrip,
@@ -146,11 +149,11 @@ mod _core {
         site::{PyEquivalentLinear, PyStrainCurves},
         soil::PySoil,
         structure::{
-            PyBilinear, PyBoucWen, PyContactNode, PyFaceNode, PyFemModel, PyFrictionPendulum,
-            PyGmshMesh, PyHysteresis, PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh,
-            PyPlanStorey, PyRayleighDamping, PyReducedModel, PyRigidBlock, PyRigidBody,
-            PyShearBuilding, PyStorey, PyStoreyBuilding, PyStructure, PyStructureGroup,
-            PyWithModalDamping, PyWithSprings,
+            PyBilinear, PyBoucWen, PyFemModel, PyFrictionPendulum, PyGmshMesh, PyHysteresis,
+            PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh, PyPlanStorey,
+            PyRayleighDamping, PyReducedModel, PyRigidBlock, PyRigidBody, PyShearBuilding,
+            PyStorey, PyStoreyBuilding, PyStructure, PyStructureGroup, PyWithModalDamping,
+            PyWithSprings,
         },
         ticker::cancel_when,
         user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance},

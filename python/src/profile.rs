@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::array::Numbers;
 use crate::error::OrRaise;
-use crate::results::preformatted;
+use crate::html::preformatted;
 use crate::several::{Several, no_such};
 use crate::soil::PySoil;
 

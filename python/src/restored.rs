@@ -7,6 +7,7 @@ use pyo3::{IntoPyObjectExt, PyClass};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::contact_node::{PyContactNode, PyFaceNode};
 use crate::error::refuse;
 use crate::ground::PyImpedances;
 use crate::motion::PySpectrum;
@@ -18,7 +19,6 @@ use crate::results::{
 use crate::row::PyDofCombination;
 use crate::simulation::PyFoundation;
 use crate::soil::PySoil;
-use crate::structure::{PyContactNode, PyFaceNode};
 use crate::user::{PyCondition, PyLimits, PyTolerance};
 
 /// The function that makes a result again, the name of its class, and its bytes.

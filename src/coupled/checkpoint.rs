@@ -1,15 +1,15 @@
 //! Checkpoints: saving a run and resuming it later, to the last bit.
 
-use super::energy_accumulator::EnergyAccumulator;
-use super::energy_balance::EnergyBalance;
-#[cfg(feature = "serde")]
-use super::identity::bits;
-use super::identity::{Change, Identity};
-use super::motion::Translation;
-use super::scene::Scene;
-use super::state::State;
 use crate::Simulation;
 use crate::contact::SearchMethod;
+#[cfg(feature = "serde")]
+use crate::coupled::identity::bits;
+use crate::coupled::identity::{Change, Identity};
+use crate::coupled::model::motion::Translation;
+use crate::coupled::scene::Scene;
+use crate::coupled::state::State;
+use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::SPACE;
 use crate::interface::{ContactState, Mode, PreviousContact};

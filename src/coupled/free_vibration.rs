@@ -10,10 +10,10 @@
 
 use std::f64::consts::TAU;
 
-use super::build::SimulationBuilder;
-use super::build::gravity_stage::GravityStage;
-use super::motion::Load;
-use super::scheme::Midpoint;
+use crate::coupled::assembly::SimulationBuilder;
+use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::model::load::Load;
+use crate::coupled::scheme::Midpoint;
 use crate::error::{Error, Result};
 use crate::interface::Bonded;
 use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
@@ -46,11 +46,11 @@ const DECAYED: f64 = 1e-3;
 const MISFIT: f64 = 0.1;
 
 /// Vibration mode of a structure with its contact nodes held.
-pub(super) struct FixedBaseMode {
+pub(crate) struct FixedBaseMode {
     /// 2π/ω, s.
-    pub(super) period: f64,
+    pub(crate) period: f64,
     /// φᵀC φ/(2ω φᵀM φ).
-    pub(super) damping: f64,
+    pub(crate) damping: f64,
     /// η of displacements.
     row: DofCombination,
     /// Load p of the deflection.
@@ -59,7 +59,7 @@ pub(super) struct FixedBaseMode {
 
 impl FixedBaseMode {
     /// The mode of `structure` with the most mass along x (0) or y (1); `None` of one that is rigid.
-    pub(super) fn of(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
+    pub(crate) fn of(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
         let mass = SparseMatrix::assembled("mass matrix", n, &|m| structure.mass(m))?;
         let damping = SparseMatrix::assembled("damping matrix", n, &|m| structure.damping(m))?;
@@ -105,7 +105,7 @@ impl FixedBaseMode {
 
 /// Period (s) and damping ratio of the free vibration on the ground that begins in the shape of `mode`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, not negative")]
-pub(super) fn free_vibration(
+pub(crate) fn free_vibration(
     mut builder: SimulationBuilder,
     mode: &FixedBaseMode,
 ) -> Result<[f64; 2]> {

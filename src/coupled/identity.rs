@@ -1,7 +1,7 @@
 //! Identity of a scene: the numbers by which a checkpoint is told from checkpoints of other scenes.
 
-use super::scene::Scene;
 use crate::Simulation;
+use crate::coupled::scene::Scene;
 use crate::error::{CheckpointError, Result};
 use crate::interface::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::linalg::{largest, mixed, mixing_weight};
@@ -47,7 +47,7 @@ words! { pub Change, "change of a scene", {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub(super) struct Identity {
+pub(crate) struct Identity {
     dofs: usize,
     /// Whether an energy balance is kept.
     energy_balance: bool,
@@ -83,7 +83,7 @@ pub(super) struct Identity {
 }
 
 impl Identity {
-    pub(super) fn add_to(&self, sum: &mut CheckSum) {
+    pub(crate) fn add_to(&self, sum: &mut CheckSum) {
         let Self {
             dofs,
             energy_balance,
@@ -122,7 +122,7 @@ impl Identity {
     }
 
     /// Error that names the first thing that differs, beside the `changes` that are wanted.
-    pub(super) fn check(
+    pub(crate) fn check(
         &self,
         own: &Self,
         changes: &[Change],
@@ -172,7 +172,7 @@ impl Identity {
 
 impl Simulation {
     /// Numbers that another simulation of the same scene has too, with samples of these first `steps`.
-    pub(super) fn identity(&self, steps: usize) -> Result<Identity> {
+    pub(crate) fn identity(&self, steps: usize) -> Result<Identity> {
         let Self { scene, state, .. } = self;
         let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
         let model = &scene.model;
@@ -296,7 +296,7 @@ fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool)
 
 /// Floating-point numbers as their bits.
 #[cfg(feature = "serde")]
-pub(super) mod bits {
+pub(crate) mod bits {
     use serde::{Deserialize, Deserializer, Serializer};
 
     pub(crate) fn serialize<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {

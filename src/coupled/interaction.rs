@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::build::SimulationBuilder;
-use super::free_vibration::{FixedBaseMode, free_vibration};
-use super::run::quantity::Place;
-use super::run::{Extremes, Quantity, Run};
+use crate::coupled::assembly::SimulationBuilder;
+use crate::coupled::free_vibration::{FixedBaseMode, free_vibration};
+use crate::coupled::run::quantity::Place;
+use crate::coupled::run::{Extremes, Quantity, Run};
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
 use crate::text::column::{number, of_body, printed};

@@ -30,7 +30,7 @@
 //!
 //! [`Simulation::step`] reads in this order:
 //!
-//! 1. forcing: free field, its translation y, convolution history, load (`motion.rs`);
+//! 1. forcing: free field, its translation y, convolution history, load (`model/load.rs`);
 //! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
 //! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
 //! 4. increment: the response Δu to τ; nothing is committed so far;
@@ -73,53 +73,46 @@
 //! [`Simulation::run`]: crate::Simulation::run
 //! [`Simulation::step`]: crate::Simulation::step
 
-mod advance;
-pub(crate) mod build;
+pub(crate) mod assembly;
+pub(crate) mod base;
 mod checkpoint;
-mod diagnosis;
-mod energy_accumulator;
-mod energy_balance;
-pub(crate) mod foundation;
+mod conditioning;
+mod coordinates;
 mod free_vibration;
+mod gravity_stage;
 mod identity;
 mod interaction;
-mod motion;
-
+pub(crate) mod model;
+pub(crate) mod parts;
 mod refine;
 mod refine_each;
-mod resolution;
 pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
 mod sensitivity;
+pub(crate) mod serviceability;
 pub(crate) mod simulation;
-mod state;
+pub(crate) mod state;
+mod statics;
 mod step;
-mod variation;
-mod warning;
-
-pub use build::SimulationBuilder;
-pub use build::coordinates::Coordinates;
-pub use build::gravity_stage::GravityStage;
-pub use checkpoint::Checkpoint;
-pub use diagnosis::Conditioning;
-pub use energy_balance::{EnergyBalance, EnergyTerm};
-pub use motion::Load;
-pub(crate) use run::Peak;
-pub(crate) use run::peak::probe_index;
 
 pub use crate::structure::probe::Probe;
-pub use foundation::Foundation;
+pub use checkpoint::Checkpoint;
+pub use conditioning::Conditioning;
+pub use coordinates::Coordinates;
+pub use gravity_stage::GravityStage;
 pub use identity::Change;
 pub use interaction::{Interaction, SystemMode, interaction};
+pub use model::load::Load;
+pub use parts::SimulationBuilder;
 pub use refine::{Refinement, Setting, largest_convergent_step, refine};
 pub use refine_each::{Refinements, refine_each};
-pub(crate) use resolution::Resolution;
+pub use run::warning::Warning;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
 pub use sensitivity::{PeakTwins, Sensitivity, sensitivity};
 pub use simulation::Observed;
-pub(crate) use state::{Context, Sequence};
+pub use state::energy_balance::{EnergyBalance, EnergyTerm};
+pub use state::foundation::Foundation;
 pub use state::{State, Transition};
-pub use warning::Warning;

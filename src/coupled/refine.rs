@@ -3,8 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
-use super::run::clock;
 use crate::Simulation;
+use crate::coupled::run::clock;
 use crate::error::{
     Error, Result, StepError, all_finite, at_least, not_negative, positive, same_length,
 };
@@ -128,7 +128,7 @@ pub fn refine(
 }
 
 /// Runs the scene at the six settings, their errors still unknown.
-pub(super) fn settings(
+pub(crate) fn settings(
     elements: usize,
     time_step: f64,
     scene: &mut dyn FnMut(usize, f64) -> Result<Vec<f64>>,
@@ -177,7 +177,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl Refinement {
-    pub(super) fn of(mut settings: Vec<Setting>) -> Self {
+    pub(crate) fn of(mut settings: Vec<Setting>) -> Self {
         let of = |k: usize| &settings[k].results[..];
         let (steps, step_order) = errors([of(0), of(1), of(2)]);
         let (meshes, mesh_order) = errors([of(0), of(3), of(4)]);
@@ -213,7 +213,7 @@ impl Refinement {
 
 impl Refinement {
     /// Orders of convergence, and the advice of an irregular one.
-    pub(super) fn notes(&self) -> String {
+    pub(crate) fn notes(&self) -> String {
         let Self { mesh_order, step_order, mismatch, .. } = self;
         let mut notes = format!(
             "order of convergence: {mesh_order:.1} in the element length, {step_order:.1} in the \
@@ -228,7 +228,7 @@ impl Refinement {
 }
 
 /// Settings in rows, with value and error of each refinement; a name for each.
-pub(super) fn table(refinements: &[(&str, &Refinement)]) -> String {
+pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
     let mut heading = ["elements", "step, s", "run time, s"].map(String::from).to_vec();
     let settings = refinements.first().map_or(&[][..], |(_, first)| &first.settings);
     let row = |setting: &Setting| {

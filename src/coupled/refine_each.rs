@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::refine::{Refinement, Setting, settings, table};
+use crate::coupled::refine::{Refinement, Setting, settings, table};
 use crate::error::{Error, Result, at_least, same_length};
 
 /// Error against run time of several peaks, made by [`refine_each`]. Printed, one table.
@@ -17,11 +17,11 @@ pub struct Refinements {
 
 /// Names of a scene's peaks, which every run must give in the same order.
 #[derive(Default)]
-pub(super) struct Names(pub(super) Vec<String>);
+pub(crate) struct Names(pub(crate) Vec<String>);
 
 impl Names {
     /// Values of the peaks of one run, whose names are checked against the names of the first run.
-    pub(super) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
+    pub(crate) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
         const NAME: &str = "list of a scene's peaks";
         at_least(NAME, peaks.len(), 1)?;
         let (names, values): (Vec<String>, Vec<f64>) =

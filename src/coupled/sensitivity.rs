@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::refine_each::Names;
+use crate::coupled::refine_each::Names;
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 

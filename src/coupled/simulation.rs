@@ -2,17 +2,17 @@
 
 use std::ops::ControlFlow;
 
-use super::build::held::holds;
-use super::diagnosis::Conditioning;
-use super::energy_accumulator::EnergyAccumulator;
-use super::resolution::Resolution;
-use super::scene::Scene;
-use super::state::State;
-use super::step::newton::Solver;
-use super::step::{Forcing, Increment, StepData};
-use super::warning::Warning;
 use crate::bem::Ground;
+use crate::coupled::base::held::holds;
+use crate::coupled::conditioning::Conditioning;
 use crate::coupled::run::Run;
+use crate::coupled::run::resolution::Resolution;
+use crate::coupled::run::warning::Warning;
+use crate::coupled::scene::Scene;
+use crate::coupled::state::State;
+use crate::coupled::step::energy_accumulator::EnergyAccumulator;
+use crate::coupled::step::newton::Solver;
+use crate::coupled::step::{Forcing, Increment, StepData};
 use crate::error::{Error, Observer, Result, StepError, in_bounds};
 use crate::geometry::Patch;
 use crate::interface::Mode;
@@ -25,23 +25,23 @@ use crate::structure::probe::Probe;
 /// Made by [`Simulation::builder`]. The caller may own the loop ([`step`](Simulation::step)) or hand
 /// it over ([`run`](Simulation::run)).
 pub struct Simulation {
-    pub(super) scene: Scene,
-    pub(super) structure: Box<dyn Structure>,
-    pub(super) ground: Box<dyn Ground>,
-    pub(super) motion: Box<dyn FreeField>,
-    pub(super) forcing: Forcing,
-    pub(super) solver: Solver,
-    pub(super) increment: Increment,
+    pub(crate) scene: Scene,
+    pub(crate) structure: Box<dyn Structure>,
+    pub(crate) ground: Box<dyn Ground>,
+    pub(crate) motion: Box<dyn FreeField>,
+    pub(crate) forcing: Forcing,
+    pub(crate) solver: Solver,
+    pub(crate) increment: Increment,
     /// The energy balance, unless it is left out.
-    pub(super) books: Option<EnergyAccumulator>,
-    pub(super) state: State,
-    pub(super) conditioning: Conditioning,
+    pub(crate) books: Option<EnergyAccumulator>,
+    pub(crate) state: State,
+    pub(crate) conditioning: Conditioning,
     /// Warnings of the scene before its first step, and of the steps since.
-    pub(super) warnings: Vec<Warning>,
+    pub(crate) warnings: Vec<Warning>,
     /// Damping of a rigid translation along the ground over the mass that it moves, 1/s.
-    pub(super) drag: f64,
+    pub(crate) drag: f64,
     /// Rotation of a base at which a run ends, rad.
-    pub(super) rotation_limit: f64,
+    pub(crate) rotation_limit: f64,
 }
 
 short_debug! {
@@ -276,11 +276,11 @@ impl Simulation {
             self.step()?;
             run.record(&self.state);
             run.is_overturned = stood && self.state.tilt() > self.rotation_limit;
-            run.is_stopped = observe(&self.state).flow()? == ControlFlow::Break(());
-            if run.is_stopped || run.is_overturned {
-                break;
+            if observe(&self.state).flow()? == ControlFlow::Break(()) || run.is_overturned {
+                return Ok(self.end_run(run));
             }
         }
+        run.ends_by_steps = true;
         Ok(self.end_run(run))
     }
 

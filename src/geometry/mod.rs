@@ -356,3 +356,8 @@ pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 
 /// Directions of beams and of masses with rotary inertia.
 pub(crate) const FRAME: &[Direction] = &Direction::ALL;
+
+/// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
+pub(crate) fn resultant(along: f64, across: f64) -> f64 {
+    if across == 0.0 { along } else { along.hypot(across) }
+}

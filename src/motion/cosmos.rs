@@ -167,7 +167,7 @@ const PEAK: usize = 63;
 /// Value of what is not known.
 const UNKNOWN: f64 = -999.0;
 
-/// What the header of a channel says.
+/// Statements of the header of a channel.
 #[derive(Default)]
 struct Header {
     /// Name of the channel.

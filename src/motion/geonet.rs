@@ -57,7 +57,7 @@ const TEXT_LINES: usize = 16;
 const INTEGERS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 0, scale: 0 };
 const REALS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 1, scale: 0 };
 
-/// What the lines of text state.
+/// Statements of the lines of text.
 #[derive(Default)]
 struct Header {
     name: String,

@@ -76,9 +76,10 @@ mod recorder;
 mod time_series;
 
 pub use crate::coupled::run::{
-    Criterion, ElementEnvelope, Extremes, Fallbacks, GroundMotion, Peak, ProbeExtremes, Quantity,
-    Run, ServiceCheck, Serviceability, Sliding, SlipEvent, Summary, Uplift,
+    ElementEnvelope, Extremes, Fallbacks, GroundMotion, Peak, ProbeExtremes, Quantity, Run,
+    ServiceCheck, Sliding, SlipEvent, Summary, Uplift,
 };
+pub use crate::coupled::serviceability::{Criterion, Serviceability};
 pub use crate::text::csv::Csv;
 pub use comparison::Comparison;
 pub use csv::spectrum_csv;

@@ -6,8 +6,10 @@ use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, rese
 use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
-use crate::coupled::{EnergyBalance, Probe, Sequence, State, probe_index};
+use crate::coupled::state::sequence::Sequence;
+use crate::coupled::{EnergyBalance, Probe, State};
 use crate::error::{MemoryError, Result, memory_limit, require};
+use crate::structure::probe::probe_index;
 
 /// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
 /// observer of [`Simulation::run`].

@@ -132,3 +132,13 @@ pub(crate) fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     }
     Ok(())
 }
+
+/// Place of the probe called `name` in a list.
+pub(crate) fn probe_index<T>(
+    list: &[T],
+    name: &str,
+    name_of: impl Fn(&T) -> &String + Copy,
+) -> Result<usize> {
+    let unknown = || Error::no_name("probe", name, list.iter().map(name_of));
+    list.iter().position(|entry| name_of(entry) == name).ok_or_else(unknown)
+}

@@ -13,12 +13,6 @@ use crate::error::OrRaise;
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySummary(pub(super) Summary);
 
-/// A text as HTML, in its lines.
-pub(crate) fn preformatted(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    format!("<pre style=\"line-height: 1.2\">{text}</pre>")
-}
-
 members! {
     PySummary, own;
     /// x of the foundation's two ends, m.

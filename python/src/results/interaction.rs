@@ -5,9 +5,9 @@ use basemat::results::Quantity;
 use pyo3::prelude::*;
 
 use super::PyRun;
-use super::base::preformatted;
 use crate::array::Named;
 use crate::error::OrRaise;
+use crate::html::preformatted;
 
 /// Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19).
 #[pyclass(name = "SystemMode", module = "basemat", frozen, eq)]

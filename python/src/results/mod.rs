@@ -7,7 +7,7 @@ mod peak;
 mod run;
 mod series;
 
-pub(crate) use base::{PyServiceCheck, PySummary, preformatted};
+pub(crate) use base::{PyServiceCheck, PySummary};
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use interaction::{PyInteraction, PySystemMode};
 pub(crate) use peak::{PyExtremes, PyPeak};

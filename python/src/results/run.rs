@@ -8,10 +8,10 @@ use basemat::results::{DeformedShape, Quantity, Run, Summary, TimeSeries};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-use super::base::preformatted;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
 use crate::array::{Array, Named, Numbers};
 use crate::error::{OrRaise, in_python, refuse, warn};
+use crate::html::preformatted;
 use crate::motion::{PyRecord, PySpectrum, coarse};
 use crate::structure::{PyFemModel, PyShearBuilding, PyStoreyBuilding, recipe};
 use crate::ticker::watched;

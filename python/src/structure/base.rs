@@ -6,7 +6,7 @@ use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::{PyContactNode, PyFaceNode};
+use crate::contact_node::{PyContactNode, PyFaceNode};
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;

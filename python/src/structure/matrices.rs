@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
-use super::contact_node::Contact;
 use crate::array::Matrix;
+use crate::contact_node::Contact;
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::recipe::Shared;

@@ -4,7 +4,6 @@ mod base;
 mod block;
 mod building;
 mod composed;
-mod contact_node;
 mod dof_combination;
 mod fem;
 mod hysteresis;
@@ -17,7 +16,6 @@ pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuild
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
-pub(crate) use contact_node::{Contact, PyContactNode, PyFaceNode};
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyWithSprings,

@@ -9,9 +9,9 @@ use pyo3::prelude::*;
 
 use super::object::{UserObject, copied};
 use crate::array::{Array, Count, Matrix, Numbers};
+use crate::contact_node::Contact;
 use crate::dof_names::DofNames;
 use crate::error::{keep, refuse, returned};
-use crate::structure::Contact;
 
 /// Name of this kind of part in errors.
 const PART: &str = "structure";

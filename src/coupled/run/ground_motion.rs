@@ -25,7 +25,7 @@ pub struct GroundMotion {
 
 impl GroundMotion {
     /// The motion of a run that ended at `end` (s) and saw the acceleration `seen` (m/s²).
-    pub(super) fn new(motion: &dyn FreeField, end: f64, seen: f64) -> Self {
+    pub(crate) fn new(motion: &dyn FreeField, end: f64, seen: f64) -> Self {
         let records = motion.records();
         let largest = |of: fn(&Record) -> f64| records.iter().map(|own| of(own)).reduce(f64::max);
         let intensity = |own: &Record| own.accelerations().iter().map(|a| a * a).sum::<f64>();
@@ -65,7 +65,7 @@ impl fmt::Display for GroundMotion {
 }
 
 /// A time in s without the zeros at its end.
-pub(super) fn seconds(time: f64) -> String {
+pub(crate) fn seconds(time: f64) -> String {
     if time < 1e-4 {
         return number(time);
     }

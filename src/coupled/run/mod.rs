@@ -2,26 +2,40 @@
 
 use std::time::{Duration, Instant};
 
-pub(crate) mod base;
+mod base_view;
+mod envelope;
 mod ground_motion;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
-mod serviceability;
+pub(crate) mod resolution;
+mod service_check;
+mod sliding;
+mod uplift;
+mod variation;
+mod vectors;
+pub(crate) mod warning;
+mod warning_rules;
+mod warning_text;
 
-pub use base::{ElementEnvelope, Sliding, SlipEvent, Uplift};
+pub use envelope::ElementEnvelope;
 pub use ground_motion::GroundMotion;
 pub use peak::{Extremes, Peak, ProbeExtremes};
 pub use quantity::{Quantity, Summary};
-pub use serviceability::{Criterion, ServiceCheck, Serviceability};
+use resolution::Resolution;
+pub use service_check::ServiceCheck;
+pub use sliding::{Sliding, SlipEvent};
+pub use uplift::Uplift;
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
-use crate::coupled::{
-    Context, EnergyBalance, Probe, Resolution, Sequence, State, Warning, probe_index,
-};
+use crate::coupled::serviceability::Serviceability;
+use crate::coupled::state::Context;
+use crate::coupled::state::sequence::Sequence;
+use crate::coupled::{EnergyBalance, Probe, State, Warning};
 use crate::error::Result;
 use crate::motion::FreeField;
+use crate::structure::probe::probe_index;
 
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::contact::SearchMethod).
@@ -115,9 +129,9 @@ pub struct Run {
     elements: Vec<ContactElement>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
     sequence: Sequence,
-    /// Whether an observer ended the run.
+    /// Whether the run ended with the steps that it was given: not by an observer or a loop of the caller's own.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) is_stopped: bool,
+    pub(crate) ends_by_steps: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
     /// Largest settlement of each foundation, m.
@@ -157,8 +171,8 @@ impl Run {
             foundations: (0..state.foundations.len())
                 .map(|k| Summary::start(state, Some(k)))
                 .collect(),
-            serviceability: limits.start(state),
-            envelope: base::start(elements, state),
+            serviceability: ServiceCheck::all(limits, state),
+            envelope: envelope::start(elements, state),
             mode_changes: 0,
             debondings: 0,
             rebondings: 0,
@@ -171,7 +185,7 @@ impl Run {
             in_plan: elements.is_plan(),
             elements: elements.to_vec(),
             sequence: Sequence::new(state),
-            is_stopped: false,
+            ends_by_steps: false,
             resolution,
             settlements: state.foundations.iter().map(|own| own.derived.settlement).collect(),
             least_algorithmic: state.energy_balance.algorithmic,
@@ -200,7 +214,7 @@ impl Run {
             probe.extremes.see(*value, time);
         }
         self.serviceability.iter_mut().for_each(|check| check.see(state));
-        base::see(&mut self.envelope, state, time - begin);
+        envelope::see(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
@@ -256,7 +270,7 @@ impl Run {
             let width = if self.in_plan { (right - left).min(back - front) } else { right - left };
             self.warnings.extend(Warning::of_settlement(k, *settlement, width));
         }
-        self.warnings.extend(base::tension(&self.envelope, self.in_plan, opens));
+        self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
         self.warnings.extend_from_slice(of_scene);
         let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
         let acceleration = self.resolution.largest_acceleration();

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::ground_motion::seconds;
-use super::peak::resultant;
-use super::quantity::Place;
-use super::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
-use crate::coupled::Peak;
+use crate::coupled::run::ground_motion::seconds;
+use crate::coupled::run::peak::Peak;
+use crate::coupled::run::quantity::Place;
+use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
+use crate::geometry::resultant;
 use crate::geometry::{middle, span};
 use crate::text::column::{number, of_body, printed, thousandths};
 use crate::text::table::Table;

@@ -1,12 +1,5 @@
 //! Extremes of a run and when they occurred.
 
-use crate::error::{Error, Result};
-
-/// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
-pub(crate) fn resultant(along: f64, across: f64) -> f64 {
-    if across == 0.0 { along } else { along.hypot(across) }
-}
-
 /// A value of largest magnitude, with its sign, and when it occurred.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -84,14 +77,4 @@ pub struct ProbeExtremes {
     pub unit: String,
     /// The values, and when.
     pub extremes: Extremes,
-}
-
-/// Place of the probe called `name` in a list.
-pub(crate) fn probe_index<T>(
-    list: &[T],
-    name: &str,
-    name_of: impl Fn(&T) -> &String + Copy,
-) -> Result<usize> {
-    let unknown = || Error::no_name("probe", name, list.iter().map(name_of));
-    list.iter().position(|entry| name_of(entry) == name).ok_or_else(unknown)
 }

@@ -5,9 +5,10 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::base::{BaseView, open_area};
-use super::{Extremes, Sliding, Uplift};
-use crate::coupled::{Peak, State};
+use crate::coupled::State;
+use crate::coupled::run::base_view::{BaseView, open_area};
+use crate::coupled::run::peak::Peak;
+use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::{column, of_body, printed};
 use crate::text::words::{plain, unknown};

@@ -2,7 +2,7 @@
 
 mod newmark;
 
-pub use newmark::{DissipativeMidpoint, HhtAlpha, Newmark};
+pub use crate::coupled::scheme::newmark::{DissipativeMidpoint, HhtAlpha, Newmark};
 
 use crate::error::{Result, finite, require};
 

@@ -1,6 +1,6 @@
 //! Schemes of Newmark's family: his own, HHT-α, and one that dissipates at high frequencies.
 
-use super::{Midpoint, SchemeCoefficients, TimeScheme};
+use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{Result, require};
 
 /// Newmark's method (1959), equation of motion at the end of the step: **for comparison with papers**.
@@ -75,7 +75,7 @@ impl TimeScheme for Newmark {
 }
 
 /// a₁ and v₁ from (Δu, v₀, a₀).
-pub(super) fn end_of_step(gamma: f64, beta: f64, h: f64) -> ([f64; 3], [f64; 3]) {
+pub(crate) fn end_of_step(gamma: f64, beta: f64, h: f64) -> ([f64; 3], [f64; 3]) {
     let acceleration = [1.0 / (beta * h * h), -1.0 / (beta * h), 1.0 - 0.5 / beta];
     let velocity = [gamma / (beta * h), 1.0 - gamma / beta, h * (1.0 - 0.5 * gamma / beta)];
     (acceleration, velocity)

@@ -1,11 +1,14 @@
 //! Forcing of one step, and the increment in response to it.
 
+pub(crate) mod advance;
+pub(crate) mod energy_accumulator;
 mod linear;
+mod modal_loops;
 pub(crate) mod newton;
 
 use crate::bem::Ground;
 use crate::contact::SearchMethod;
-use crate::coupled::motion::{Motion, Translation};
+use crate::coupled::model::motion::{Motion, Translation};
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
@@ -192,13 +195,13 @@ impl Increment {
     }
 
     /// Displacement at the end of the step, from Δu.
-    pub(super) fn reach(&mut self, state: &State) {
+    pub(crate) fn reach(&mut self, state: &State) {
         let increments = state.motion.displacement.iter().zip(&self.displacement);
         self.end.iter_mut().zip(increments).for_each(|(end, (u, du))| *end = u + du);
     }
 
     /// Displacement, velocity and acceleration at the end, and the total Δu.
-    pub(super) fn follow(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
+    pub(crate) fn follow(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         self.reach(state);
         let increments = self.displacement.iter().zip(&forcing.carried);
         self.total.iter_mut().zip(increments).for_each(|(total, (du, y))| *total = du + y);

@@ -1,12 +1,12 @@
 //! Newton's method around the whole step of a nonlinear structure, contact inside.
 
-use super::linear::LinearStep;
-use super::{Increment, StepData};
 use crate::contact::{ContactSearch, ContactSolver, SearchMethod};
-use crate::coupled::motion::Motion;
+use crate::coupled::model::motion::Motion;
+use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::scene::Scene;
-use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::step::linear::LinearStep;
+use crate::coupled::step::{Increment, StepData};
 use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
 use crate::structure::Tangent;
@@ -29,7 +29,7 @@ const MOST_ITERATIONS: usize = 2000;
 const SHORTEST_STAGE: f64 = 1e-6;
 
 /// Scratch of the iteration.
-pub(super) struct Newton {
+pub(crate) struct Newton {
     tangent: Tangent,
     /// The iterate, and the force linearised about it.
     guess: Vec<f64>,
@@ -49,7 +49,7 @@ pub(super) struct Newton {
 }
 
 impl Newton {
-    pub(super) fn new(dofs: usize) -> Self {
+    pub(crate) fn new(dofs: usize) -> Self {
         let zero = || vec![0.0; dofs];
         Self {
             tangent: Tangent::new(dofs),
@@ -66,7 +66,7 @@ impl Newton {
     }
 
     /// Finds the increment from the right-hand side in `linear`.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         linear: &mut LinearStep,
         data: StepData<'_>,

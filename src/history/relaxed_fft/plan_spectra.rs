@@ -65,7 +65,7 @@ pub(super) fn coefficients_in_plan(
             along.fill(0.0);
             both.fill(0.0);
             add_combined_rows(x, &table[..columns * rows * width], rows * width, 1.0, along);
-            // What is odd in both is i² times.
+            // A part that is odd in both is i² times.
             let sign = if odd == [true; 2] { -1.0 } else { 1.0 };
             let parts = along.chunks_exact(rows * width);
             for (part, sums) in parts.zip(both.chunks_exact_mut(own[1] * width)) {

@@ -1,0 +1,254 @@
+//! Flexible bases: whether contact elements are short enough for the shapes that loads give them.
+//!
+//! Elements see means of the base displacement. A shape of zero means is held by the structure alone, and by the soil in
+//! reality.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | S | stiffness of the soil for displacements against the means of the elements |
+//! | ρ | least φᵀKφ / φᵀSφ of all shapes φ with zero means |
+//!
+//! Of a mat 20 m wide with two columns on the half-plane, the settlement of these against the middle is off by a factor of
+//! 12 to 21, by 136 to 500 %, by 2 to 51 % and by 0.3 to 0.5 % at ρ = 0.06, 0.5, 3 and 29, as the columns stand. Of a slab 12 m
+//! square with one column in the middle it is off by 77, 16, 6 and 2 % at ρ = 0.2, 0.9, 2.4 and 11.
+
+use super::static_stages;
+use crate::coupled::base::Base;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::parts::Parts;
+use crate::coupled::run::warning::Warning;
+use crate::coupled::statics::equilibrium::StaticState;
+use crate::error::{CoarseBaseError, Result};
+use crate::geometry::{axis_name, far_ends};
+use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
+use crate::structure::{FaceNode, Triplets};
+
+const NAME: &str = "stiffness matrix with its contact elements held";
+/// ρ from which on elements are short enough.
+const STIFF: f64 = 6.0;
+/// Difference of the static shapes of a base by as many and by twice as many elements, relative, above which a solid warns,
+/// and above which it is an error.
+const DIFFERENCE: f64 = 0.03;
+const ANOTHER: f64 = 0.3;
+/// Increase of ρ with half the length of the elements, as a power of two: of beams and plates 3, of solids 0.
+const POWERS: [f64; 2] = [1.0, 3.0];
+/// Springs that hold element means, relative to the soil.
+const HELD: f64 = 1e4;
+/// Order of the largest matrix of twice the elements.
+const MOST: usize = 3600;
+/// Asymmetry of K that is rounding.
+const ROUNDING: f64 = 1e-9;
+/// Power iterations for ρ at most, and the change that ends them.
+const ITERATIONS: usize = 20;
+const CONVERGED: f64 = 0.01;
+
+/// The softest shape of a base that its elements do not see.
+struct UnseenShape {
+    /// ρ.
+    ratio: f64,
+    /// Foundation that takes part most.
+    foundation: usize,
+}
+
+/// Warning of a flexible base on too few elements; `None` for a rigid base, which costs nothing, and for enough.
+/// `at_rest` is the static state.
+pub(crate) fn check(
+    parts: &Parts,
+    assembled: &Assembled,
+    at_rest: &StaticState,
+) -> Result<Option<Warning>> {
+    let base = &assembled.base;
+    if !base.is_flexible() {
+        return Ok(None);
+    }
+    let soil = static_stages::compliance(parts)?;
+    let shape = UnseenShape::of(assembled, base, &soil).filter(|shape| shape.ratio < STIFF);
+    let Some(UnseenShape { ratio, mut foundation }) = shape else { return Ok(None) };
+    let (mut power, mut difference) = (POWERS[1], None);
+    if let Some((finer, soil)) = finer(parts, base) {
+        // Without a shape that twice the elements do not see, they are enough.
+        let next = UnseenShape::of(assembled, &finer, &soil);
+        power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
+        if parts.given.is_static() && parts.given.laws.len() == 1 {
+            let assembled = assembled.on(finer);
+            let finer = static_stages::under_loads(parts, &assembled, &soil).ok();
+            difference = finer.map(|finer| largest_difference(base, at_rest, &finer));
+        }
+    }
+    let is_off = difference.is_some_and(|(_, own)| own > DIFFERENCE);
+    if let Some((worst, _)) = difference {
+        foundation = worst;
+    }
+    // Solids, which more elements hardly stiffen, bridge the gaps between them.
+    if power <= POWERS[0] && !is_off {
+        return Ok(None);
+    }
+    let difference = difference.map(|(_, own)| own);
+    let factor = (STIFF / ratio).powf(1.0 / power.clamp(POWERS[0], POWERS[1])).max(1.25);
+    let (axis, elements) = count(base, foundation);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let needed = (elements as f64 * factor).ceil() as usize;
+    if let Some(difference) = difference.filter(|own| *own > ANOTHER) {
+        return Err(CoarseBaseError { foundation, elements, needed, difference, axis }.into());
+    }
+    Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
+}
+
+/// Base on twice the elements, four times in plan, and their static compliance; `None` where it is not known, or too
+/// large for a check.
+fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
+    let patch = base.elements();
+    let times = if patch.is_plan() { 4 } else { 2 };
+    if times * patch.layout().len() > MOST {
+        return None;
+    }
+    let finer = patch.finer().ok()?;
+    let mut soil = parts.ground.finer_compliance().ok()??;
+    if soil.len() != finer.layout().square() {
+        return None;
+    }
+    finer.refer_inside(&mut soil);
+    Some((Base::of(parts.structure.as_ref(), &finer).ok()?, soil))
+}
+
+/// The foundation whose vertical static shape differs most between two static states, and by how much: root mean
+/// squares over the nodes, relative to the shape of the second state, best rigid motions left out.
+fn largest_difference(base: &Base, one: &StaticState, other: &StaticState) -> (usize, f64) {
+    let differences = base.foundations().map(|(nodes, _)| {
+        let shape = |state: &StaticState| -> Vec<f64> {
+            nodes.iter().map(|node| node.vertical.value(&state.displacement)).collect()
+        };
+        let [one, other] = [one, other].map(shape);
+        let apart = one.iter().zip(&other).map(|(a, b)| a - b).collect();
+        let [apart, whole] = [apart, other].map(|values| bent(nodes, values));
+        if whole > 0.0 { apart / whole } else { 0.0 }
+    });
+    let worst = |most: (usize, f64), own: (usize, f64)| if own.1 > most.1 { own } else { most };
+    differences.enumerate().fold((0, 0.0), worst)
+}
+
+/// Norm of values at the nodes without their best linear fit; NaN becomes infinite.
+fn bent(nodes: &[FaceNode], values: Vec<f64>) -> f64 {
+    let count = nodes.len() as f64;
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let columns = [
+        vec![1.0; nodes.len()],
+        nodes.iter().map(|node| node.x).collect(),
+        nodes.iter().map(|node| node.y).collect(),
+        values,
+    ];
+    let mut norm = 0.0;
+    for mut column in columns {
+        let whole = magnitude(&column);
+        for known in basis.iter().chain(&basis) {
+            let share = dot(known, &column);
+            column.iter_mut().zip(known).for_each(|(x, known)| *x -= share * known);
+        }
+        norm = magnitude(&column);
+        if norm > 1e-12 * whole {
+            basis.push(column.iter().map(|x| x / norm).collect());
+        } else {
+            norm = 0.0;
+        }
+    }
+    if norm.is_nan() { f64::INFINITY } else { norm / count.sqrt() }
+}
+
+/// Elements of a foundation, in plan those along its shorter side, with the name of that.
+fn count(base: &Base, foundation: usize) -> (Option<char>, usize) {
+    let patch = base.elements();
+    let own = base.foundations().nth(foundation).map_or(0..0, |(_, own)| own);
+    let along = |axis: usize| {
+        let ends = own
+            .clone()
+            .map(|e| [-0.5, 0.5].map(|k| patch.middle(e)[axis] + k * patch.sides(e)[axis]));
+        let mut ends: Vec<_> = ends.collect();
+        let [least, most] = far_ends(ends.iter().copied());
+        ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        ends.dedup_by(|next, [start, end]| next[0] - *start < 0.5 * (*end - *start));
+        (most - least, ends.len())
+    };
+    let sides: Vec<_> = patch.layout().axes().map(|axis| (along(axis), axis)).collect();
+    let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
+    let ((_, count), axis) = shorter.unwrap_or_default();
+    (axis_name(patch.is_plan(), axis), count)
+}
+
+impl UnseenShape {
+    /// The shape with the least ρ on elements of this static compliance; `None` without one, and for a
+    /// structure whose stiffness is not symmetric.
+    fn of(assembled: &Assembled, base: &Base, soil: &[f64]) -> Option<Self> {
+        let stiffness = assembled.stiffness_at_rest();
+        let n = assembled.dofs();
+        let moduli = moduli(base, soil);
+        let mut seen = SparseMatrix::weighted_sum(n, &[(1.0, stiffness)]);
+        for (i, modulus) in moduli.iter().enumerate() {
+            seen.add_outer(base.mean_row(i), HELD * modulus * base.area(i));
+        }
+        let layout = base.layout();
+        let mut springs = Triplets::new(n);
+        for (point, rows) in base.deviations() {
+            for (component, row) in rows.iter().enumerate() {
+                let modulus = moduli[layout.place(component, point.element)];
+                springs.add_outer(row, modulus * point.area);
+            }
+        }
+        if stiffness.asymmetry() > ROUNDING {
+            return None;
+        }
+        let springs = SparseMatrix::new(NAME, &springs).ok()?;
+        let mut factor = SparseFactor::new(NAME, &seen).ok()?;
+        // Power iteration from a vector of all signs and sizes: a quotient above the least one by some per cent.
+        let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
+        let mut ratio = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let mut force = vec![0.0; n];
+            springs.multiply_add(1.0, &shape, &mut force);
+            let whole = dot(&shape, &force).sqrt();
+            if !(whole.is_finite() && whole > 0.0) {
+                return None;
+            }
+            force.iter_mut().for_each(|f| *f /= whole);
+            shape.copy_from_slice(&force);
+            factor.solve(&mut shape);
+            let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());
+            if (before / ratio - 1.0).abs() < CONVERGED {
+                break;
+            }
+        }
+        if !ratio.is_finite() {
+            return None;
+        }
+        let mut energies = vec![0.0; base.foundations().count()];
+        for (point, rows) in base.deviations() {
+            let own = base.foundations().position(|(_, own)| own.contains(&point.element));
+            for (component, row) in rows.iter().enumerate() {
+                let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
+                let modulus = moduli[layout.place(component, point.element)];
+                energies[own.unwrap_or(0)] += modulus * point.area * value * value;
+            }
+        }
+        let most = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
+        Some(Self { ratio, foundation: most.map_or(0, |(foundation, _)| foundation) })
+    }
+}
+
+/// Stiffness of the soil under each element in each component, Pa/m, for tractions that change sign from an element to
+/// its neighbour: as waves twice as long as the elements meet it.
+fn moduli(base: &Base, soil: &[f64]) -> Vec<f64> {
+    let (layout, size) = (base.layout(), base.layout().len());
+    let entry = |i: usize, j: usize| soil[i * size + j];
+    let foundations: Vec<_> = base.foundations().map(|(_, own)| own).collect();
+    let modulus = |i: usize| {
+        let [component, e] = layout.origin(i);
+        let own = foundations.iter().find(|own| own.contains(&e)).cloned().unwrap_or(e..e + 1);
+        let around = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
+        let alternating = around.filter(|other| own.contains(other)).map(|other| {
+            let j = layout.place(component, other);
+            0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i))
+        });
+        let compliance = alternating.fold(entry(i, i), f64::min);
+        if compliance > 0.0 { compliance.recip() } else { 0.0 }
+    };
+    (0..size).map(modulus).collect()
+}

@@ -1,0 +1,148 @@
+//! Motion at t = 0: displacement and velocity against the static state, and what the base does with them.
+
+use crate::coupled::parts::SimulationBuilder;
+use crate::coupled::scene::Scene;
+use crate::coupled::state::State;
+use crate::error::{Result, require, require_part};
+use crate::geometry::PLANE;
+use crate::interface::{InterfaceLaw, Mode, PreviousContact, PreviousContacts};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
+use crate::structure::{Structure, massless, nonlinear_state};
+
+/// Gap relative to the largest displacement below which an element is closed.
+const CLOSED: f64 = 1e-12;
+
+/// Sets `state`, which is at rest, and the structure's internal variables in motion; `mass` is that of
+/// the degrees of freedom.
+pub(crate) fn set_in_motion(
+    given: &SimulationBuilder,
+    mass: &SparseMatrix,
+    scene: &Scene,
+    structure: &mut dyn Structure,
+    state: &mut State,
+) -> Result<()> {
+    let SimulationBuilder { displacement, velocity, .. } = given;
+    if given.is_static() && displacement.is_empty() && velocity.is_empty() {
+        return Ok(());
+    }
+    let motion = &mut state.motion;
+    for (start, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
+    {
+        if !start.is_empty() {
+            *own = scene.model.transformation.coordinates(start, mass);
+        }
+    }
+    set_contact(given, scene, state)?;
+    if let Some(force) = structure.nonlinear_mut() {
+        force.commit(&scene.seen_at(&state.motion));
+    }
+    let c = &scene.coefficients;
+    if [c.displacement, c.velocity, c.acceleration, c.new_velocity, c.new_acceleration]
+        .iter()
+        .any(|row| row[2] != 0.0)
+    {
+        state.motion.acceleration = acceleration(scene, structure, state)?;
+    }
+    state.motion.changed();
+    state.update_resultants(scene);
+    Ok(())
+}
+
+/// Gaps, slips and modes of the displaced base.
+fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
+    let layout = scene.layout();
+    let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; layout.len()]);
+    scene.base.means(&state.motion.displacement, &mut moved);
+    scene.base.means(&state.motion.velocity, &mut rate);
+    let closed = CLOSED * largest(&given.displacement);
+    if given.is_static() {
+        let needed = "zero where weight holds it on the ground (begin with \
+                      `GravityStage::Unloaded`, or with a load that is released)";
+        for value in moved {
+            require("initial displacement of the base, m", value, value.abs() <= closed, needed)?;
+        }
+    } else {
+        let mut starts = Vec::with_capacity(scene.count());
+        for (e, (contact, mode)) in state.contact.iter_mut().zip(&mut state.modes).enumerate() {
+            let [down, along] = layout.places(e);
+            contact.gap = -moved[down];
+            contact.slip = moved[along];
+            if layout.is_plan() {
+                contact.slip_across = moved[layout.place(PLANE, e)];
+            }
+            let quantity = "gap of an element under the initial displacement, m";
+            require(quantity, contact.gap, contact.gap >= -closed, "zero or more")?;
+            if contact.gap > closed {
+                let opens = scene.law(e).modes().contains(&Mode::Open);
+                let needed =
+                    "must leave the base on the ground where the interface law does not open";
+                require_part("initial displacement", opens, needed)?;
+                *mode = Mode::Open;
+            }
+            starts.push(PreviousContact::new(*contact, *mode, scene.time_step));
+        }
+        state.start = PreviousContacts::new(&scene.laws, &starts)?;
+    }
+    let [_, along, across] = layout.split(&rate);
+    for (e, own) in state.start.slip_rates_mut().enumerate() {
+        *own = across.get(e).map_or(along[e], |across| along[e].hypot(*across));
+    }
+    Ok(())
+}
+
+/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
+fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
+    let (model, at_rest) = (&scene.model, &scene.static_state);
+    let mut force = vec![0.0; model.coordinates];
+    let mut scratch = vec![0.0; model.dofs];
+    model.load(structure, 0.0, &at_rest.load, &mut scratch, &mut force)?;
+    scene.add_loads(0.0, &mut force);
+    let mut displacement = state.motion.displacement.clone();
+    scene.subtract_base(&mut displacement, &mut vec![0.0; scene.layout().len()]);
+    model.stiffness.multiply_add(-1.0, &displacement, &mut force);
+    model.damping.multiply_add(-1.0, &state.motion.velocity, &mut force);
+    if !model.linear {
+        let (nonlinear, _) = nonlinear_state(structure, &scene.seen_at(&state.motion))?;
+        for (force, (now, at_rest)) in force.iter_mut().zip(nonlinear.iter().zip(&at_rest.force)) {
+            *force -= now - at_rest;
+        }
+    }
+    if let (Matrix::Sparse(mass), Matrix::Sparse(stiffness)) = (&model.mass, &model.stiffness) {
+        accelerate(mass, stiffness, &mut force)?;
+    }
+    Ok(force)
+}
+
+/// Force on a degree of freedom without mass, relative to the largest force, that counts as none.
+const BALANCED: f64 = 1e-9;
+
+/// Square of a time, s², that is short to every structure.
+const SMALL: f64 = 1e-20;
+
+/// Replaces `force` by the acceleration that it gives a structure at rest. Degrees of freedom without mass
+/// follow the others by their stiffness, so small that it resists nothing; with Lagrange multipliers it
+/// is the constraint of the accelerations.
+fn accelerate(mass: &SparseMatrix, stiffness: &SparseMatrix, force: &mut [f64]) -> Result<()> {
+    let largest = largest(force);
+    if largest == 0.0 {
+        return Ok(());
+    }
+    let massless = massless(mass);
+    for (force, _) in force.iter_mut().zip(&massless).filter(|(_, massless)| **massless) {
+        let needed = "zero where there is no mass, for the acceleration at t = 0, which \
+                      `Midpoint` does not take";
+        require_part("force at t = 0", force.abs() <= BALANCED * largest, needed)?;
+        *force = 0.0;
+    }
+    let mut matrix = Triplets::new(mass.order());
+    for (own, factor, follows) in [(mass, 1.0, false), (stiffness, SMALL, true)] {
+        for (row, column, value) in own.entries() {
+            if (massless[row] || massless[column]) == follows {
+                matrix.add(row, column, factor * value);
+            }
+        }
+    }
+    SparseFactor::new("mass matrix, for the acceleration at t = 0", &matrix)?.solve(force);
+    Ok(())
+}

@@ -1,0 +1,263 @@
+//! Reduced coordinates: Ritz modes of a rational block Krylov space.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | F | rows of degrees of freedom where forces act or probes read |
+//! | σ | shifts, beginning with that of the scheme, √(a/k): 2/Δt for the midpoint rule |
+//! | Z | K_eff for the scheme's shift, K + σ² M for others |
+//!
+//! The space holds rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on, one power more of every shift in each
+//! round (Ruhe 1984; Grimme 1997). Each power of K_eff makes two more steps after a change of traction
+//! exact. Lower shifts serve the modes there, of which they soon have all; one above serves what a
+//! step cannot follow.
+
+use crate::coupled::assembly::step_response::{Rows, StepResponses};
+use crate::coupled::assembly::subspace::Subspace;
+use crate::coupled::base::transformation::ModalBasis;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::parts::Parts;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::error::{ReducedError, Result, finite, require};
+use crate::linalg::matrix::spread;
+use crate::linalg::{SparseFactor, SparseMatrix, dot};
+use crate::structure::{FaceNode, HeldBase, stiffest};
+
+/// Ratio of a shift to the one before.
+const RATIO: f64 = 4.0;
+/// Directions are left out if the fraction of them that is new is below this, and below this multiple of the root of
+/// the tolerance: their part of the responses is its square.
+const NEW: f64 = 1e-2;
+const NEW_BY_ROOT: f64 = 10.0;
+/// Least fraction of a direction that must be new, in the end.
+const LEAST_NEW: f64 = 1e-7;
+/// The next round changes this much less than the last, at best.
+const FASTEST: f64 = 0.1;
+/// Rounds after which the tolerance is given up, after half of them if it cannot be expected.
+const ROUNDS: usize = 16;
+/// The lowest shift over the scheme's, at least.
+const LOWEST: f64 = 1e-6;
+/// Steps over which responses are compared, at most.
+const LONGEST: usize = 10_000;
+
+/// Times at which the structure's own load is sampled.
+const SAMPLES: u32 = 16;
+
+/// All that a reduction looks at. Rows have an entry for every degree of freedom.
+pub(crate) struct Reduction<'a> {
+    assembled: &'a Assembled,
+    coefficients: &'a SchemeCoefficients,
+    /// K_eff, factored.
+    factor: &'a SparseFactor,
+    /// K with its base held, factored.
+    held: &'a SparseFactor,
+    /// Steps of the run.
+    steps: usize,
+    /// Rows of the probes, none of them zero.
+    rows: Rows,
+    /// Displacements that the modes must contain.
+    motions: Vec<f64>,
+}
+
+impl<'a> Reduction<'a> {
+    /// Gathers what acts on a structure, by the factors of its effective stiffness and of its stiffness with its base
+    /// held.
+    pub(crate) fn new(
+        parts: &'a Parts,
+        assembled: &'a Assembled,
+        [factor, held]: [&'a SparseFactor; 2],
+        steps: usize,
+    ) -> Result<Self> {
+        let (given, base) = (&parts.given, &assembled.base);
+        let (n, size) = (assembled.dofs(), base.layout().len());
+        let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
+        for load in &given.loads {
+            keep(&mut rows.all, spread(load.row(), n));
+        }
+        let duration = steps as f64 * given.time_step;
+        for k in 0..=SAMPLES {
+            let mut load = vec![0.0; n];
+            let loaded =
+                parts.structure.load(duration * f64::from(k) / f64::from(SAMPLES), &mut load);
+            if k == 0 {
+                loaded?;
+            } else if loaded.is_err() {
+                // The run may never come so far.
+                continue;
+            }
+            if load.iter().all(|force| force.is_finite()) {
+                keep(&mut rows.all, load);
+            }
+        }
+        rows.counts[0] = rows.all.len() / n;
+        let mut unit = vec![0.0; size];
+        for i in 0..size {
+            let mut force = vec![0.0; n];
+            unit[i] = 1.0;
+            base.add_forces(1.0, &unit, &mut force);
+            unit[i] = 0.0;
+            keep(&mut rows.all, force);
+        }
+        let mut motions = Vec::new();
+        for motion in [&given.displacement, &given.velocity] {
+            for motion in motion.chunks_exact(n) {
+                let mut force = vec![0.0; n];
+                assembled.mass.multiply_add(1.0, motion, &mut force);
+                keep(&mut rows.all, force);
+            }
+            motions.extend_from_slice(motion);
+        }
+        rows.counts[1] = rows.all.len() / n;
+        rows.probes = vec![[None; 3]; given.probes.len()];
+        for kind in 0..3 {
+            if kind == 2 {
+                rows.counts[2] = rows.all.len() / n;
+            }
+            for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
+                let place = rows.all.len() / n;
+                let kept = keep(&mut rows.all, spread(probe.rows()[kind], n));
+                places[kind] = kept.then_some(place);
+            }
+        }
+        let coefficients = &parts.coefficients;
+        Ok(Self { assembled, coefficients, factor, held, steps, rows, motions })
+    }
+
+    /// The Ritz modes with which the responses to suddenly applied forces err by less than `tolerance`.
+    pub(crate) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
+        const NAME: &str = "tolerance of reduced coordinates";
+        finite(NAME, tolerance)?;
+        require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
+        let matrices = self.matrices()?;
+        let translations = self.assembled.influence.translations(self.assembled.dofs());
+        let (rotations, lowest) = self.held(&translations, matrices);
+        let mut space = Subspace::new(matrices, translations);
+        space.extend(rotations, LEAST_NEW);
+        space.extend(self.motions.clone(), LEAST_NEW);
+        let rows = &self.rows.all;
+        let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
+        let factors: Vec<_> = std::iter::once(self.factor).chain(&factors).collect();
+        let mut blocks = vec![rows.clone(); factors.len()];
+        let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
+        let mut last: Option<StepResponses> = None;
+        let [mut change, mut reached] = [f64::INFINITY; 2];
+        for round in 1..=ROUNDS {
+            let before = space.count();
+            for (factor, block) in factors.iter().zip(&mut blocks) {
+                let before = space.count();
+                factor.solve_many(block);
+                space.extend(std::mem::take(block), least);
+                block.extend_from_slice(space.momenta(before));
+            }
+            if space.count() == before {
+                if least <= LEAST_NEW {
+                    return Ok(space.basis(&space.ritz()?));
+                }
+                // Again, for the little that was left out.
+                least = LEAST_NEW.max(NEW * least);
+                blocks.fill(rows.clone());
+                continue;
+            }
+            let modes = space.ritz()?;
+            let shares = space.shares(&modes, rows);
+            let steps = self.steps.clamp(1, LONGEST);
+            let responses =
+                StepResponses::new(&modes, shares, &self.rows, self.coefficients, steps);
+            let mut rate = 1.0;
+            if let Some(last) = &last {
+                let by = responses.difference(last, tolerance);
+                if change.is_finite() {
+                    rate = (by / change).clamp(FASTEST, 1.0);
+                }
+                // Estimated change by the next round, at the rate of this one.
+                (change, reached) = (by, by * rate);
+            }
+            if reached <= tolerance || space.count() == self.assembled.dofs() {
+                return Ok(space.basis(&modes));
+            }
+            let left = i32::try_from(ROUNDS - round).unwrap_or(0);
+            if 2 * round >= ROUNDS && reached * rate.powi(left) > tolerance {
+                break;
+            }
+            last = Some(responses);
+        }
+        Err(ReducedError::Accuracy { tolerance, reached, vectors: space.count() }.into())
+    }
+
+    /// Mass, damping and stiffness, if they can be reduced.
+    fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
+        if !self.assembled.linear {
+            return Err(ReducedError::Nonlinear.into());
+        }
+        let matrices = self.assembled.matrices();
+        let names = ["mass matrix", "damping matrix", "stiffness matrix"];
+        for (matrix, name) in matrices.iter().zip(names) {
+            if matrix.asymmetry() > 1e-13 {
+                return Err(ReducedError::Matrix { matrix: name, needed: "symmetric" }.into());
+            }
+        }
+        if SparseFactor::positive_definite(names[0], matrices[0]).is_err() {
+            let needed = "positive definite";
+            return Err(ReducedError::Matrix { matrix: names[0], needed }.into());
+        }
+        Ok(matrices)
+    }
+
+    /// Factors at one shift above the scheme's and those below it.
+    fn shifts(
+        &self,
+        lowest: f64,
+        [mass, _, stiffness]: [&SparseMatrix; 3],
+    ) -> impl Iterator<Item = Result<SparseFactor>> {
+        let pairs = stiffness.diagonal().into_iter().zip(mass.diagonal());
+        let stiffest = pairs.fold(0.0, |most: f64, (k, m)| most.max(k / m)).sqrt();
+        let c = self.coefficients;
+        let own = (c.acceleration[0] / c.displacement[0]).sqrt().min(RATIO * stiffest);
+        let lowest = lowest.max(LOWEST * own);
+        let below = std::iter::successors(Some(own / RATIO), |shift| Some(shift / RATIO));
+        let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
+        shifts.filter(move |shift| *shift < stiffest).map(move |shift| {
+            let terms = [(shift * shift, mass), (1.0, stiffness)];
+            let matrix = SparseMatrix::weighted_sum(mass.order(), &terms);
+            SparseFactor::new("dynamic stiffness matrix", &matrix)
+        })
+    }
+
+    /// Answers to a rotation of each part's base, which are rigid rotations of the parts that stand on
+    /// one level, and about the lowest frequency with the base held (Rayleigh's quotient).
+    fn held(
+        &self,
+        translations: &[f64],
+        [mass, _, stiffness]: [&SparseMatrix; 3],
+    ) -> (Vec<f64>, f64) {
+        let n = self.assembled.dofs();
+        let held = HeldBase::new(self.assembled.base.nodes(), stiffness, stiffest(stiffness));
+        let mut rotations = Vec::new();
+        for part in self.assembled.influence.parts() {
+            let nodes = part.nodes(&self.assembled.base);
+            let mean = |place: fn(&FaceNode) -> f64| {
+                nodes.iter().map(|node| place(node)).sum::<f64>() / nodes.len().max(1) as f64
+            };
+            let middle = [mean(|node| node.x), mean(|node| node.y)];
+            rotations.extend(held.turns(nodes.iter().copied(), middle).concat());
+        }
+        self.held.solve_many(&mut rotations);
+        let mut inertia = vec![0.0; translations.len()];
+        for (row, force) in translations.chunks_exact(n).zip(inertia.chunks_exact_mut(n)) {
+            mass.multiply_add(1.0, row, force);
+        }
+        let mut bent = inertia.clone();
+        self.held.solve_many(&mut bent);
+        let pairs = inertia.chunks_exact(n).zip(bent.chunks_exact(n));
+        let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
+        (rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt())
+    }
+}
+
+/// Adds a row, unless it is zero.
+fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
+    let kept = row.iter().any(|value| *value != 0.0);
+    if kept {
+        rows.extend(row);
+    }
+    kept
+}

@@ -1,0 +1,351 @@
+//! Build of a simulation, in the order of [`SimulationBuilder::build`].
+//!
+//! 1. `parts.rs`: the given parts, each checked by itself;
+//! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
+//! 3. `static_stages.rs`: weight first, then the loads at t = 0, by the search of `statics/equilibrium.rs`;
+//!    `flexible_base.rs` compares the result with the static state on twice the elements where these may be too few;
+//! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these; `vibration_modes.rs` finds all
+//!    modes, `krylov.rs` Ritz modes;
+//! 5. `scene.rs`: the scene; `initial_motion.rs`: the motion at t = 0.
+
+mod flexible_base;
+mod initial_motion;
+mod krylov;
+mod static_stages;
+mod step_response;
+mod stepped;
+mod subspace;
+mod vibration_modes;
+
+use crate::bem::Ground;
+use crate::contact::ContactSearch;
+use crate::coupled::assembly::stepped::Stepped;
+use crate::coupled::conditioning::conditioning;
+use crate::coupled::coordinates::Coordinates;
+use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::load::Load;
+use crate::coupled::model::supports;
+use crate::coupled::parts::Parts;
+pub use crate::coupled::parts::SimulationBuilder;
+use crate::coupled::run::warning::Warning;
+use crate::coupled::scene::Scene;
+use crate::coupled::scheme::TimeScheme;
+use crate::coupled::serviceability::Serviceability;
+use crate::coupled::simulation::Simulation;
+use crate::coupled::state::State;
+use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::step::energy_accumulator::EnergyAccumulator;
+use crate::coupled::step::newton::Solver;
+use crate::coupled::step::{Forcing, Increment};
+use crate::error::{Observer, Result};
+use crate::interface::InterfaceLaw;
+use crate::motion::FreeField;
+use crate::structure::Structure;
+use crate::structure::probe::Probe;
+
+impl Simulation {
+    /// Begins a simulation with steps of `time_step` seconds.
+    pub fn builder(time_step: f64) -> SimulationBuilder {
+        SimulationBuilder::new(time_step)
+    }
+}
+
+impl SimulationBuilder {
+    /// Sets the structure.
+    #[must_use]
+    pub fn structure(mut self, structure: impl Structure + 'static) -> Self {
+        self.structure = Some(Box::new(structure));
+        self
+    }
+
+    /// Sets the ground. Contact is where its elements are: a part of the base beyond them is not in contact, and
+    /// elements beyond the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
+    #[must_use]
+    pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
+        self.ground = Some(Box::new(ground));
+        self
+    }
+
+    /// Sets one interface law for all elements.
+    #[must_use]
+    pub fn interface(mut self, law: impl InterfaceLaw + 'static) -> Self {
+        self.laws = vec![Box::new(law)];
+        self
+    }
+
+    /// Sets an interface law for each element, from left to right.
+    #[must_use]
+    pub fn interfaces(mut self, laws: Vec<Box<dyn InterfaceLaw>>) -> Self {
+        self.laws = laws;
+        self
+    }
+
+    /// Sets the ground motion.
+    #[must_use]
+    pub fn motion(mut self, motion: impl FreeField + 'static) -> Self {
+        self.motion = Box::new(motion);
+        self
+    }
+
+    /// Sets the structure's time scheme; [`Midpoint`](crate::coupled::Midpoint) unless given.
+    #[must_use]
+    pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
+        self.scheme = Box::new(scheme);
+        self
+    }
+
+    /// Sets the search for the contact modes of a step.
+    #[must_use]
+    pub fn contact_search(mut self, search: ContactSearch) -> Self {
+        self.search = search;
+        self
+    }
+
+    /// Sets gravity g (m/s²), which gives the structure its weight;
+    /// [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY) unless given. The run starts from the static state: weight
+    /// first, then the loads at t = 0 with the interface law. With zero there is no static state: the base starts
+    /// without pressure, so nothing resists uplift and sliding.
+    #[must_use]
+    pub fn gravity(mut self, gravity: f64) -> Self {
+        self.gravity = gravity;
+        self
+    }
+
+    /// Adds an external load, beside those given before and the structure's own.
+    #[must_use]
+    pub fn load(mut self, load: Load) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// Sets the displacement of the degrees of freedom at t = 0 against the static state. It may move the base only
+    /// with [`GravityStage::Unloaded`], which shows one, and not into the ground.
+    #[must_use]
+    pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
+        self.displacement = displacement.into();
+        self
+    }
+
+    /// Sets the velocity of the degrees of freedom at t = 0.
+    #[must_use]
+    pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
+        self.velocity = velocity.into();
+        self
+    }
+
+    /// Sets the friction while the weight comes on.
+    #[must_use]
+    pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
+        self.gravity_stage = gravity_stage;
+        self
+    }
+
+    /// Adds a quantity recorded at every step, see [`super::State::probes`]. Names must differ.
+    #[must_use]
+    pub fn probe(mut self, probe: Probe) -> Self {
+        self.probes.push(probe);
+        self
+    }
+
+    /// Adds probes.
+    #[must_use]
+    pub fn probes(mut self, probes: impl IntoIterator<Item = Probe>) -> Self {
+        self.probes.extend(probes);
+        self
+    }
+
+    /// Sets the point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base
+    /// unless given, and along y always.
+    #[must_use]
+    pub fn moment_center(mut self, x: f64) -> Self {
+        self.moment_center = Some(x);
+        self
+    }
+
+    /// Sets about how many steps will be made: weights and memory are then ready before the first (of up to 100 000),
+    /// and the ground's history and the structure's coordinates are chosen for this number (if not given, for that of
+    /// the first run and for 4 000).
+    #[must_use]
+    pub fn expected_steps(mut self, steps: usize) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// Sets the coordinates in which a linear structure is stepped; [`Coordinates::Auto`] unless given.
+    #[must_use]
+    pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
+        self.coordinates = coordinates;
+        self
+    }
+
+    /// Keeps no energy balance: its terms and the energy error are then NaN, and a step takes less time.
+    #[must_use]
+    pub fn without_energy_balance(mut self) -> Self {
+        self.energy_balance = false;
+        self
+    }
+
+    /// Sets friction coefficients for the factor of safety against sliding, one for all elements or one each from left
+    /// to right, in place of those of the interface laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base,
+    /// say, which has none. They change nothing else.
+    #[must_use]
+    pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
+        self.safety_friction = coefficients.into();
+        self
+    }
+
+    /// Sets limits of slip, gap, uplifted part and rotation that each [`Run`](crate::results::Run) is
+    /// held against; none unless given. They change nothing else.
+    #[must_use]
+    pub fn serviceability(mut self, limits: Serviceability) -> Self {
+        self.serviceability = limits;
+        self
+    }
+
+    /// Sets the rotation of a base (rad, about a horizontal axis) at which a run ends, 1 unless given: geometry is that of
+    /// small rotations, and what has overturned would turn for ever. Infinite: runs end by their steps alone.
+    ///
+    /// ```
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Warning;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// let slender = RigidBlock::new(1.0, 10.0, 2000.0)?.with_p_delta(9.81)?;
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .structure(slender)
+    ///     .ground(SpringGround::new(-0.5..0.5, 8, 2e9, 1e9)?.with_dashpots(1e6, 1e6)?)
+    ///     .interface(Coulomb::new(0.6)?)
+    ///     .motion(el_centro_1940().scaled(2.0)?)
+    ///     .build()?;
+    /// let run = simulation.run(2000, |_| {})?;
+    /// assert!(run.is_overturned && run.steps < 2000);
+    /// assert!(run.warnings.iter().any(|own| matches!(own, Warning::Overturned { .. })));
+    /// // A further call goes on.
+    /// assert_eq!(simulation.run(10, |_| {})?.steps, 10);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    #[must_use]
+    pub fn rotation_limit(mut self, limit: f64) -> Self {
+        self.rotation_limit = limit;
+        self
+    }
+
+    /// Holds the base: each foundation keeps its shape and moves with the free field under it, as codes and fixed-base
+    /// models have it. Ground and interface law are left out, but for the places of the contact elements; base shear,
+    /// moment and tractions then act on the support. [`interaction`](crate::coupled::interaction()) compares the run
+    /// with that on the ground.
+    ///
+    /// ```
+    /// use basemat::bem::ElasticGround;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::{ShearBuilding, Storey};
+    /// use basemat::{Simulation, Soil};
+    ///
+    /// let building = ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 20.0e6); 4])?;
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &building, 8)?)
+    ///     .structure(building)
+    ///     .interface(Coulomb::new(0.5)?)
+    ///     .motion(el_centro_1940())
+    ///     .on_fixed_base()
+    ///     .build()?;
+    /// let run = simulation.run(500, |_| {})?;
+    /// assert!(run.whole.base_rotation.magnitude() < 1e-7);
+    /// assert!(run.whole.base_shear.magnitude() > 0.0);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    #[must_use]
+    pub fn on_fixed_base(mut self) -> Self {
+        self.held = true;
+        self
+    }
+
+    /// Checks the parts against each other, finds the static state and factors what stays constant.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
+    /// [`crate::Error::Restrained`] for a structure that is held by more than the ground,
+    /// [`crate::Error::Detached`] for one with a part that is not connected to its base,
+    /// [`crate::Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with
+    /// the base held.
+    /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that is not
+    /// there or a name that comes twice. [`crate::Error::Stability`] if the structure cannot stand under
+    /// weight and the loads at t = 0, [`crate::Error::Preload`] if no equilibrium was found for another
+    /// reason, [`crate::Error::CoarseBase`] for a flexible base on contact elements so few that twice as many
+    /// change its static shape by more than 30 %, [`crate::Error::IllConditioned`] if double precision cannot carry the
+    /// scene,
+    /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
+    pub fn build(self) -> Result<Simulation> {
+        self.built(None)
+    }
+
+    /// Builds as [`SimulationBuilder::build`] does, with an observer of the ground's convolution weights: those of the
+    /// expected steps, or those that the build itself needs.
+    ///
+    /// # Errors
+    /// [`crate::Error::Stopped`] by the observer; as for [`SimulationBuilder::build`].
+    pub fn build_observed(self, observer: &mut Observer<'_>) -> Result<Simulation> {
+        self.built(Some(observer))
+    }
+
+    fn built(self, observer: Option<&mut Observer<'_>>) -> Result<Simulation> {
+        let mut parts = Parts::new(self, observer)?;
+        let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let at_rest = static_stages::solve(&mut parts, &assembled)?;
+        let coarse = flexible_base::check(&parts, &assembled, &at_rest)?;
+        let joined = supports::joined_by_force(
+            parts.structure.as_ref(),
+            &assembled.stiffness,
+            &assembled.influence,
+            [&at_rest.displacement, &at_rest.force],
+        )?;
+        let Stepped { model, base, operators } =
+            Stepped::choose(&parts, &assembled, &held, &at_rest)?;
+        let scene = Scene::new(&mut parts, model, base, at_rest, joined);
+
+        let Parts { mut structure, ground, given, .. } = parts;
+        let mut solver = Solver::new(&scene, operators, given.search);
+        let mut state = State::at_rest(&scene)?;
+        let compliant = scene.is_compliant(&state.start)?;
+        let mass = &assembled.mass;
+        initial_motion::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
+        let books = || EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant);
+        let books = given.energy_balance.then(books).transpose()?;
+        state.energy_balance =
+            books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
+        let period = assembled.period_on_fixed_base(&mut held);
+        let mut warnings =
+            Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
+        let pressure = given.gravity * assembled.mass_over_area();
+        let storey = structure.tallest_storey();
+        let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
+        let of_units = Warning::of_units(is_to_scale, &scene.laws, given.gravity, pressure, storey);
+        warnings.extend(of_units);
+        warnings.extend(coarse);
+        let conditioning = conditioning(&scene, &mut solver, &state.start)?;
+        if scene.model.linear {
+            // Last: stiffnesses too far apart for double precision look like a mechanism.
+            assembled.at_rest(structure.as_ref()).check(&mut held)?;
+        }
+        Ok(Simulation {
+            forcing: Forcing::new(&scene),
+            increment: Increment::new(&scene, &state, compliant && given.energy_balance),
+            books,
+            motion: given.motion,
+            structure,
+            ground,
+            scene,
+            solver,
+            state,
+            conditioning,
+            warnings,
+            drag: assembled.drag(),
+            rotation_limit: given.rotation_limit,
+        })
+    }
+}

@@ -1,0 +1,255 @@
+//! The static state in stages, weight first, then the loads at t = 0, and the initial motion.
+
+use crate::coupled::base::influence::UP;
+use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::parts::Parts;
+use crate::coupled::statics::equilibrium::{Standing, StaticState};
+use crate::coupled::statics::stability::cause;
+use crate::error::{Error, LawError, Result, all_finite, finite};
+use crate::interface::{
+    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
+    law_of,
+};
+use crate::linalg::largest;
+use crate::structure::{Structure, nonlinear_state};
+
+/// Increments of a load under which elements slide: friction makes their path matter.
+const INCREMENTS: usize = 10;
+
+/// Passes in which state variables of laws settle.
+const PASSES: usize = 10;
+
+/// Relative change of a state variable in the last pass that is taken for rounding.
+const UNSETTLED: f64 = 1e-6;
+
+/// Part of the largest pressure and displacement by which a static state may miss the conditions of a law.
+const PLACED: f64 = 1e-6;
+
+/// Length of the step that a gravity stage is to the laws, s.
+const TIME_STEP: f64 = 1.0;
+
+/// The state under weight and the loads at t = 0, which the structure's internal variables follow;
+/// trivial without gravity.
+pub(crate) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
+    let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
+    if parts.given.is_static() {
+        state = under_loads(parts, assembled, &compliance(parts)?)?;
+        if let Some(force) = parts.structure.nonlinear_mut() {
+            force.commit(&state.displacement);
+        }
+    }
+    let structure = &parts.structure;
+    (state.force, state.energy) = nonlinear_state(structure.as_ref(), &state.displacement)?;
+    all_finite("nonlinear force at t = 0", &state.force)?;
+    if let Some(energy) = &state.energy {
+        finite("energy that the nonlinear force stores at t = 0", energy.stored)?;
+        finite("energy that the nonlinear force has dissipated at t = 0", energy.dissipated)?;
+    }
+    Ok(state)
+}
+
+/// Static compliance of the ground, for tractions inside the outline.
+pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
+    let mut soil = vec![0.0; parts.elements.layout().square()];
+    parts.ground.static_compliance(&mut soil)?;
+    parts.elements.refer_inside(&mut soil);
+    Ok(soil)
+}
+
+/// The state under weight and the loads at t = 0 on elements of this static compliance; internal variables of the
+/// structure stay as they are.
+pub(crate) fn under_loads(
+    parts: &Parts,
+    assembled: &Assembled,
+    soil: &[f64],
+) -> Result<StaticState> {
+    let Parts { structure, given, .. } = parts;
+    let n = assembled.dofs();
+    let mut own = vec![0.0; n];
+    structure.load(0.0, &mut own)?;
+    all_finite("load of the structure at t = 0", &own)?;
+    let mut load = own.clone();
+    for external in &given.loads {
+        let force = external.value(0.0);
+        external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
+    }
+    let mut weight = vec![0.0; n];
+    let up = assembled.influence.of(UP, n);
+    assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
+    all_finite("weight", &weight)?;
+    all_finite("load at t = 0", &load)?;
+    let (structure, frictionless) = (structure.as_ref(), false);
+    let stage = Standing { assembled, structure, soil, frictionless };
+    let state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
+    Ok(StaticState { load: own, ..state })
+}
+
+/// The state under `weight`, placed as chosen, and then under `load`, with the interface laws.
+fn in_stages(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    gravity_stage: GravityStage,
+    [weight, load]: [&[f64]; 2],
+) -> Result<StaticState> {
+    let layout = stage.assembled.base.layout();
+    let count = layout.elements();
+    let is_placed = gravity_stage == GravityStage::Frictionless;
+    // In plan the laws' own limits hold, all but friction and cohesion.
+    let by_limits = is_placed && layout.is_plan();
+    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
+    let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
+    // A base that never opens is bonded from the start.
+    let is_smooth = is_placed && !by_limits && can_open;
+    let placing = if is_smooth { &smooth } else { laws };
+    let at_rest = PreviousContact::new(ContactState::default(), Mode::Stick, TIME_STEP);
+    let first = PreviousContacts::new(placing, &vec![at_rest; count])?;
+    let mut state = StaticState::weightless(layout, weight.len());
+    for (e, mode) in state.modes.iter_mut().enumerate() {
+        *mode = law_of(placing, e).modes()[0];
+    }
+    let place = Standing { frictionless: by_limits, ..*stage };
+    let found = settle(&place, placing, first.clone(), state, weight);
+    let (mut state, start) = found.map_err(|e| cause(&place, placing, weight, e))?;
+    if is_smooth {
+        check_placed(laws, &state, &start)?;
+    }
+    // A frictionless law with as many state variables is the same law. Others begin anew, and so do elements to whose
+    // law nothing happened.
+    let keeps = |e: usize, own: &[f64]| {
+        let is_same = own.len() == law_of(laws, e).state_variables();
+        is_same && !(by_limits && own == first.state_variables_of(e))
+    };
+    state.state_variables = (0..count)
+        .map(|e| {
+            let own = start.state_variables_of(e);
+            if keeps(e, own) { own.to_vec() } else { Vec::new() }
+        })
+        .collect();
+    if load.iter().all(|force| *force == 0.0) {
+        return Ok(state);
+    }
+    // From here on the base sticks where it was placed.
+    state.modes = state.modes_with(laws);
+    let placed: Vec<_> = (0..count)
+        .map(|e| {
+            let start = PreviousContact::new(*start.state(e), state.modes[e], TIME_STEP);
+            start.with_state_variables(&state.state_variables[e])
+        })
+        .collect();
+    let begin = PreviousContacts::new(laws, &placed)?;
+    let total =
+        |share: f64| -> Vec<f64> { weight.iter().zip(load).map(|(w, f)| w + share * f).collect() };
+    let path = |increments: usize| -> Result<StaticState> {
+        let (mut state, mut start) = (state.clone(), begin.clone());
+        for k in 1..=increments {
+            let load = total(k as f64 / increments as f64);
+            (state, start) = settle(stage, laws, start, state, &load)?;
+        }
+        state.state_variables = (0..count).map(|e| start.state_variables_of(e).to_vec()).collect();
+        Ok(state)
+    };
+    let sticks = |e: usize| law_of(laws, e).modes().contains(&Mode::Stick);
+    let takes_a_path = |state: &StaticState| {
+        let mut modes = state.modes.iter().enumerate();
+        modes.any(|(e, mode)| mode.is_slip() && sticks(e) || mode.is_yield())
+    };
+    match path(1) {
+        Ok(state) if !takes_a_path(&state) => Ok(state),
+        _ => path(INCREMENTS).map_err(|e| cause(stage, laws, &total(1.0), e)),
+    }
+}
+
+/// Refuses a static state, found without friction, that the law of a closed element does not hold: a law with a bearing
+/// pressure or a compliance, say, whose frictionless law has none.
+fn check_placed(
+    laws: &[Box<dyn InterfaceLaw>],
+    state: &StaticState,
+    start: &PreviousContacts,
+) -> Result<()> {
+    let pressures = &state.traction[..state.modes.len()];
+    let [pressure, length] = [pressures, &state.displacement].map(largest);
+    let tolerance = Tolerance::new(PLACED * length, PLACED * pressure);
+    for (element, mode) in state.modes.iter().enumerate().filter(|(_, mode)| mode.is_closed()) {
+        let law = law_of(laws, element);
+        let contact = ContactState {
+            gap: state.gap[element],
+            pressure: pressures[element],
+            ..ContactState::default()
+        };
+        let at_rest = law.modes()[0];
+        let previous = PreviousContact::new(contact, at_rest, TIME_STEP);
+        let own = start.state_variables_of(element);
+        let first = previous.first_state_variables(law);
+        let previous =
+            previous.with_state_variables(if own.len() == first.len() { own } else { &first });
+        let misses = |condition: &Condition| {
+            let Condition { gap, pressure: factor, value, .. } = *condition;
+            let miss = gap * contact.gap + factor * contact.pressure - value;
+            miss.abs() > PLACED * (gap.abs() * length + factor.abs() * pressure + value.abs())
+        };
+        let next = law.next_mode(at_rest, &previous, &contact, tolerance);
+        let yields = next.is_yield() && !mode.is_yield();
+        if !yields && (mode.is_yield() || !law.conditions(at_rest, &previous).iter().any(misses)) {
+            continue;
+        }
+        let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \
+                      `GravityStage::Frictional`, in which the law itself acts";
+        let reason = Box::new(Error::Scene { quantity: "static state without friction", needed });
+        return Err(Error::Law(LawError::Refused { element, mode: at_rest.word(), reason }));
+    }
+    Ok(())
+}
+
+/// Equilibrium under `load` from where `start` and `state` are, and where it leaves them: with laws
+/// with state variables is found again until these no longer change.
+fn settle(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    mut start: PreviousContacts,
+    mut state: StaticState,
+    load: &[f64],
+) -> Result<(StaticState, PreviousContacts)> {
+    let mut state_variables = start.state_variables().to_vec();
+    for pass in 1..=PASSES {
+        let contact;
+        (state, contact) = stage.equilibrium(laws, &start, state, load)?;
+        let mut seen = contact.clone();
+        if stage.frictionless {
+            // To a law the base sticks where it is placed.
+            state.modes.iter_mut().for_each(|mode| *mode = mode.sticking());
+            for (e, own) in seen.iter_mut().enumerate() {
+                let ContactState { slip, slip_across, .. } = *start.state(e);
+                (own.slip, own.slip_across) = (slip, slip_across);
+            }
+        }
+        start.update_state_variables(laws, &seen, &state.modes, &mut state_variables)?;
+        let is_settled = state_variables == start.state_variables();
+        if pass == PASSES && !is_settled {
+            check_settled(start.state_variables(), &state_variables)?;
+        }
+        start.advance(&contact, &state.modes, &state_variables);
+        start.slip_rates_mut().for_each(|rate| *rate = 0.0);
+        if is_settled {
+            break;
+        }
+    }
+    Ok((state, start))
+}
+
+/// Refuses state variables that change at rest by more than rounding.
+fn check_settled(before: &[f64], now: &[f64]) -> Result<()> {
+    let changes = before.iter().zip(now).map(|(before, now)| {
+        let size = before.abs().max(now.abs());
+        if size > 0.0 { (now - before).abs() / size } else { 0.0 }
+    });
+    let change = changes.fold(0.0, f64::max);
+    if change <= UNSETTLED {
+        return Ok(());
+    }
+    let change = format!("by {:.2} % in the last of {PASSES} passes", 100.0 * change);
+    let reason = format!(
+        "its state variables do not settle under weight and loads at t = 0: they change {change}"
+    );
+    Err(Error::part("interface law", reason))
+}

@@ -1,0 +1,258 @@
+//! Responses of a structure in its modes to unit forces that are suddenly applied, as the time scheme
+//! steps them: by these, two sets of Ritz modes are compared.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | f | row in terms of the modes, with f K_eff⁻¹ fᵀ = 1 |
+//! | u, v, a | displacement, velocity, acceleration of the modes under a unit force on each |
+//!
+//! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows steadily,
+//! accelerations are the velocities v, and velocities the displacements u, of a constant one. Loads may
+//! jump: what a probe reads then is its sum of u, v and a.
+
+use crate::coupled::assembly::subspace::Ritz;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::linalg::{largest, row_products};
+
+/// Rounding of a response, relative to the largest of all.
+const ROUNDING: f64 = 1e-13;
+
+/// Rows of degrees of freedom that forces act on and that probes read.
+pub(crate) struct Rows {
+    /// Loads, other forces, displacements and velocities, accelerations: an entry for every degree of freedom.
+    pub(crate) all: Vec<f64>,
+    /// Loads, all forces, and all but accelerations.
+    pub(crate) counts: [usize; 3],
+    /// Rows of displacements, velocities and accelerations that each probe sums.
+    pub(crate) probes: Vec<[Option<usize>; 3]>,
+}
+
+/// Responses of all outputs to all forces.
+pub(crate) struct StepResponses {
+    /// Displacements and velocities at some steps: forces × outputs each.
+    values: [Vec<f64>; 2],
+    outputs: usize,
+    /// Outputs from this one on are accelerations.
+    accelerations: usize,
+    /// Values of the probes at these steps: loads × probes.
+    read: Vec<f64>,
+    probes: usize,
+}
+
+impl StepResponses {
+    /// Responses over `steps` steps of `rows`, whose `shares` in the modes these are.
+    pub(crate) fn new(
+        modes: &Ritz,
+        mut shares: Vec<f64>,
+        rows: &Rows,
+        coefficients: &SchemeCoefficients,
+        steps: usize,
+    ) -> Self {
+        let [loads, forces, accelerations] = rows.counts;
+        let (count, c) = (modes.stiffness.len().max(1), coefficients);
+        let parts = modes.stiffness.iter().zip(&modes.damping);
+        let effective =
+            |(k, d): (&f64, &f64)| c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k;
+        let effective: Vec<f64> = parts.map(effective).collect();
+        let mut sizes = Vec::with_capacity(shares.len() / count);
+        for row in shares.chunks_exact_mut(count) {
+            let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();
+            let size = if energy > 0.0 { energy.sqrt() } else { 1.0 };
+            for share in row {
+                *share /= size;
+            }
+            sizes.push(size);
+        }
+        let times: Vec<usize> = std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
+            .take_while(|s| *s <= steps)
+            .collect();
+        let mut states = vec![0.0; times.len() * 3 * count];
+        for (j, (k, d)) in modes.stiffness.iter().zip(&modes.damping).enumerate() {
+            // Rigid motions are in every set.
+            if *k == 0.0 {
+                continue;
+            }
+            for (at, state) in Step::new(c, [effective[j], *d, *k]).states(&times).enumerate() {
+                for (kind, value) in state.into_iter().enumerate() {
+                    states[(3 * at + kind) * count + j] = value;
+                }
+            }
+        }
+        let (mut values, mut read) = ([Vec::new(), Vec::new()], Vec::new());
+        let mut weighted = vec![0.0; forces * count];
+        for states in states.chunks_exact(3 * count) {
+            let mut responses = |forces: usize, kind: usize| {
+                let states = &states[kind * count..(kind + 1) * count];
+                let weighted = &mut weighted[..forces * count];
+                for (row, weighted) in
+                    shares.chunks_exact(count).zip(weighted.chunks_exact_mut(count))
+                {
+                    let terms = row.iter().zip(states).zip(weighted);
+                    terms.for_each(|((f, state), term)| *term = f * state);
+                }
+                row_products(weighted, &shares, count)
+            };
+            let [u, v] = [0, 1].map(|kind| responses(forces, kind));
+            if loads > 0 {
+                let (a, outputs) = (responses(loads, 2), sizes.len());
+                for load in 0..loads {
+                    let of = |found: &[f64], row: usize| found[load * outputs + row] * sizes[row];
+                    read.extend(rows.probes.iter().map(|probe| {
+                        let parts = probe.iter().zip([&u, &v, &a]);
+                        parts.filter_map(|(row, found)| Some(of(found, (*row)?))).sum::<f64>()
+                    }));
+                }
+            }
+            values[0].extend(u);
+            values[1].extend(v);
+        }
+        Self { values, outputs: sizes.len(), accelerations, read, probes: rows.probes.len() }
+    }
+
+    /// Largest difference to `other` of any output, relative to the largest value of that output; at least rounding.
+    pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
+        let [u, v] = [0, 1].map(|kind| [&self.values[kind][..], &other.values[kind]]);
+        let (first, all) = (self.accelerations, self.outputs);
+        // What a probe reads has a unit of its own.
+        let rounding = ROUNDING / tolerance;
+        let floors = [u, v].map(|[own, _]| rounding * largest(own));
+        let looks = [
+            (u, all, 0..first, floors[0]),
+            (v, all, first..all, floors[1]),
+            ([&self.read, &other.read], self.probes, 0..self.probes, 0.0),
+        ];
+        let mut worst = ROUNDING;
+        for ([own, others], outputs, wanted, floor) in looks {
+            let mut sizes = vec![floor; wanted.len()];
+            let mut changes = vec![0.0_f64; wanted.len()];
+            let rows = own.chunks_exact(outputs.max(1)).zip(others.chunks_exact(outputs.max(1)));
+            for (own, others) in rows {
+                let pairs = own[wanted.clone()].iter().zip(&others[wanted.clone()]);
+                for ((a, b), (size, change)) in pairs.zip(sizes.iter_mut().zip(&mut changes)) {
+                    *size = size.max(a.abs());
+                    // `max` ignores NaN.
+                    let apart = (a - b).abs();
+                    *change = if apart.is_finite() { change.max(apart) } else { f64::INFINITY };
+                }
+            }
+            for (size, change) in sizes.into_iter().zip(changes) {
+                if change.is_infinite() {
+                    return f64::INFINITY;
+                }
+                worst =
+                    worst.max(if change > 0.0 { change / (size * rounding.max(1.0)) } else { 0.0 });
+            }
+        }
+        worst
+    }
+}
+
+/// A step of one mode under a unit force: rows of the new displacement, velocity and acceleration in terms of the old
+/// ones and of 1.
+#[derive(Clone, Copy)]
+struct Step([[f64; 4]; 3]);
+
+impl Step {
+    /// Step of a mode of this effective stiffness, damping and stiffness.
+    fn new(c: &SchemeCoefficients, [effective, damping, stiffness]: [f64; 3]) -> Self {
+        let known =
+            |i: usize| c.acceleration[i] + damping * c.velocity[i] + stiffness * c.displacement[i];
+        let increment = [-stiffness, -known(1), -known(2), 1.0].map(|term| term / effective);
+        let row = |[by_increment, v, a]: [f64; 3]| {
+            let own = [0.0, v, a, 0.0];
+            std::array::from_fn(|i| by_increment * increment[i] + own[i])
+        };
+        let mut displacement = increment;
+        displacement[0] += 1.0;
+        Self([displacement, row(c.new_velocity), row(c.new_acceleration)])
+    }
+
+    fn apply(&self, state: [f64; 3]) -> [f64; 3] {
+        self.0.map(|[u, v, a, one]| u * state[0] + v * state[1] + a * state[2] + one)
+    }
+
+    /// The step made twice.
+    fn twice(&self) -> Self {
+        let own = &self.0;
+        Self(own.map(|row| {
+            std::array::from_fn(|i| {
+                let through: f64 = (0..3).map(|k| row[k] * own[k][i]).sum();
+                through + if i == 3 { row[3] } else { 0.0 }
+            })
+        }))
+    }
+
+    /// States after as many steps as `times` says, ascending, from rest: by powers of two of the step.
+    fn states(self, times: &[usize]) -> impl Iterator<Item = [f64; 3]> {
+        let mut powers = vec![self];
+        let (mut state, mut now) = ([0.0; 3], 0);
+        times.iter().map(move |time| {
+            let mut left = time - now;
+            now = *time;
+            for at in 0.. {
+                if left == 0 {
+                    break;
+                }
+                if at == powers.len() {
+                    powers.push(powers[at - 1].twice());
+                }
+                if left % 2 == 1 {
+                    state = powers[at].apply(state);
+                }
+                left /= 2;
+            }
+            state
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coupled::scheme::{Newmark, TimeScheme};
+
+    #[test]
+    fn responses_that_overflow_are_not_equal() {
+        let of = |value: f64| StepResponses {
+            values: [vec![value; 2], Vec::new()],
+            outputs: 1,
+            accelerations: 1,
+            read: Vec::new(),
+            probes: 0,
+        };
+        for value in [f64::INFINITY, f64::NAN] {
+            assert_eq!(of(value).difference(&of(value), 1e-6), f64::INFINITY);
+        }
+        assert_eq!(of(1.0).difference(&of(1.0), 1e-6), ROUNDING);
+        assert!((of(1.0).difference(&of(2.0), 1e-6) - 1.0).abs() < 1e-12);
+    }
+    /// REFERENCE: single steps.
+    #[test]
+    fn powers_of_a_step_are_many_steps() {
+        let c = Newmark::new(0.6, 0.3025).unwrap().coefficients(0.01);
+        let [damping, stiffness] = [1.0, 4.0e3];
+        let effective = c.acceleration[0] + c.velocity[0] * damping + c.displacement[0] * stiffness;
+        let times = [1, 2, 3, 5, 8, 13, 100, 1000];
+        let mut found = Step::new(&c, [effective, damping, stiffness]).states(&times);
+        let apply = SchemeCoefficients::apply;
+        let [mut u, mut v, mut a] = [0.0; 3];
+        for step in 1..=1000 {
+            let known = apply(c.acceleration, 0.0, v, a)
+                + damping * apply(c.velocity, 0.0, v, a)
+                + stiffness * (u + apply(c.displacement, 0.0, v, a));
+            let increment = (1.0 - known) / effective;
+            let velocity = apply(c.new_velocity, increment, v, a);
+            a = apply(c.new_acceleration, increment, v, a);
+            (u, v) = (u + increment, velocity);
+            if times.contains(&step) {
+                for (kind, (own, other)) in
+                    found.next().unwrap().into_iter().zip([u, v, a]).enumerate()
+                {
+                    let size = [1.0 / stiffness, 1.0 / stiffness.sqrt(), 1.0][kind];
+                    assert!((own - other).abs() < 1e-12 * size, "step {step}: {own} for {other}");
+                }
+            }
+        }
+        assert!(found.next().is_none());
+    }
+}

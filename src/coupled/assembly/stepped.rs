@@ -1,0 +1,130 @@
+//! The structure in the coordinates that are stepped: the choice between degrees of freedom, modes and Ritz modes.
+
+use super::vibration_modes::vibration_modes;
+use crate::coupled::assembly::krylov::Reduction;
+use crate::coupled::base::Base;
+use crate::coupled::base::transformation::ModalBasis;
+use crate::coupled::coordinates::Coordinates;
+use crate::coupled::model::Model;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::mechanism::unresisted;
+use crate::coupled::model::operators::{Factor, Operators};
+use crate::coupled::parts::Parts;
+use crate::coupled::statics::equilibrium::StaticState;
+use crate::error::{Error, Result};
+use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::structure::{Structure, Tangent};
+
+/// Steps that modes have to pay for themselves in, unless given otherwise.
+const STEPS: usize = 4_000;
+
+/// Needs of [`Coordinates::Modes`].
+const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
+                      damping that the modes decouple";
+
+/// Times in nanoseconds that choose the coordinates, as measured by `benches/studies/benches/step.rs`.
+mod cost {
+    /// Per entry of a sparse factor or matrix and use.
+    pub(crate) const SPARSE_ENTRY: f64 = 1.0;
+    /// Per mode and step, more than a degree of freedom costs.
+    pub(crate) const MODE: f64 = 4.0;
+    /// Per mode, contact component and step, more than degrees of freedom cost.
+    pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
+    /// Per squared and per cubed number of modes, once.
+    pub(crate) const MODES: [f64; 2] = [60.0, 0.45];
+}
+
+/// Matrices, base and operators of a structure, all in the coordinates that are stepped.
+pub(crate) struct Stepped {
+    pub(crate) model: Model,
+    pub(crate) base: Base,
+    pub(crate) operators: Operators,
+}
+
+impl Stepped {
+    /// Chooses the coordinates, and factors the effective stiffness in them. That of the degrees of freedom is
+    /// factored only where it is stepped or the choice needs it; `held` is the factored stiffness with its base held.
+    pub(crate) fn choose(
+        parts: &Parts,
+        assembled: &Assembled,
+        held: &SparseFactor,
+        at_rest: &StaticState,
+    ) -> Result<Self> {
+        let Parts { given, coefficients, .. } = parts;
+        let structure = parts.structure.as_ref();
+        let tangent = Tangent::at(structure, &at_rest.displacement)?.matrix;
+        let steps = if given.steps > 0 { given.steps } else { STEPS };
+        let physical = Model::new(assembled);
+        let factored = || {
+            let factor = Factor::of_dofs(&physical, coefficients, &tangent);
+            factor.map_err(|error| cause(assembled, structure, &tangent, error))
+        };
+        let chosen = match given.coordinates {
+            Coordinates::Physical => Chosen::Physical(factored()?),
+            Coordinates::Auto => {
+                let factor = factored()?;
+                let modes = cheaper_modes(assembled, factor.stored(), steps);
+                modes.map_or(Chosen::Physical(factor), Chosen::Modes)
+            }
+            Coordinates::Modes => {
+                let Some(modes) = vibration_modes(assembled) else {
+                    // What is singular says so first.
+                    factored()?;
+                    return Err(Error::Scene { quantity: "modal coordinates", needed: NEEDED });
+                };
+                Chosen::Modes(modes)
+            }
+            Coordinates::Reduced { tolerance } => {
+                let factor = factored()?;
+                let reduction = Reduction::new(parts, assembled, [&factor, held], steps)?;
+                Chosen::Modes(reduction.modes(tolerance)?)
+            }
+        };
+        let (model, factor) = match chosen {
+            Chosen::Physical(factor) => (physical, Factor::Sparse(factor)),
+            Chosen::Modes(modes) => {
+                let model = physical.in_modes(assembled, modes);
+                let factor = Factor::of_modes(&model, coefficients)?;
+                (model, factor)
+            }
+        };
+        let base = assembled.base.stepped(&model.transformation);
+        let operators = Operators::new(&model, &base, &parts.soil, factor, tangent);
+        Ok(Self { model, base, operators })
+    }
+}
+
+/// Coordinates, with what choosing them has left.
+enum Chosen {
+    Physical(Box<SparseFactor>),
+    Modes(ModalBasis),
+}
+
+/// Cause of `error`, that the effective stiffness has no factors.
+fn cause(
+    assembled: &Assembled,
+    structure: &dyn Structure,
+    tangent: &SparseMatrix,
+    error: Error,
+) -> Error {
+    let Assembled { mass, damping, stiffness, .. } = assembled;
+    let terms = [(1.0, stiffness), (1.0, tangent)];
+    let sum = SparseMatrix::weighted_sum(assembled.dofs(), &terms);
+    let sum = SparseMatrix::new("stiffness matrix", &sum).ok();
+    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass]));
+    found.map_or(error, |cause| Error::Stability(Box::new(cause)))
+}
+
+/// The modes, if stepping in them takes less time, their computation included; `factor` is the number
+/// of entries of the sparse factor.
+fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
+    let (n, steps) = (assembled.dofs() as f64, steps as f64);
+    let contact = assembled.base.layout().len();
+    let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
+    let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
+    let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;
+    let [squared, cubed] = cost::MODES;
+    let once = squared * n.powi(2) + cubed * n.powi(3);
+    let saves_time = modal * steps + once < sparse * steps;
+    if saves_time { vibration_modes(assembled) } else { None }
+}

@@ -1,0 +1,299 @@
+//! A base in plan: its faces, and the mean of its displacement over a contact element.
+
+use std::ops::Range;
+
+use super::shares::{Point, bilinear, distance, outside, shares};
+use super::transformation::Weights;
+use super::{Base, BasePoint, Outline, check_covered, mean_settlement};
+use crate::bem::plan::faces::{Face, side};
+use crate::error::{Error, Result, require};
+use crate::geometry::Patch;
+use crate::structure::FaceNode;
+
+/// Distance of the points of Gauss' rule from the middle of an interval, of its length: 1/(2√3).
+pub(crate) const GAUSS: f64 = 0.288_675_134_594_812_9;
+/// Area of a triangle that is none, relative to the square of its longest side.
+const NO_AREA: f64 = 1e-12;
+
+impl Base {
+    /// The base of these faces: each mat of faces that touch is a foundation.
+    pub(crate) fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
+        let mats = mats(faces)?;
+        let nodes = mats.concat().concat();
+        let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
+        let surface = Faces::new(&nodes, &corners)?;
+        let mut foundations = Vec::with_capacity(mats.len());
+        let mut first = 0;
+        for mat in &mats {
+            let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
+            let [rise, about_x, twist] = FaceNode::mean_rotations(&nodes[own.clone()]);
+            // By the right-hand rule about y a rise to the right is negative.
+            let rotations = [-rise, about_x, twist];
+            let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
+            first = own.end;
+            let corners = hull(nodes[own.clone()].iter());
+            let settlement = mean_settlement(&nodes[own.clone()]);
+            let elements = 0..0;
+            foundations.push(Outline { nodes: own, elements, settlement, rotations, corners });
+        }
+        let mut weights = Vec::with_capacity(patch.len());
+        for e in 0..patch.len() {
+            let own = surface.mean_weights(e, patch)?;
+            let mut owners = own.iter().filter_map(|(node, _)| {
+                foundations.iter().position(|mat| mat.nodes.contains(node))
+            });
+            let owner = owners.next().unwrap_or(0);
+            let one = owners.all(|other| other == owner);
+            take(&mut foundations[owner].elements, e, one)?;
+            weights.push(own);
+        }
+        check_covered(&foundations)?;
+        let mut points = Vec::new();
+        for own in foundations.iter().filter(|own| !FaceNode::are_flat(&nodes[own.nodes.clone()])) {
+            points.extend(surface.points(own, patch));
+        }
+        Ok(Self::from_weights(nodes, foundations, weights, patch, points))
+    }
+}
+
+/// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
+fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
+    let value = e as f64;
+    let needed = "elements under one mat each";
+    require("number of a contact element under two mats", value, one, needed)?;
+    if elements.start == elements.end {
+        elements.start = e;
+    } else if elements.end != e {
+        let quantity = "number of a contact element apart from the others of its mat";
+        return Err(Error::Input {
+            quantity,
+            value,
+            needed: "elements of a mat one after another",
+        });
+    }
+    elements.end = e + 1;
+    Ok(())
+}
+
+/// All faces, in triangles and quadrilaterals.
+struct Faces<'a> {
+    nodes: &'a [FaceNode],
+    /// Corners of each piece, in order.
+    pieces: Vec<Vec<usize>>,
+}
+
+impl<'a> Faces<'a> {
+    /// Faces with these numbers of corners, whose `nodes` follow one another.
+    fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
+        let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
+        for (number, &count) in faces.iter().enumerate() {
+            let own: Vec<usize> = (first..first + count).collect();
+            Face::new(number, &all.corners(&own))?;
+            if count <= 4 {
+                all.pieces.push(own);
+            } else {
+                let fan = own[1..].windows(2).map(|side| vec![own[0], side[0], side[1]]);
+                let fan: Vec<_> = fan.filter(|triangle| all.has_area(triangle)).collect();
+                all.pieces.extend(fan);
+            }
+            first += count;
+        }
+        Ok(all)
+    }
+
+    fn corners(&self, piece: &[usize]) -> Vec<Point> {
+        piece.iter().map(|&node| self.nodes[node].place()).collect()
+    }
+
+    fn has_area(&self, triangle: &[usize]) -> bool {
+        let corners = self.corners(triangle);
+        let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
+        side([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
+    }
+
+    /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points. A point outside all faces continues the
+    /// displacement of the nearest one; one that is farther off than half a side is an error.
+    fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
+        let sides = patch.sides(element);
+        let reach = 0.5 * sides[0].max(sides[1]);
+        let mut weights = Vec::with_capacity(16);
+        for point in gauss_points(element, patch) {
+            let (shares, value) = self.shares(point);
+            if value.is_nan() || value > reach {
+                let quantity = "distance of a contact element from the faces of the base, m";
+                let needed = "half an element or less: all lie under the structure's base";
+                return Err(Error::Input { quantity, value, needed });
+            }
+            weights.extend(shares.into_iter().map(|(node, share)| (node, 0.25 * share)));
+        }
+        Ok(weights)
+    }
+
+    /// (node, share) of the displacement of a point, and its distance from the faces, m.
+    fn shares(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
+        let (piece, corners, distance) = self.nearest(point);
+        (piece.iter().copied().zip(shares(&corners, point)).collect(), distance)
+    }
+
+    /// Points for integrals over the elements of a mat: Gauss' rule on its faces, or the rule of 2 × 2 in an element that
+    /// has fewer.
+    fn points(&self, mat: &Outline, patch: &Patch) -> Vec<BasePoint> {
+        let mut found = vec![Vec::new(); mat.elements.len()];
+        for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {
+            let corners = self.corners(piece);
+            for shares in face_points(corners.len()) {
+                let place = [0, 1].map(|k| {
+                    corners
+                        .iter()
+                        .zip(&shares)
+                        .map(|(corner, share)| share * corner[k])
+                        .sum::<f64>()
+                });
+                let is_on = |e: &usize| {
+                    let (middle, sides) = (patch.middle(*e), patch.sides(*e));
+                    (0..2).all(|k| (place[k] - middle[k]).abs() <= 0.5 * sides[k])
+                };
+                if let Some(e) = mat.elements.clone().find(is_on) {
+                    found[e - mat.elements.start]
+                        .push(piece.iter().copied().zip(shares).collect::<Vec<_>>());
+                }
+            }
+        }
+        let mut points = Vec::new();
+        for (e, mut own) in mat.elements.clone().zip(found) {
+            if own.len() < 4 {
+                own = gauss_points(e, patch).map(|point| self.shares(point).0).into();
+            }
+            let area = patch.areas()[e] / own.len() as f64;
+            points.extend(own.into_iter().map(|shares| BasePoint { element: e, area, shares }));
+        }
+        points
+    }
+
+    /// The piece nearest to a point, its corners, and its distance.
+    fn nearest(&self, point: Point) -> (&[usize], Vec<Point>, f64) {
+        let mut found: (&[usize], Vec<Point>, f64) = (&[], Vec::new(), f64::INFINITY);
+        for piece in &self.pieces {
+            let corners = self.corners(piece);
+            let distance = outside(&corners, point);
+            if distance < found.2 {
+                found = (piece, corners, distance);
+            }
+            if distance == 0.0 {
+                break;
+            }
+        }
+        found
+    }
+}
+
+/// The faces of each mat, by their corners: those that touch are of one.
+fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
+    let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
+    let checked = faces.iter().map(corners).enumerate();
+    let checked: Result<Vec<_>> =
+        checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
+    let owners = Face::mats(&checked?);
+    let count = owners.iter().max().map_or(0, |last| last + 1);
+    let mut mats = vec![Vec::new(); count];
+    faces.iter().zip(owners).for_each(|(face, mat)| mats[mat].push(face.clone()));
+    Ok(mats)
+}
+
+/// The corners of the convex hull of some nodes, counter-clockwise.
+pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> {
+    let mut sorted: Vec<Point> = nodes.map(FaceNode::place).collect();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut hull: Vec<Point> = Vec::new();
+    // From left to right below, and back above.
+    let mut half = |points: &mut dyn Iterator<Item = &Point>| {
+        let first = hull.len();
+        for point in points {
+            while let [.., a, b] = hull[first..] {
+                if side([a, b], *point) > 0.0 {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(*point);
+        }
+        hull.pop();
+    };
+    half(&mut sorted.iter());
+    half(&mut sorted.iter().rev());
+    hull
+}
+
+/// The points of Gauss' rule of 2 × 2 on an element.
+fn gauss_points(element: usize, patch: &Patch) -> [Point; 4] {
+    let ([x, y], sides) = (patch.middle(element), patch.sides(element));
+    let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    signs.map(|[right, away]| [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]])
+}
+
+/// Shares of the corners of a triangle or a quadrilateral in the displacements of points of Gauss' rule on it.
+fn face_points(corners: usize) -> Vec<Vec<f64>> {
+    if corners == 3 {
+        let share = |is_own: bool| if is_own { 2.0 / 3.0 } else { 1.0 / 6.0 };
+        return (0..3).map(|k| (0..3).map(|j| share(j == k)).collect()).collect();
+    }
+    let ends = [0.5 - GAUSS, 0.5 + GAUSS];
+    ends.into_iter().flat_map(|s| ends.map(|t| bilinear([s, t]).to_vec())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{ContactElement, SPACE};
+
+    fn nodes(corners: &[Point]) -> Vec<FaceNode> {
+        corners.iter().map(|&place| FaceNode::rigid(place, [0.0; 2], [0, 1, 2, 3, 4, 5])).collect()
+    }
+
+    /// Mean of a field, given at the corners, over a cell.
+    fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
+        let [left, right, front, back] = cell;
+        let cell = ContactElement { left, right };
+        let patch = Patch::new(SPACE, vec![cell], vec![[front, back]], vec![1.0]).unwrap();
+        let (nodes, mut sum) = (nodes(corners), 0.0);
+        let faces = Faces::new(&nodes, faces).unwrap();
+        for (node, weight) in faces.mean_weights(0, &patch).unwrap() {
+            sum += weight * field(corners[node]);
+        }
+        sum
+    }
+
+    #[test]
+    fn means_of_a_linear_field_are_exact_on_all_faces_and_beyond() {
+        let field = |[x, y]: Point| 2.0 - 3.0 * x + 0.7 * y;
+        let triangle = [[0.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
+        let distorted = [[0.0, 0.0], [1.0, 3.0], [5.0, 4.0], [4.0, -1.0]];
+        let pentagon = [[0.0, 0.0], [2.0, -1.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+        // Two corners on one line with the first.
+        let straight = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+        for corners in [&triangle[..], &distorted, &pentagon, &straight] {
+            for cell in [[0.5, 1.5, 0.5, 1.0], [-0.2, 1.0, -0.3, 0.8], [2.0, 3.5, 0.4, 1.4]] {
+                let exact = field([0.5 * (cell[0] + cell[1]), 0.5 * (cell[2] + cell[3])]);
+                let found = mean(corners, &[corners.len()], cell, field);
+                assert!((found - exact).abs() < 1e-13, "{corners:?} {cell:?} {found} {exact}");
+            }
+        }
+    }
+
+    /// x y of a rectangle is bilinear; next to it, a triangle.
+    #[test]
+    fn faces_side_by_side_have_displacements_of_their_own() {
+        let corners =
+            [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [4.0, 3.0], [4.0, 0.0], [7.0, 0.0]];
+        let product = |[x, y]: Point| if x <= 4.0 { x * y } else { 0.0 };
+        let found = mean(&corners, &[4, 3], [1.0, 2.0, 0.0, 2.0], product);
+        assert!((found - 1.5).abs() < 1e-14, "{found}");
+        // Over the triangle it falls from 4 y at x = 4 to zero at x = 7: 4 y.
+        let found = mean(&corners, &[4, 3], [4.5, 5.0, 0.5, 1.0], product);
+        assert!((found - 3.0).abs() < 1e-14, "{found}");
+        // Half in each: y x to the left, 4 y to the right.
+        let found = mean(&corners, &[4, 3], [3.0, 5.0, 0.0, 1.0], product);
+        let gauss = 0.5 * (0.5 * (4.0 - 2.0 * GAUSS) + 0.5 * 4.0);
+        assert!((found - gauss).abs() < 1e-14, "{found}");
+    }
+}

@@ -1,0 +1,243 @@
+//! The base held: a rigid base on a ground that does not give way.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | N | displacements of a foundation's contact nodes |
+//! | Q | orthonormal rigid motions of these nodes |
+//! | γ | stiffness of the springs |
+
+use crate::bem::Ground;
+use crate::coupled::base::Base;
+use crate::error::{Result, same_length};
+use crate::geometry::{ContactElement, Patch};
+use crate::linalg::{SparseMatrix, dot};
+use crate::structure::{
+    ContactNode, FaceNode, HeldBase, NonlinearForce, Structure, Triplets, stiffest,
+};
+
+/// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
+const GROUND: f64 = 1e6;
+/// Stiffness that keeps the shape of a base, over the structure's largest.
+const SHAPE: f64 = 1e5;
+/// Part of a node's displacement that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The structure with a base that keeps its shape, and the ground that holds it.
+pub(crate) fn held(
+    structure: Box<dyn Structure>,
+    ground: &dyn Ground,
+    elements: &Patch,
+    time_step: f64,
+) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
+    let base = Base::of(structure.as_ref(), elements)?;
+    let n = structure.dofs();
+    let assemble =
+        |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| SparseMatrix::assembled(name, n, fill);
+    let mass = assemble("mass matrix", &|matrix| structure.mass(matrix))?;
+    let stiffness = assemble("stiffness matrix", &|matrix| {
+        structure.stiffness(matrix)?;
+        structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
+    })?;
+    let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
+    let (mut along, mut factor) = (springs.pulls().swap_remove(0), springs.factor()?);
+    factor.solve(&mut along);
+    let total: f64 = elements.areas().iter().sum();
+    let resistance = 4.0 * mass.form(&along, &along) / (time_step * time_step);
+    // A structure without mass is held by its stiffness.
+    let resistance = if resistance > 0.0 { resistance } else { stiffest(&stiffness) };
+    let held = HeldGround {
+        elements: ground.elements().to_vec(),
+        directions: ground.directions(),
+        depths: elements.depths().to_vec(),
+        fractions: (0..elements.len()).map(|e| ground.fraction_inside(e)).collect(),
+        compliance: total / (GROUND * resistance),
+    };
+    let mut shape = Triplets::new(n);
+    for (nodes, _) in base.foundations() {
+        keep_shape(nodes, SHAPE * stiffest(&stiffness), &mut shape);
+    }
+    let structure: Box<dyn Structure> = if shape.entries().is_empty() {
+        structure
+    } else {
+        Box::new(RigidBase { structure, shape })
+    };
+    Ok((structure, Box::new(held)))
+}
+
+/// Whether the ground is one that holds a base.
+pub(crate) fn holds(ground: &dyn Ground) -> bool {
+    let ground: &dyn std::any::Any = ground;
+    ground.is::<HeldGround>()
+}
+
+/// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all motions of its nodes but rigid ones.
+fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
+    let Some(directions) = nodes.first().map(FaceNode::directions) else { return };
+    // Components of a node: along x, up, along y.
+    let components = nodes.len() * directions;
+    let mean =
+        |place: fn(&FaceNode) -> f64| nodes.iter().map(place).sum::<f64>() / nodes.len() as f64;
+    let [x, y] = [mean(|node| node.x), mean(|node| node.y)];
+    let motion = |of: &dyn Fn(&FaceNode) -> [f64; 3]| -> Vec<f64> {
+        nodes.iter().flat_map(|node| of(node).into_iter().take(directions)).collect()
+    };
+    let mut motions = vec![
+        motion(&|_| [1.0, 0.0, 0.0]),
+        motion(&|_| [0.0, 1.0, 0.0]),
+        motion(&|node| [0.0, node.x - x, 0.0]),
+    ];
+    if directions == 3 {
+        motions.push(motion(&|_| [0.0, 0.0, 1.0]));
+        motions.push(motion(&|node| [0.0, node.y - y, 0.0]));
+        motions.push(motion(&|node| [y - node.y, 0.0, node.x - x]));
+    }
+    let mut rigid: Vec<Vec<f64>> = Vec::new();
+    for mut own in motions {
+        let whole = dot(&own, &own).sqrt();
+        for other in rigid.iter().chain(&rigid) {
+            let part = dot(other, &own);
+            own.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
+        }
+        let rest = dot(&own, &own).sqrt();
+        if rest > ROUNDING * whole {
+            own.iter_mut().for_each(|x| *x /= rest);
+            rigid.push(own);
+        }
+    }
+    // Rows of N in the degrees of freedom of the base, and what rigid motions leave of them.
+    let rows: Vec<_> =
+        nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
+    let mut dofs: Vec<usize> = nodes.iter().flat_map(FaceNode::dofs).collect();
+    dofs.sort_unstable();
+    dofs.dedup();
+    let dense = |row: usize| {
+        let mut values = vec![0.0; dofs.len()];
+        for &(dof, weight) in rows[row].iter() {
+            if let Ok(place) = dofs.binary_search(&dof) {
+                values[place] += weight;
+            }
+        }
+        values
+    };
+    let carried: Vec<Vec<f64>> = rigid
+        .iter()
+        .map(|own| {
+            let mut sum = vec![0.0; dofs.len()];
+            for (row, factor) in own.iter().enumerate() {
+                sum.iter_mut().zip(dense(row)).for_each(|(sum, x)| *sum += factor * x);
+            }
+            sum
+        })
+        .collect();
+    for row in 0..components {
+        let mut values = dense(row);
+        let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (own, sum) in rigid.iter().zip(&carried) {
+            values.iter_mut().zip(sum).for_each(|(x, sum)| *x -= own[row] * sum);
+        }
+        let terms = dofs.iter().copied().zip(values);
+        let terms: Vec<_> = terms.filter(|(_, x)| x.abs() > ROUNDING * largest).collect();
+        if !terms.is_empty() {
+            matrix.add_outer(&terms, spring);
+        }
+    }
+}
+
+/// A structure whose foundations move as rigid bodies.
+struct RigidBase {
+    structure: Box<dyn Structure>,
+    shape: Triplets,
+}
+
+impl Structure for RigidBase {
+    forward! {
+        self.structure;
+        fn dofs(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn contact_faces(&self) -> Vec<Vec<FaceNode>>;
+        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn damping(&self, matrix: &mut Triplets) -> Result<()>;
+        fn has_active_damping(&self) -> bool;
+        fn has_active_stiffness(&self) -> bool;
+        fn tallest_storey(&self) -> Option<f64>;
+        fn describe(&self, dofs: &[usize]) -> Option<String>;
+        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
+        fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
+        fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.structure.stiffness(matrix)?;
+        for &(row, column, value) in self.shape.entries() {
+            matrix.add(row, column, value);
+        }
+        Ok(())
+    }
+}
+
+/// Springs under each element, so stiff that the base moves with the free field.
+struct HeldGround {
+    elements: Vec<ContactElement>,
+    directions: usize,
+    depths: Vec<[f64; 2]>,
+    fractions: Vec<f64>,
+    /// Displacement by a traction, m/Pa.
+    compliance: f64,
+}
+
+impl HeldGround {
+    fn fill(&self, matrix: &mut [f64]) -> Result<()> {
+        let size = self.directions * self.elements.len();
+        same_length("matrix of the held ground", matrix.len(), size * size)?;
+        matrix.fill(0.0);
+        matrix.iter_mut().step_by(size + 1).for_each(|entry| *entry = self.compliance);
+        Ok(())
+    }
+}
+
+impl Ground for HeldGround {
+    fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    fn directions(&self) -> usize {
+        self.directions
+    }
+
+    fn depth(&self, element: usize) -> [f64; 2] {
+        self.depths.get(element).copied().unwrap_or([0.0, 1.0])
+    }
+
+    fn fraction_inside(&self, element: usize) -> f64 {
+        self.fractions.get(element).copied().unwrap_or(1.0)
+    }
+
+    fn prepare(&mut self, _time_step: f64) -> Result<()> {
+        Ok(())
+    }
+
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.fill(matrix)
+    }
+
+    /// A traction leaves nothing behind.
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        displacement.fill(0.0);
+        Ok(())
+    }
+
+    fn commit(&mut self, _traction: &[f64]) {}
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.fill(matrix)
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _steps: usize, _values: &[f64]) -> Result<()> {
+        Ok(())
+    }
+}

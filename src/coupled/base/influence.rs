@@ -1,0 +1,163 @@
+//! Influence vectors: the degrees of freedom when a connected part of the structure translates rigidly by 1 m.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | R | influence vectors, one to the right, one upwards and in plan one away for each connected part |
+//! | y | translation of each part's ground: the mean free field under it |
+
+use crate::coupled::base::Base;
+use crate::coupled::base::transformation::Terms;
+use crate::geometry::ContactLayout;
+use crate::linalg::matrix::spread;
+use crate::structure::FaceNode;
+
+/// The influence vectors of all connected parts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Influence {
+    parts: Vec<ConnectedPart>,
+    /// Directions in which they translate: right, up and, in plan, away.
+    directions: usize,
+}
+
+/// Number of the upward direction.
+pub(crate) const UP: usize = 1;
+
+/// A connected part of the structure and the elements under it.
+#[derive(Debug, Clone)]
+pub(crate) struct ConnectedPart {
+    /// R to the right, upwards and away; without terms for what cannot move that way.
+    pub(crate) vectors: [Terms; 3],
+    elements: Vec<usize>,
+}
+
+impl Influence {
+    /// Splits the rigid translations of the whole structure into those of its parts; `roots` has the
+    /// same number for the degrees of freedom of one part.
+    pub(crate) fn split(base: &Base, translations: &[Vec<f64>], roots: &[usize]) -> Self {
+        let mut parts: Vec<(usize, ConnectedPart)> = Vec::new();
+        for (nodes, elements) in base.foundations() {
+            let Some(dof) = nodes.iter().find_map(|node| node.dofs().next()) else {
+                continue;
+            };
+            let root = roots[dof];
+            if let Some((_, part)) = parts.iter_mut().find(|(own, _)| *own == root) {
+                part.elements.extend(elements);
+                continue;
+            }
+            let vectors = [0, 1, 2].map(|direction| {
+                let vector = translations.get(direction).into_iter().flatten().enumerate();
+                let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
+                own.map(|(i, r)| (i, *r)).collect()
+            });
+            parts.push((root, ConnectedPart { vectors, elements: elements.collect() }));
+        }
+        let parts = parts.into_iter().map(|(_, part)| part).collect();
+        Self { parts, directions: translations.len() }
+    }
+
+    /// The connected parts, from left to right by their leftmost foundation.
+    pub(crate) fn parts(&self) -> &[ConnectedPart] {
+        &self.parts
+    }
+
+    /// These vectors in other coordinates.
+    pub(crate) fn converted(&self, convert: impl Fn(&Terms) -> Terms) -> Self {
+        let mut parts = self.parts.clone();
+        for vector in parts.iter_mut().flat_map(|part| &mut part.vectors) {
+            *vector = convert(vector);
+        }
+        Self { parts, directions: self.directions }
+    }
+
+    /// Adds factor · R y to `displacement`, y the translation `[right, up, away]` of each part.
+    pub(crate) fn translate(
+        &self,
+        factor: f64,
+        translations: impl IntoIterator<Item = [f64; 3]>,
+        displacement: &mut [f64],
+    ) {
+        for (part, translation) in self.parts.iter().zip(translations) {
+            for (vector, amount) in part.vectors.iter().zip(translation) {
+                if amount != 0.0 {
+                    for &(i, r) in vector {
+                        displacement[i] += factor * r * amount;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The vectors of all parts, one after the other, each over `dofs` entries.
+    pub(crate) fn translations(&self, dofs: usize) -> Vec<f64> {
+        let vectors = self.parts.iter().flat_map(|part| &part.vectors);
+        let moving = vectors.filter(|vector| !vector.is_empty());
+        moving.flat_map(|vector| spread(vector, dofs)).collect()
+    }
+
+    /// The vectors of the whole structure, all parts together, over `dofs` entries.
+    pub(crate) fn of_all(&self, dofs: usize) -> Vec<Vec<f64>> {
+        (0..self.directions).map(|direction| self.of(direction, dofs)).collect()
+    }
+
+    /// Influence vector of all parts for one direction: right 0, [`UP`], away 2.
+    pub(crate) fn of(&self, direction: usize, dofs: usize) -> Vec<f64> {
+        let mut vector = vec![0.0; dofs];
+        let unit = std::array::from_fn(|k| if k == direction { 1.0 } else { 0.0 });
+        self.translate(1.0, std::iter::repeat(unit), &mut vector);
+        vector
+    }
+}
+
+impl ConnectedPart {
+    /// Contact elements of the part.
+    pub(crate) fn elements(&self) -> &[usize] {
+        &self.elements
+    }
+
+    /// The contact nodes of its foundations.
+    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a FaceNode> {
+        base.foundations()
+            .filter(|(_, elements)| self.elements.contains(&elements.start))
+            .flat_map(|(nodes, _)| nodes)
+            .collect()
+    }
+
+    /// Rᵀ f: the resultants to the right, upwards and away.
+    pub(crate) fn resultants(&self, force: &[f64]) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.vectors[k].iter().map(|&(i, r)| r * force[i]).sum())
+    }
+
+    /// Mean translation `[right, up, away]` of contact displacements (normal components down) over
+    /// this part's elements; zero where the part cannot follow. Exact if all are equal.
+    pub(crate) fn mean(&self, base: &Base, displacement: &[f64]) -> [f64; 3] {
+        let Some(&first) = self.elements.first() else { return [0.0; 3] };
+        let [down, along, across] = base.layout().split(displacement);
+        let areas = base.areas();
+        let area: f64 = self.elements.iter().map(|&e| areas[e]).sum();
+        let mean = |direction: usize, values: &[f64]| {
+            if self.vectors[direction].is_empty() {
+                return 0.0;
+            }
+            let apart = self.elements.iter().map(|&e| areas[e] * (values[e] - values[first]));
+            values[first] + apart.sum::<f64>() / area
+        };
+        [mean(0, along), -mean(UP, down), mean(2, across)]
+    }
+
+    /// Subtracts a translation `[right, up, away]` from contact displacements.
+    pub(crate) fn subtract(
+        &self,
+        layout: ContactLayout,
+        [right, up, away]: [f64; 3],
+        displacement: &mut [f64],
+    ) {
+        for &e in &self.elements {
+            let [down, along, across] = layout.places(e);
+            displacement[down] += up;
+            displacement[along] -= right;
+            if layout.is_plan() {
+                displacement[across] -= away;
+            }
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! The base as the ground sees it: element means of the base displacement, and their transpose.
+
+pub(crate) mod faces;
+pub(crate) mod held;
+pub(crate) mod influence;
+mod line;
+mod shares;
+pub(crate) mod transformation;
+
+use std::ops::Range;
+
+use crate::coupled::base::transformation::{Rows, Terms, Transformation, Weights, accumulate};
+use crate::error::{Error, Result, at_least};
+use crate::geometry::{ContactLayout, Patch, axis_name, far_ends, span};
+use crate::linalg::dot;
+use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_base_nodes};
+
+/// Part of a foundation's length that may reach beyond the elements.
+const UNCOVERED: f64 = 0.1;
+
+/// B, which takes coordinates to element means of the base displacement (normal components down),
+/// and BᵀA, which takes tractions to forces on the coordinates: the structure's degrees of freedom, or those
+/// that are [stepped](Base::stepped).
+///
+/// For elements between neighbouring nodes the means are the T matrix of halves of Patel &
+/// Spyrakos, eq. 14, and its transpose is their eq. 15. In plan they are those of `faces.rs`.
+#[derive(Debug, Clone)]
+pub(crate) struct Base {
+    /// Rows, component by component.
+    rows: Rows,
+    foundations: Vec<Outline>,
+    elements: Patch,
+    nodes: Vec<FaceNode>,
+    /// Points under flexible foundations, for integrals over elements; none of a base that is stepped.
+    points: Vec<BasePoint>,
+}
+
+/// A point of a flexible base.
+#[derive(Debug, Clone)]
+pub(crate) struct BasePoint {
+    pub(crate) element: usize,
+    /// Area that the point stands for, m²; in the plane a length.
+    pub(crate) area: f64,
+    /// Nodes, and their shares in its displacement.
+    pub(crate) shares: Vec<(usize, f64)>,
+}
+
+/// Foundation: its nodes, its elements, its settlement and the rotation of its chord; in plan the rotations about the
+/// other axes too, and the corners of its convex outline.
+#[derive(Debug, Clone)]
+pub(crate) struct Outline {
+    pub(crate) nodes: Range<usize>,
+    pub(crate) elements: Range<usize>,
+    pub(crate) settlement: Weights,
+    pub(crate) rotations: Vec<Weights>,
+    pub(crate) corners: Vec<[f64; 2]>,
+}
+
+impl Base {
+    /// The base of `structure` on the elements of a ground.
+    pub(crate) fn of(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
+        let nodes = base_nodes(structure);
+        check_base_nodes(&nodes, structure.dofs())?;
+        let faces = structure.contact_faces();
+        let refuse = |needed| Err(Error::Scene { quantity: "structure", needed });
+        if !(faces.is_empty() || structure.contact_nodes().is_empty()) {
+            return refuse(
+                "must have a base of contact nodes in the plane or of faces in plan, not both",
+            );
+        }
+        match (faces.is_empty(), patch.is_plan()) {
+            (true, false) => Self::on_line(nodes, &structure.foundation_ends(), patch),
+            (false, true) => Self::on_faces(&faces, patch),
+            (true, true) => refuse(
+                "must touch a ground in plan with faces: contact nodes alone are those of the plane",
+            ),
+            (false, false) => refuse(
+                "must touch a ground of the plane with contact nodes: its base has faces, in plan",
+            ),
+        }
+    }
+
+    /// A base of these foundations, by the (node, weight) of the mean over each element.
+    pub(crate) fn from_weights(
+        nodes: Vec<FaceNode>,
+        foundations: Vec<Outline>,
+        weights: Vec<Vec<(usize, f64)>>,
+        elements: &Patch,
+        points: Vec<BasePoint>,
+    ) -> Self {
+        let layout = elements.layout();
+        let mut rows = vec![Terms::new(); layout.len()];
+        for (e, weights) in weights.into_iter().enumerate() {
+            for (component, terms) in components(&nodes, &weights, layout).into_iter().enumerate() {
+                rows[layout.place(component, e)] = terms;
+            }
+        }
+        let elements = elements.clone();
+        Self { rows: Rows::Sparse(rows), foundations, elements, nodes, points }
+    }
+
+    /// Whether a foundation can take other shapes than flat ones.
+    pub(crate) fn is_flexible(&self) -> bool {
+        !self.points.is_empty()
+    }
+
+    /// Points under flexible foundations, each with its displacement against the mean over its element, component by
+    /// component.
+    pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
+        let layout = self.layout();
+        self.points.iter().map(move |point| {
+            let mut own = components(&self.nodes, &point.shares, layout);
+            for (component, terms) in own.iter_mut().enumerate() {
+                accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
+            }
+            (point, own)
+        })
+    }
+
+    /// Component `i` of the element means as a weighted sum of degrees of freedom; none of a base that is stepped.
+    pub(crate) fn mean_row(&self, i: usize) -> DofCombination {
+        match &self.rows {
+            Rows::Sparse(rows) => rows[i].iter().copied().collect(),
+            Rows::Dense(_) => DofCombination::default(),
+        }
+    }
+
+    /// This base in the coordinates that are stepped.
+    pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
+        let mut foundations = self.foundations.clone();
+        for footing in &mut foundations {
+            for weights in footing.rotations.iter_mut().chain([&mut footing.settlement]) {
+                if let Weights::Sparse(terms) = weights {
+                    *weights = transformation.row(terms);
+                }
+            }
+        }
+        let points = Vec::new();
+        Self { rows: transformation.rows(&self.rows), foundations, points, ..self.clone() }
+    }
+
+    /// The degrees of freedom that move a contact node, some more than once.
+    pub(crate) fn dofs(&self) -> Vec<usize> {
+        self.nodes.iter().flat_map(FaceNode::dofs).collect()
+    }
+
+    /// The contact nodes and the elements of each foundation.
+    pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[FaceNode], Range<usize>)> + '_ {
+        let nodes = |footing: &Outline| &self.nodes[footing.nodes.clone()];
+        self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
+    }
+
+    /// Corners of the convex outline of each foundation in plan, counter-clockwise; none in the plane.
+    pub(crate) fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + '_ {
+        self.foundations.iter().map(|footing| &footing.corners[..])
+    }
+
+    /// The foundations that reach beyond the ground's elements by more than their longest side there or a tenth of the
+    /// foundation, along which axis in plan, and how far (m).
+    pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
+        let ground = &self.elements;
+        let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
+            let sides = own.map(|e| (ground.middle(e)[axis], ground.sides(e)[axis]));
+            let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
+            let ends = sides.map(|(middle, side)| [middle - 0.5 * side, middle + 0.5 * side]);
+            let [first, last] = far_ends(ends);
+            let [left, right] = span(nodes.iter().map(|node| node.place()[axis]));
+            let least = longest.min(UNCOVERED * (right - left));
+            Some((first - left).max(right - last)).filter(|reach| *reach > least)
+        };
+        let name = |axis| axis_name(ground.is_plan(), axis);
+        let each = self.foundations().enumerate();
+        each.flat_map(|(k, (nodes, own))| {
+            let axes = ground.layout().axes();
+            let found = axes.map(move |axis| (axis, reach(nodes, own.clone(), axis)));
+            found.filter_map(move |(axis, reach)| Some((k, name(axis), reach?)))
+        })
+        .collect()
+    }
+
+    /// The contact elements.
+    pub(crate) fn elements(&self) -> &Patch {
+        &self.elements
+    }
+
+    /// Areas A of the elements, m²; in the plane their lengths.
+    pub(crate) fn areas(&self) -> &[f64] {
+        self.elements.areas()
+    }
+
+    /// Order of the numbers of a contact vector.
+    pub(crate) fn layout(&self) -> ContactLayout {
+        self.elements.layout()
+    }
+
+    /// Area that goes with contact component `i`.
+    pub(crate) fn area(&self, i: usize) -> f64 {
+        self.areas()[self.layout().origin(i)[1]]
+    }
+
+    /// out ← B u.
+    pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
+        self.rows.multiply(u, out);
+    }
+
+    /// Mean `[right, up, away]` of contact displacements over the whole base; nothing moves away in the plane.
+    pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
+        let [down, along, across] = self.layout().split(displacement);
+        let areas = self.areas();
+        let area: f64 = areas.iter().sum();
+        let mean = |values: &[f64]| dot(values, areas) / area;
+        [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
+    }
+
+    /// f ← f + factor · BᵀA τ.
+    pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
+        self.rows.add_transposed(factor, |i| self.area(i), traction, force);
+    }
+
+    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan the rotations about y,
+    /// about x and about the vertical, by the right-hand rule.
+    pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
+        self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
+    }
+
+    /// Settlement of a foundation: mean displacement of its nodes, downwards.
+    pub(crate) fn settlement(&self, foundation: usize, u: &[f64]) -> f64 {
+        self.foundations[foundation].settlement.of(u)
+    }
+
+    /// Largest error of N r for translations of 1 to the right, 1 up and 1 away, N the displacements of the
+    /// contact nodes. A component without terms belongs to nothing that could move.
+    pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
+        let mut worst = 0.0_f64;
+        for (direction, translation) in translations.iter().enumerate() {
+            for (terms, needed) in self.node_components(direction) {
+                worst = worst.max((terms.value(translation) - needed).abs());
+            }
+        }
+        worst
+    }
+
+    /// Moves `translation` (to the right: 0; upwards: 1; away: 2) by the little that the contact nodes miss
+    /// of 1 m.
+    pub(crate) fn translate_nodes(&self, direction: usize, translation: &mut [f64]) {
+        for _ in 0..4 {
+            for (terms, needed) in self.node_components(direction) {
+                let missing = needed - terms.value(translation);
+                let square: f64 = terms.iter().map(|(_, weight)| weight * weight).sum();
+                if missing != 0.0 && square > 0.0 {
+                    for &(i, weight) in terms {
+                        translation[i] += missing * weight / square;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Rows of the contact nodes, and their values under a translation of 1 m.
+    fn node_components(&self, direction: usize) -> impl Iterator<Item = (&DofCombination, f64)> {
+        let rows = self.nodes.iter().flat_map(|node| node.rows().into_iter().enumerate());
+        let moved = move |(k, row)| (row, if k == direction { 1.0 } else { 0.0 });
+        rows.map(moved).filter(|(row, _): &(&DofCombination, _)| !row.is_empty())
+    }
+
+    /// The contact nodes.
+    pub(crate) fn nodes(&self) -> &[FaceNode] {
+        &self.nodes
+    }
+}
+
+/// Mean displacement of `nodes`, downwards.
+pub(crate) fn mean_settlement(nodes: &[FaceNode]) -> Weights {
+    let mut terms = Terms::new();
+    for node in nodes {
+        accumulate(&mut terms, &node.vertical, -1.0 / nodes.len() as f64);
+    }
+    Weights::Sparse(terms)
+}
+
+/// Displacement by (node, weight) terms down, along x, and in plan along y.
+fn components(nodes: &[FaceNode], weights: &[(usize, f64)], layout: ContactLayout) -> Vec<Terms> {
+    let mut components = vec![Terms::new(); layout.components()];
+    for &(node, weight) in weights {
+        let FaceNode { horizontal, vertical, across, .. } = &nodes[node];
+        let terms = [(vertical, -weight), (horizontal, weight), (across, weight)];
+        for (component, (terms, weight)) in components.iter_mut().zip(terms) {
+            accumulate(component, terms, weight);
+        }
+    }
+    components
+}
+
+/// Refuses a foundation without elements.
+pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
+    let quantity = "list of contact elements under a foundation";
+    foundations.iter().try_for_each(|own| at_least(quantity, own.elements.len(), 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::ContactElement;
+    use crate::geometry::PLANE;
+    use crate::structure::ContactNode;
+
+    fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
+        let count = elements.len();
+        let (depths, inside) = (vec![[0.0, 1.0]; count], vec![1.0; count]);
+        let nodes: Vec<_> = nodes.into_iter().map(FaceNode::from).collect();
+        check_base_nodes(&nodes, dofs)?;
+        Base::on_line(nodes, &[], &Patch::new(PLANE, elements.to_vec(), depths, inside)?)
+    }
+
+    #[test]
+    fn matching_meshes_give_halves() {
+        let nodes: Vec<_> = (0..4).map(|k| ContactNode::free(k as f64, 2 * k, 2 * k + 1)).collect();
+        let elements: Vec<_> = (0..3)
+            .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
+            .collect();
+        let base = base(nodes, &elements, 8).unwrap();
+        let Rows::Sparse(rows) = base.rows else { panic!("rows of degrees of freedom") };
+        assert_eq!(rows[1], vec![(3, -0.5), (5, -0.5)]);
+        assert_eq!(rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
+    }
+
+    #[test]
+    fn means_of_a_linear_field_are_exact_on_any_mesh() {
+        let xs = [-1.0, -0.3, 0.45, 2.0];
+        let nodes: Vec<_> =
+            xs.iter().enumerate().map(|(k, &x)| ContactNode::free(x, 2 * k, 2 * k + 1)).collect();
+        let ends = [-1.0, -0.8, 0.1, 1.3, 2.0];
+        let elements: Vec<_> =
+            ends.windows(2).map(|w| ContactElement { left: w[0], right: w[1] }).collect();
+        let base = base(nodes, &elements, 8).unwrap();
+        let u: Vec<f64> = xs.iter().flat_map(|x| [2.0 + 3.0 * x, 1.0 - 0.5 * x]).collect();
+        let mut means = vec![0.0; 8];
+        base.means(&u, &mut means);
+        for (e, element) in elements.iter().enumerate() {
+            let x = element.center();
+            assert!((means[e] + (1.0 - 0.5 * x)).abs() < 1e-14);
+            assert!((means[4 + e] - (2.0 + 3.0 * x)).abs() < 1e-14);
+        }
+        assert!((base.rotations(0, &u).next().unwrap() + 0.5).abs() < 1e-14);
+        // The transpose does the same work: (BᵀAτ)·u = Σ A τ·(B u).
+        let traction: Vec<f64> = (0..8).map(|i| f64::from(i).cos()).collect();
+        let mut force = vec![0.0; 8];
+        base.add_forces(1.0, &traction, &mut force);
+        let left: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
+        let right: f64 = (0..8).map(|i| base.area(i) * traction[i] * means[i]).sum();
+        assert!((left - right).abs() < 1e-13);
+    }
+
+    #[test]
+    fn bad_bases_are_errors() {
+        let element = [ContactElement { left: 0.0, right: 1.0 }];
+        let node = |x| ContactNode::free(x, 0, 1);
+        assert!(base(vec![node(0.0)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(0.0)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(f64::NAN)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(0.9)], &element, 2).is_err());
+        assert!(base(vec![node(0.0), node(1.0)], &element, 1).is_err());
+        assert!(base(vec![node(0.0), node(1.0)], &element, 2).is_ok());
+    }
+}

@@ -1,0 +1,150 @@
+//! Condition numbers of a scene: the fraction of double precision that it uses up.
+
+use crate::coupled::model::operators;
+use crate::coupled::model::operators::Operators;
+use crate::coupled::scene::Scene;
+use crate::coupled::step::newton::Solver;
+use crate::error::{Error, Result};
+use crate::interface::PreviousContacts;
+use crate::linalg::dense_condition;
+use std::fmt;
+
+/// Conditions up to which the effective stiffness and the Delassus operator are accepted, by the
+/// measurements of `tests/coupled/conditioning.rs`. Displacements err by about thirty roundings times the
+/// condition of the former: a percent is left here. Tractions err where they do not matter (a
+/// light structure feels three of their sums), until nothing is left of the ground in the sum.
+const STIFFNESS_LIMIT: f64 = 1e12;
+const DELASSUS_LIMIT: f64 = 1e16;
+/// Share of a condition that a quantity must explain to be named as what makes it so.
+const EXPLAINED: f64 = 1e-3;
+/// Condition beyond which a matrix is singular to rounding.
+const SINGULAR: f64 = 1e18;
+
+/// Condition numbers of the matrices of a step: a solve loses as many digits as they have.
+///
+/// In the 1-norm, of matrices scaled by the roots of their diagonal, so that they do not depend on
+/// units; estimated from below by Higham's algorithm, nearly always within a factor of three.
+/// Infinite for a singular matrix.
+///
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Bonded;
+/// use basemat::structure::RigidBlock;
+/// use basemat::Simulation;
+///
+/// let simulation = Simulation::builder(0.01)
+///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+///     .interface(Bonded)
+///     .build()?;
+/// let conditioning = simulation.conditioning();
+/// assert!((conditioning.ground - 1.0).abs() < 1e-12); // independent springs
+/// assert!(conditioning.effective_stiffness < 20.0);
+/// assert!(conditioning.delassus < 100.0);
+/// println!("{conditioning}");
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Conditioning {
+    /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state. One for a
+    /// structure that is stepped in its modes, which are not coupled.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    pub effective_stiffness: f64,
+    /// Condition of the ground's step compliance G¹. It has no limit: no step solves with G¹ alone.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    pub ground: f64,
+    /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its normal part
+    /// alone where there is no friction, with the compliance of a thin layer added.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    pub delassus: f64,
+}
+
+impl fmt::Display for Conditioning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "condition: effective stiffness {:.1e}, ground {:.1e}, Delassus operator {:.1e}",
+            self.effective_stiffness, self.ground, self.delassus
+        )
+    }
+}
+
+/// Estimates the condition numbers, with laws at the `start` of the first step; an error if double
+/// precision cannot carry them.
+pub(crate) fn conditioning(
+    scene: &Scene,
+    solver: &mut Solver,
+    start: &PreviousContacts,
+) -> Result<Conditioning> {
+    let (operators, contact) = solver.parts_mut();
+    let size = scene.layout().len();
+    let c = &scene.coefficients;
+    let effective_stiffness = operators.condition(&scene.model, c)?;
+    let ground = dense_condition(&scene.soil, size);
+    let delassus = contact.condition_at_rest(
+        &operators.delassus,
+        &scene.static_state.traction,
+        start,
+        &scene.laws,
+    )?;
+    let (matrix, condition, limit, (quantity, ratio)) =
+        if effective_stiffness.is_nan() || effective_stiffness > STIFFNESS_LIMIT {
+            let cause = cause_of_stiffness(scene, operators, effective_stiffness);
+            (operators::NAME, effective_stiffness, STIFFNESS_LIMIT, cause)
+        } else if delassus.is_nan() || delassus > DELASSUS_LIMIT {
+            let cause = cause_of_delassus(scene, operators, delassus, ground);
+            ("Delassus operator", delassus, DELASSUS_LIMIT, cause)
+        } else {
+            return Ok(Conditioning { effective_stiffness, ground, delassus });
+        };
+    Err(Error::IllConditioned { matrix, condition, limit, quantity, ratio })
+}
+
+/// Stiffness against inertia where a translation of the structure has little of the latter, or else
+/// stiffness against stiffness.
+fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (&'static str, f64) {
+    let (c, model) = (&scene.coefficients, &scene.model);
+    let inertia = |vector: &[f64]| c.acceleration[0] * model.mass.form(vector, vector);
+    let stiffness = operators.stiffness_diagonal(model, c);
+    let against = |vector: Vec<f64>| {
+        let held: f64 = stiffness.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
+        held / inertia(&vector)
+    };
+    let ratio =
+        model.influence.of_all(model.coordinates).into_iter().map(against).fold(0.0, f64::max);
+    if ratio >= EXPLAINED * condition.min(SINGULAR) {
+        return ("stiffness of the structure over its inertia in a time step", ratio);
+    }
+    let positive = || stiffness.iter().copied().filter(|k| *k > 0.0);
+    let ratio = positive().fold(0.0, f64::max) / positive().fold(f64::INFINITY, f64::min);
+    ("largest over least stiffness within the structure", ratio)
+}
+
+/// The structure's compliance against the ground's, the ground itself, or the elements.
+fn cause_of_delassus(
+    scene: &Scene,
+    operators: &Operators,
+    condition: f64,
+    ground: f64,
+) -> (&'static str, f64) {
+    let size = scene.layout().len();
+    let place = |i: usize| i * (size + 1);
+    let against = |i: usize| {
+        let own = scene.soil[place(i)].abs();
+        (operators.delassus[place(i)] - scene.soil[place(i)]).abs() / own
+    };
+    let ratio = (0..size).map(against).fold(0.0, f64::max);
+    if ratio >= EXPLAINED * condition.min(SINGULAR) {
+        return ("compliance of the structure in a time step over that of the ground", ratio);
+    }
+    if ground >= EXPLAINED * condition.min(SINGULAR) {
+        return ("condition of the ground's instantaneous operator", ground);
+    }
+    let areas = scene.base.areas();
+    let largest = areas.iter().copied().fold(0.0, f64::max);
+    let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
+    ("longest over shortest contact element", largest / smallest)
+}

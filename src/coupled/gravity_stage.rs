@@ -1,0 +1,48 @@
+//! Placement of the structure on the ground.
+
+/// Friction while the structure is placed on the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum GravityStage {
+    /// The base is placed without friction and without cohesion, and sticks from then on. Bearing pressures, tensile
+    /// strengths and bonds of the laws hold meanwhile. What opens under weight alone starts open.
+    #[default]
+    Frictionless,
+    /// The interface law acts while the weight comes on, in one step.
+    Frictional,
+    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
+    /// For a structure that is dropped, or tilted and let go.
+    ///
+    /// ```
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::GravityStage;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// // Tilted by 20 mrad about its left edge.
+    /// let tilt = 0.02;
+    /// let mut simulation = Simulation::builder(0.001)
+    ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
+    ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
+    ///     .interface(Coulomb::new(0.8)?)
+    ///     .gravity_stage(GravityStage::Unloaded)
+    ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
+    ///     .build()?;
+    /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
+    /// let run = simulation.run(1000, |_| {})?;
+    /// // It rocks over to the other edge, and less far.
+    /// let other_side = -run.whole.base_rotation.lowest.value;
+    /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    Unloaded,
+}
+
+words! { pub(crate) GravityStage, "gravity stage", {
+    Frictionless = "frictionless",
+    Frictional = "frictional",
+    Unloaded = "unloaded",
+} }

@@ -1,0 +1,204 @@
+//! A structure's matrices, base and influence vectors, assembled once, in its own degrees of freedom.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | R | influence vectors: the degrees of freedom when a connected part translates rigidly by 1 m |
+//! | N | displacements of the contact nodes |
+//! | B | element means of the base displacement |
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::coupled::base::Base;
+use crate::coupled::base::influence::{Influence, UP};
+use crate::coupled::model::mechanism::AtRest;
+use crate::coupled::model::signs::check_signs;
+use crate::coupled::model::supports;
+use crate::error::{Error, Result, at_least};
+use crate::geometry::Patch;
+use crate::linalg::matrix::spread;
+use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
+use crate::structure::{
+    FaceNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
+    check_stiffness, stiffest,
+};
+
+/// Passes that refine the influence vectors.
+const REFINEMENTS: usize = 3;
+/// Time (s) in which springs under the base move its inertia, at most: a stiffness that is rounding has no say.
+const SWAY: f64 = 0.1;
+
+/// Matrices, base and influence vectors of a structure in its own degrees of freedom.
+pub(crate) struct Assembled {
+    pub(crate) linear: bool,
+    pub(crate) mass: SparseMatrix,
+    pub(crate) damping: SparseMatrix,
+    pub(crate) stiffness: SparseMatrix,
+    /// K with the tangent of the nonlinear force at rest, where there is one.
+    at_rest: Option<SparseMatrix>,
+    pub(crate) base: Base,
+    pub(crate) influence: Arc<Influence>,
+}
+
+impl Assembled {
+    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong
+    /// signs, parts that nothing holds, supports beside the ground, and mechanisms that cannot be factored.
+    pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
+        let base = Base::of(structure, elements)?;
+        let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
+        at_least("list of degrees of freedom", dofs, 1)?;
+        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+            SparseMatrix::assembled(name, dofs, fill)
+        };
+        let mass = assemble("mass matrix", &|m| structure.mass(m))?;
+        check_mass(&mass)?;
+        let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+        if !structure.has_active_damping() {
+            check_damping(&damping)?;
+        }
+        let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
+        if !structure.has_active_stiffness() {
+            check_stiffness(&stiffness, &mass)?;
+        }
+        let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
+        let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
+        let sum =
+            || SparseMatrix::new("stiffness matrix", &SparseMatrix::weighted_sum(dofs, &terms));
+        let at_rest = if linear { None } else { Some(sum()?) };
+        let influence = Arc::default();
+        let own = Self { linear, mass, damping, stiffness, at_rest, base, influence };
+        check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
+        // A mechanism fails in one way or another, as rounding has it, but never by its sign.
+        let (influence, held) = own.find_influence().map_err(|error| match error {
+            Error::Indefinite { .. } => error,
+            _ => own.at_rest(structure).behind(error),
+        })?;
+        Ok((Self { influence: Arc::new(influence), ..own }, held))
+    }
+
+    /// The same structure on other elements.
+    pub(crate) fn on(&self, base: Base) -> Self {
+        let [mass, damping, stiffness] = self.matrices().map(Clone::clone);
+        let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
+        Self { linear: self.linear, mass, damping, stiffness, at_rest, base, influence }
+    }
+
+    /// Number of degrees of freedom.
+    pub(crate) fn dofs(&self) -> usize {
+        self.mass.order()
+    }
+
+    /// Mass, damping, stiffness.
+    pub(crate) fn matrices(&self) -> [&SparseMatrix; 3] {
+        [&self.mass, &self.damping, &self.stiffness]
+    }
+
+    /// Period on a fixed base, s: Rayleigh's quotient of the deflection under the weight along x, in plan the longer of
+    /// that and the one along y. `held` is the factored stiffness with springs at the base; of the work that the weight
+    /// does, theirs is left out (1 % off). NaN for a structure without mass.
+    pub(crate) fn period_on_fixed_base(&self, held: &mut SparseFactor) -> f64 {
+        let directions: &[usize] = if self.base.layout().is_plan() { &[0, 2] } else { &[0] };
+        directions.iter().map(|&k| self.period(k, held)).fold(f64::NAN, f64::max)
+    }
+
+    fn period(&self, direction: usize, held: &mut SparseFactor) -> f64 {
+        let to_the_side = self.influence.of(direction, self.dofs());
+        let mut weight = vec![0.0; self.dofs()];
+        self.mass.multiply_add(1.0, &to_the_side, &mut weight);
+        let mut deflection = weight.clone();
+        held.solve(&mut deflection);
+        let form = |matrix: &SparseMatrix| matrix.form(&deflection, &deflection);
+        let work = dot(&deflection, &weight);
+        TAU * (form(&self.mass) * form(self.stiffness_at_rest())).sqrt() / work
+    }
+
+    /// K with the tangent of the nonlinear force at rest.
+    pub(crate) fn stiffness_at_rest(&self) -> &SparseMatrix {
+        self.at_rest.as_ref().unwrap_or(&self.stiffness)
+    }
+
+    /// The structure at rest, for a search for mechanisms; `structure` gives the names of its degrees of freedom.
+    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
+        let stiffness = self.stiffness_at_rest();
+        AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
+    }
+
+    /// Mass over the area of the contact elements, kg/m².
+    pub(crate) fn mass_over_area(&self) -> f64 {
+        let up = self.influence.of(UP, self.dofs());
+        self.mass.form(&up, &up) / self.base.areas().iter().sum::<f64>()
+    }
+
+    /// Damping of a translation along the ground over the mass that it moves, r·C r / r·M r, the largest of all parts and
+    /// directions, 1/s.
+    pub(crate) fn drag(&self) -> f64 {
+        let parts = self.influence.parts().iter();
+        let vectors = parts.flat_map(|part| [&part.vectors[0], &part.vectors[2]]);
+        let drags = vectors.filter(|vector| !vector.is_empty()).map(|vector| {
+            let translation = spread(vector, self.dofs());
+            let form = |matrix: &SparseMatrix| matrix.form(&translation, &translation);
+            form(&self.damping) / form(&self.mass)
+        });
+        drags.fold(0.0, f64::max)
+    }
+
+    /// Largest inertia (kg) that a displacement of a contact node meets by itself.
+    fn base_inertia(&self) -> f64 {
+        let masses = self.mass.diagonal();
+        let rows = self.base.nodes().iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty());
+        let inertia = rows.map(|row| {
+            let square: f64 = row.iter().map(|(_, weight)| weight * weight).sum();
+            row.iter().map(|&(i, weight)| masses[i] * (weight / square).powi(2)).sum()
+        });
+        inertia.fold(0.0, f64::max)
+    }
+
+    /// The influence vectors, and the factored stiffness with its base held.
+    ///
+    /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
+    /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the degrees of freedom mean.
+    /// Displacements are stepped relative to rigid translations, so R has to be exact where the ground
+    /// sees it: N R is 1 or 0 to rounding, and then so is B R.
+    fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
+        let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
+        let stiffest = stiffest(stiffness);
+        let spring = stiffest.max(self.base_inertia() / (SWAY * SWAY));
+        let held = HeldBase::new(self.base.nodes(), stiffness, spring);
+        let mut factor = held.factor()?;
+        if self.linear && !factor.is_positive_definite() {
+            check_signs(&self.base, self.matrices())?;
+        }
+        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+        let solved = held.pulls().into_iter().map(|pull| {
+            let mut found = pull.clone();
+            factor.solve(&mut found);
+            for _ in 0..REFINEMENTS {
+                let mut rest = pull.clone();
+                matrix.multiply_add(-1.0, &found, &mut rest);
+                factor.solve(&mut rest);
+                found.iter_mut().zip(&rest).for_each(|(r, d)| *r += d);
+            }
+            found
+        });
+        let mut translations: Vec<_> = solved.collect();
+        if translations.iter().flatten().any(|r| !r.is_finite()) {
+            return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
+        }
+        let firmer = spring / stiffest;
+        supports::check(stiffness, &self.mass, firmer, &self.base, &mut translations)?;
+        let mut parts = Partition::new(n);
+        for matrix in [stiffness, &self.mass, &self.damping] {
+            parts.couple(matrix);
+        }
+        for (nodes, _) in self.base.foundations() {
+            let mut dofs = nodes.iter().flat_map(FaceNode::dofs);
+            if let Some(first) = dofs.next() {
+                dofs.for_each(|dof| parts.join(first, dof));
+            }
+        }
+        let roots: Vec<usize> = (0..n).map(|dof| parts.root(dof)).collect();
+        let influence = Influence::split(&self.base, &translations, &roots);
+        supports::check_parts(&influence, &self.base, n)?;
+        Ok((influence, factor))
+    }
+}

@@ -1,0 +1,173 @@
+//! External loads: a row of degrees of freedom times a function of time.
+
+use crate::coupled::base::transformation::{Transformation, Weights};
+use crate::error::{Error, Result, at_least, finite, positive, same_length};
+use crate::linalg::mixing_weight;
+use crate::motion::Record;
+use crate::structure::DofCombination;
+use std::fmt;
+
+/// A force that acts on a structure from outside: wind, machinery, blast, impact.
+///
+/// The force of every degree of freedom is its weight in `row` times the load's value at the time, so that the
+/// load does the work value × Δ(row): for the [`DofCombination`] of a displacement a force (N per metre of
+/// thickness), for that of a rotation a moment. Its value at t = 0 belongs to the static state, after
+/// the weight; what acts suddenly is zero there.
+///
+/// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once, at
+/// the time at which the scheme writes the equation of motion: t + Δt/2 for [`Midpoint`](super::Midpoint) and
+/// [`DissipativeMidpoint`](super::DissipativeMidpoint), t + Δt for [`Newmark`](super::Newmark). The iterations of a
+/// nonlinear structure use this one value; a step that failed and is tried again evaluates the load again. A force that
+/// follows from the state, as a controller's does, is [set](crate::Simulation::set_load) between the steps.
+///
+/// ```
+/// use basemat::Simulation;
+/// use basemat::bem::ElasticGround;
+/// use basemat::coupled::{Load, Probe};
+/// use basemat::interface::Coulomb;
+/// use basemat::structure::RigidBlock;
+/// use basemat::Soil;
+///
+/// let block = RigidBlock::new(6.0, 9.0, 2000.0)?;
+/// let roof = block.horizontal_at(9.0);
+/// // 100 kN/m at the roof, let go at t = 0.
+/// let mut simulation = Simulation::builder(0.005)
+///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
+///     .structure(block)
+///     .interface(Coulomb::new(0.5)?)
+///     .load(Load::released(roof.clone(), 100.0e3))
+///     .probe(Probe::displacement("roof", roof))
+///     .build()?;
+/// assert!((simulation.state().base_shear - 100.0e3).abs() < 1.0);
+/// let run = simulation.run(400, |_| {})?;
+/// // It swings back.
+/// assert!(run.probes[0].extremes.lowest.value < -5e-3);
+/// assert!(run.whole.base_shear.lowest.value < 0.0 && run.energy_error < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct Load {
+    row: DofCombination,
+    value: Box<dyn Fn(f64) -> f64 + Send>,
+}
+
+impl Load {
+    /// `value(t)`, t in seconds, on `row`. A value that is not finite ends the step with an error.
+    pub fn new(
+        row: impl Into<DofCombination>,
+        value: impl Fn(f64) -> f64 + Send + 'static,
+    ) -> Self {
+        Self { row: row.into(), value: Box::new(value) }
+    }
+
+    /// Load of constant `force`, in the static state too.
+    pub fn constant(row: impl Into<DofCombination>, force: f64) -> Self {
+        Self::new(row, move |_| force)
+    }
+
+    /// A `force` of the static state that is gone from the first step on (snap-back). Without a static
+    /// state (no gravity, or [`GravityStage::Unloaded`](super::GravityStage::Unloaded)) it never acts.
+    pub fn released(row: impl Into<DofCombination>, force: f64) -> Self {
+        Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
+    }
+
+    /// `force` times the samples of a record, linear between them and zero beyond its ends. The
+    /// samples are in m/s² whatever they stand for.
+    pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
+        let record = record.clone();
+        Self::new(row, move |time| force * record.at(time).acceleration)
+    }
+
+    /// `forces` at `times` (s, ascending), linear between them; zero before the first and after the
+    /// last.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers
+    /// that are not finite or times that do not ascend.
+    pub fn table(row: impl Into<DofCombination>, times: &[f64], forces: &[f64]) -> Result<Self> {
+        at_least("table of a load", times.len(), 1)?;
+        same_length("table of a load", forces.len(), times.len())?;
+        for (time, force) in times.iter().zip(forces) {
+            finite("time of a load", *time)?;
+            finite("value of a load", *force)?;
+        }
+        for pair in times.windows(2) {
+            positive("time between two values of a load", pair[1] - pair[0])?;
+        }
+        let (times, forces) = (times.to_vec(), forces.to_vec());
+        Ok(Self::new(row, move |time| {
+            let next = times.partition_point(|t| *t <= time);
+            match (next.checked_sub(1), times.get(next)) {
+                (Some(k), Some(end)) => {
+                    let share = (time - times[k]) / (end - times[k]);
+                    // Not by the difference, which may overflow.
+                    (1.0 - share) * forces[k] + share * forces[next]
+                }
+                (Some(k), None) if time <= times[k] => forces[k],
+                _ => 0.0,
+            }
+        }))
+    }
+
+    /// Row of the degrees of freedom on which the load acts.
+    pub(crate) fn row(&self) -> &DofCombination {
+        &self.row
+    }
+
+    /// Force at `time` (s).
+    pub fn value(&self, time: f64) -> f64 {
+        (self.value)(time)
+    }
+
+    /// Refuses a row with other degrees of freedom than the structure's, and a value at t = 0 that is not finite;
+    /// `index` is the load's number.
+    pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
+        self.row.check("degree of freedom of a load", dofs)?;
+        let (quantity, value) = ("external load at t = 0", self.value(0.0));
+        if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
+    }
+}
+
+impl fmt::Debug for Load {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Load").field("row", &self.row).finish_non_exhaustive()
+    }
+}
+
+/// A load in the coordinates that are stepped.
+pub(crate) struct SteppedLoad {
+    load: Load,
+    row: Weights,
+    /// Force in the static state.
+    at_start: f64,
+    /// Force that was set in place of the load's own.
+    set: Option<f64>,
+}
+
+impl SteppedLoad {
+    pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
+        let row = transformation.row(&load.row);
+        let at_start = if is_static { load.value(0.0) } else { 0.0 };
+        Self { load, row, at_start, set: None }
+    }
+
+    /// Sets the force from now on; `None` returns to the load's own.
+    pub(crate) fn set(&mut self, value: Option<f64>) {
+        self.set = value;
+    }
+
+    /// Value at `time` times a sum over the weights of its row, by which loads are told apart.
+    pub(crate) fn mixed_value(&self, time: f64) -> f64 {
+        let row = self.load.row.iter();
+        let sum: f64 = row.map(|&(i, weight)| mixing_weight(i) * weight).sum();
+        self.load.value(time) * sum
+    }
+
+    /// Adds the force at `time`, less that of the static state, to `force`; returns its value.
+    pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
+        let value = self.set.unwrap_or_else(|| self.load.value(time)) - self.at_start;
+        if value != 0.0 {
+            self.row.add(value, force);
+        }
+        value
+    }
+}

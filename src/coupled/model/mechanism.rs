@@ -1,0 +1,207 @@
+//! Mechanisms: structures with a motion that nothing resists while their base is at rest, or nothing at
+//! all.
+
+use crate::coupled::base::Base;
+use crate::error::{Error, Result, StabilityError};
+use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
+use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
+
+/// Mass that keeps mechanisms regular, relative to what makes it as large as the stiffness.
+const REGULAR: f64 = 1e-12;
+/// Work of a mechanism on the stiffness, relative to that of its largest entries.
+const FREE: f64 = 1e-12;
+/// Work of a mechanism relative to the largest entries where no failed factorization speaks for one. Elements added up
+/// leave 3e-17; a column of a thousand beams one above the other has 1e-12.
+const SURELY_FREE: f64 = f64::EPSILON;
+/// Work of the softest displacement from which on it is none, whatever rounding does.
+const FIRM: f64 = 1e-6;
+/// Share of the largest displacement from which on a degree of freedom takes part in a mechanism.
+const TAKES_PART: f64 = 0.1;
+/// Independent mechanisms that are reported, at most.
+const MOST_MOTIONS: usize = 32;
+/// Passes of inverse iteration for each.
+const ITERATIONS: usize = 3;
+
+/// Stiffness (tangent of the nonlinear force at rest included), mass and base of a structure.
+#[derive(Clone, Copy)]
+pub(crate) struct AtRest<'a> {
+    pub(crate) structure: &'a dyn Structure,
+    pub(crate) stiffness: &'a SparseMatrix,
+    pub(crate) mass: &'a SparseMatrix,
+    pub(crate) base: &'a Base,
+}
+
+impl AtRest<'_> {
+    /// Refuses a mechanism, also where the loads do not set it in motion. `held` is the factored stiffness with
+    /// its base held, by which most structures pass without another factor.
+    pub(crate) fn check(&self, held: &mut SparseFactor) -> Result<()> {
+        let regular = Regular::held(self).1;
+        let softest = regular.softest(held, &[]);
+        if softest.is_some_and(|motion| regular.share_of_work(&motion) > FIRM) {
+            return Ok(());
+        }
+        self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
+    }
+
+    /// The mechanism behind a failure, if there is one.
+    pub(crate) fn mechanism(&self) -> Option<StabilityError> {
+        self.motion(FREE)
+    }
+
+    /// Cause of `error`, that the structure has no equilibrium or no factors.
+    pub(crate) fn behind(&self, error: Error) -> Error {
+        self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
+    }
+
+    /// Displacements with the base at rest that do work of at most `free` on the stiffness.
+    fn motion(&self, free: f64) -> Option<StabilityError> {
+        if self.base.dofs().is_empty() {
+            return None;
+        }
+        let dofs = Regular::held(self).1.free_dofs(free)?;
+        let place = place(self.structure, &dofs);
+        Some(StabilityError::Mechanism { dofs, place })
+    }
+}
+
+/// A motion that neither stiffness nor damping nor mass resist.
+pub(crate) fn unresisted(
+    structure: &dyn Structure,
+    stiffness: &SparseMatrix,
+    others: [&SparseMatrix; 2],
+) -> Option<StabilityError> {
+    let scaled = |matrix: &SparseMatrix| {
+        let largest = largest(&matrix.diagonal());
+        if largest > 0.0 { largest.recip() } else { 0.0 }
+    };
+    let terms = [stiffness, others[0], others[1]].map(|matrix| (scaled(matrix), matrix));
+    let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
+    let dofs = Regular::new(sum, 1.0, &[]).free_dofs(FREE)?;
+    let place = place(structure, &dofs);
+    Some(StabilityError::Massless { dofs, place })
+}
+
+/// The structure's own names of degrees of freedom, or their numbers.
+fn place(structure: &dyn Structure, dofs: &[usize]) -> String {
+    structure.describe(dofs).unwrap_or_else(|| unknown_numbers(dofs))
+}
+
+/// A stiffness, and what keeps it regular.
+pub(crate) struct Regular {
+    matrix: Triplets,
+    spring: f64,
+    /// Terms on the diagonal that keep mechanisms regular.
+    added: Vec<f64>,
+    /// Degrees of freedom without any entry.
+    absent: Vec<usize>,
+}
+
+impl Regular {
+    /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
+    pub(crate) fn held<'a>(at_rest: &AtRest<'a>) -> (HeldBase<'a>, Self) {
+        Self::held_by(at_rest, 1.0)
+    }
+
+    /// The stiffness at rest with springs under the contact nodes, this many times as stiff as its largest entry.
+    pub(crate) fn held_by<'a>(at_rest: &AtRest<'a>, factor: f64) -> (HeldBase<'a>, Self) {
+        let AtRest { stiffness, mass, base, .. } = *at_rest;
+        let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
+        let spring = factor * if stiffest > 0.0 { stiffest } else { 1.0 };
+        let held = HeldBase::new(base.nodes(), stiffness, spring);
+        let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal());
+        (held, regular)
+    }
+
+    /// A matrix whose largest entry is about `spring`, kept regular by `mass`, or by what stands on its
+    /// diagonal where there is none; Lagrange multipliers have neither and stay as they are.
+    fn new(matrix: Triplets, spring: f64, mass: &[f64]) -> Self {
+        let heaviest = largest(mass);
+        let mut diagonal = vec![0.0; matrix.order()];
+        for &(row, _, value) in matrix.entries().iter().filter(|entry| entry.0 == entry.1) {
+            diagonal[row] += value;
+        }
+        let mut is_absent = vec![true; diagonal.len()];
+        for &(row, column, value) in matrix.entries() {
+            if value != 0.0 {
+                (is_absent[row], is_absent[column]) = (false, false);
+            }
+        }
+        let added: Vec<f64> = diagonal
+            .into_iter()
+            .enumerate()
+            .map(|(i, own)| match mass.get(i) {
+                Some(mass) if *mass > 0.0 => REGULAR * spring * mass / heaviest,
+                _ if own > 0.0 => REGULAR * own,
+                _ if is_absent[i] => REGULAR * spring,
+                _ => 0.0,
+            })
+            .collect();
+        let absent = (0..is_absent.len()).filter(|&i| is_absent[i]).collect();
+        Self { matrix, spring, added, absent }
+    }
+
+    /// The factors of what is regular.
+    pub(crate) fn factor(&self) -> Option<SparseFactor> {
+        let mut sum = self.matrix.clone();
+        self.added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
+        SparseFactor::new(HeldBase::NAME, &sum).ok()
+    }
+
+    /// The degrees of freedom that take part in displacements which do work of at most `free`, ascending.
+    ///
+    /// All such displacements together: by the length of their rows in a basis that the regular part
+    /// makes orthonormal, so that neither its choice nor the numbering of degrees of freedom matters.
+    fn free_dofs(&self, free: f64) -> Option<Vec<usize>> {
+        let (n, mut factor) = (self.added.len(), self.factor()?);
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        while basis.len() < MOST_MOTIONS.min(n) {
+            match self.softest(&mut factor, &basis) {
+                Some(motion) if self.share_of_work(&motion) <= free => basis.push(motion),
+                _ => break,
+            }
+        }
+        let part = |i: usize| basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
+        let moves = |i: usize| if self.added[i] > 0.0 { part(i) } else { 0.0 };
+        let parts: Vec<f64> = (0..n).map(moves).collect();
+        let most = largest(&parts);
+        (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
+    }
+
+    /// The softest displacement beside those of `basis`, by a factored stiffness.
+    fn softest(&self, factor: &mut SparseFactor, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
+        // Inverse iteration from a vector of all signs and sizes.
+        let mut motion: Vec<f64> =
+            (0..self.added.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
+        for _ in 0..ITERATIONS {
+            let mut force: Vec<f64> = motion.iter().zip(&self.added).map(|(u, r)| u * r).collect();
+            factor.solve(&mut force);
+            motion = force;
+            for known in basis.iter().chain(basis) {
+                let share = weighted_dot(&self.added, known, &motion);
+                motion.iter_mut().zip(known).for_each(|(u, known)| *u -= share * known);
+            }
+            // First by the largest: squares may overflow.
+            let size = largest(&motion);
+            motion = motion.into_iter().map(|u| u / size).collect();
+            let size = weighted_dot(&self.added, &motion, &motion).sqrt();
+            if !(size.is_finite() && size > 0.0) {
+                return None;
+            }
+            motion = motion.into_iter().map(|u| u / size).collect();
+        }
+        Some(motion)
+    }
+
+    /// Work of a displacement on the matrix, relative to that of its largest entries, and to that of a
+    /// spring where there are none: beside such a displacement all others are rounding.
+    fn share_of_work(&self, motion: &[f64]) -> f64 {
+        let mut around: f64 = self.absent.iter().map(|&i| self.spring * motion[i].powi(2)).sum();
+        let mut work = 0.0_f64;
+        for &(row, column, value) in self.matrix.entries() {
+            let product = motion[row] * value * motion[column];
+            work += product;
+            around += product.abs();
+        }
+        if around > 0.0 { work.abs() / around } else { 0.0 }
+    }
+}

@@ -1,0 +1,104 @@
+//! A structure in the coordinates that are stepped.
+
+pub(crate) mod assembled;
+pub(crate) mod load;
+pub(crate) mod mechanism;
+pub(crate) mod motion;
+pub(crate) mod operators;
+pub(crate) mod signs;
+pub(crate) mod supports;
+
+use crate::coupled::base::influence::Influence;
+use crate::coupled::base::transformation::{ModalBasis, Terms, Transformation};
+use crate::coupled::model::assembled::Assembled;
+use crate::error::Result;
+use crate::linalg::matrix::{Diagonals, Matrix};
+use crate::structure::Structure;
+use std::sync::Arc;
+
+/// Matrices, influence vectors and coordinates of a structure.
+pub(crate) struct Model {
+    /// Degrees of freedom of the structure, and the number of coordinates that are stepped.
+    pub(crate) dofs: usize,
+    pub(crate) coordinates: usize,
+    pub(crate) mass: Matrix,
+    pub(crate) damping: Matrix,
+    pub(crate) stiffness: Matrix,
+    pub(crate) linear: bool,
+    /// Whether any damping coefficient is not zero.
+    pub(crate) damped: bool,
+    /// Influence vectors in the coordinates that are stepped.
+    pub(crate) influence: Arc<Influence>,
+    pub(crate) transformation: Transformation,
+}
+
+impl Model {
+    /// Steps the degrees of freedom.
+    pub(crate) fn new(assembled: &Assembled) -> Self {
+        let [mass, damping, stiffness] =
+            assembled.matrices().map(|matrix| Matrix::Sparse(matrix.clone()));
+        Self {
+            dofs: assembled.dofs(),
+            coordinates: assembled.dofs(),
+            mass,
+            damped: !damping.is_empty(),
+            damping,
+            stiffness,
+            linear: assembled.linear,
+            influence: assembled.influence.clone(),
+            transformation: Transformation::Identity,
+        }
+    }
+
+    /// This structure in modal coordinates.
+    pub(crate) fn in_modes(self, assembled: &Assembled, modes: ModalBasis) -> Self {
+        let convert = |vector: &Terms| modes.translation(vector, &assembled.mass);
+        let influence = Arc::new(assembled.influence.converted(convert));
+        let damping = Matrix::Diagonal(modes.damping.clone());
+        Self {
+            coordinates: modes.count(),
+            mass: Matrix::Diagonal(vec![1.0; modes.count()]),
+            damped: !damping.is_empty(),
+            damping,
+            stiffness: Matrix::Diagonal(modes.stiffness.clone()),
+            influence,
+            transformation: Transformation::Modes(Arc::new(modes)),
+            ..self
+        }
+    }
+
+    /// The three matrices, if they are diagonal.
+    pub(crate) fn diagonals(&self) -> Option<Diagonals<'_>> {
+        match (&self.mass, &self.damping, &self.stiffness) {
+            (Matrix::Diagonal(mass), Matrix::Diagonal(damping), Matrix::Diagonal(stiffness)) => {
+                let damping = self.damped.then_some(damping.as_slice());
+                Some(Diagonals { mass, damping, stiffness })
+            }
+            _ => None,
+        }
+    }
+
+    /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`, and returns
+    /// whether there is any; `scratch` has an entry for every degree of freedom. An error is the structure's.
+    pub(crate) fn load(
+        &self,
+        structure: &dyn Structure,
+        time: f64,
+        at_start: &[f64],
+        scratch: &mut [f64],
+        load: &mut [f64],
+    ) -> Result<bool> {
+        scratch.fill(0.0);
+        structure.load(time, scratch)?;
+        let mut differs = false;
+        for (now, at_start) in scratch.iter_mut().zip(at_start) {
+            *now -= at_start;
+            // Without a branch, for the vector units; NaN differs.
+            differs |= *now != 0.0;
+        }
+        if differs {
+            self.transformation.add_forces(scratch, load);
+        }
+        Ok(differs)
+    }
+}

@@ -1,0 +1,131 @@
+//! Motion of the structure in the coordinates that are stepped.
+
+use std::sync::{Arc, OnceLock};
+
+use crate::coupled::base::influence::Influence;
+use crate::coupled::base::transformation::Transformation;
+use crate::coupled::model::Model;
+use crate::coupled::scheme::SchemeCoefficients;
+
+/// Mean translation of the free field under a part, `[right, up, away]`; none away in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Translation {
+    /// y at the end of the step, m.
+    pub(crate) displacement: [f64; 3],
+    /// Δy, m.
+    pub(crate) increment: [f64; 3],
+    /// Velocity at v*, as the time scheme sees it, so that a structure that translates with the
+    /// ground meets no damping force.
+    pub(crate) velocity: [f64; 3],
+    /// Velocity and acceleration of the translation at the end of the step.
+    pub(crate) new_velocity: [f64; 3],
+    pub(crate) new_acceleration: [f64; 3],
+}
+
+impl Translation {
+    /// The next one, which ends at `displacement`.
+    pub(crate) fn next(&self, displacement: [f64; 3], c: &SchemeCoefficients) -> Self {
+        let increment: [f64; 3] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
+        let stepped = |coefficients| -> [f64; 3] {
+            std::array::from_fn(|k| {
+                let (v, a) = (self.new_velocity[k], self.new_acceleration[k]);
+                SchemeCoefficients::apply(coefficients, increment[k], v, a)
+            })
+        };
+        Self {
+            displacement,
+            increment,
+            velocity: stepped(c.velocity),
+            new_velocity: stepped(c.new_velocity),
+            new_acceleration: stepped(c.new_acceleration),
+        }
+    }
+}
+
+/// Displacement relative to the free field's translation, total velocity and acceleration, and the
+/// degrees of freedom once they have been asked for.
+#[derive(Clone)]
+pub(crate) struct Motion {
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) acceleration: Vec<f64>,
+    /// The free field's translation under each part.
+    pub(crate) translations: Vec<Translation>,
+    influence: Arc<Influence>,
+    transformation: Transformation,
+    dofs: [OnceLock<Vec<f64>>; 4],
+}
+
+/// Quantities of [`Motion`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum DofResponse {
+    Displacement,
+    Velocity,
+    Acceleration,
+    AbsoluteDisplacement,
+}
+
+impl Motion {
+    /// Motion at rest.
+    pub(crate) fn new(model: &Model) -> Self {
+        let zero = || vec![0.0; model.coordinates];
+        Self {
+            displacement: zero(),
+            velocity: zero(),
+            acceleration: zero(),
+            translations: vec![Translation::default(); model.influence.parts().len()],
+            influence: model.influence.clone(),
+            transformation: model.transformation.clone(),
+            dofs: Default::default(),
+        }
+    }
+
+    /// Forgets the degrees of freedom that were transformed; to be called when coordinates have changed.
+    pub(crate) fn changed(&mut self) {
+        self.dofs.iter_mut().for_each(|seen| drop(seen.take()));
+    }
+
+    /// The degrees of freedom.
+    pub(crate) fn dofs(&self, quantity: DofResponse) -> &[f64] {
+        let coordinates = match quantity {
+            DofResponse::Displacement | DofResponse::AbsoluteDisplacement => &self.displacement,
+            DofResponse::Velocity => &self.velocity,
+            DofResponse::Acceleration => &self.acceleration,
+        };
+        let absolute = matches!(quantity, DofResponse::AbsoluteDisplacement);
+        if let (Transformation::Identity, false) = (&self.transformation, absolute) {
+            return coordinates;
+        }
+        self.dofs[quantity as usize].get_or_init(|| {
+            let mut values = coordinates.clone();
+            if absolute {
+                let translations = self.translations.iter().map(|y| y.displacement);
+                self.influence.translate(1.0, translations, &mut values);
+            }
+            self.transformation.dofs(values)
+        })
+    }
+}
+
+const ALL: [(DofResponse, &str); 4] = [
+    (DofResponse::Displacement, "displacement"),
+    (DofResponse::Velocity, "velocity"),
+    (DofResponse::Acceleration, "acceleration"),
+    (DofResponse::AbsoluteDisplacement, "absolute_displacement"),
+];
+
+impl PartialEq for Motion {
+    fn eq(&self, other: &Self) -> bool {
+        ALL.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
+    }
+}
+
+impl std::fmt::Debug for Motion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut shown = f.debug_struct("Motion");
+        for (which, name) in ALL {
+            shown.field(name, &self.dofs(which));
+        }
+        shown.finish()
+    }
+}

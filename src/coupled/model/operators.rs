@@ -1,0 +1,163 @@
+//! Precomputed operators of a step, valid while the structure's tangent is unchanged.
+
+use super::Model;
+use std::sync::Arc;
+
+use crate::contact::Delassus;
+use crate::coupled::base::Base;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::error::{Error, Result};
+use crate::linalg::matrix::Thinned;
+use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
+use crate::structure::{Structure, Triplets};
+
+/// The effective stiffness K_eff, factored, and the Delassus operator.
+pub(crate) struct Operators {
+    /// ∂f/∂u.
+    pub(crate) tangent: SparseMatrix,
+    factor: Factor,
+    /// Columns of K_eff⁻¹BᵀA, one after the other.
+    pub(crate) columns: Vec<f64>,
+    /// W = G¹ + B K_eff⁻¹ BᵀA, row-major.
+    pub(crate) delassus: Delassus,
+}
+
+/// K_eff⁻¹.
+pub(crate) enum Factor {
+    Sparse(Box<SparseFactor>),
+    /// Reciprocals of the diagonal, in modal coordinates.
+    Diagonal(Vec<f64>),
+}
+
+pub(crate) const NAME: &str = "effective stiffness matrix";
+
+impl Operators {
+    /// Condenses the factored K_eff of this tangent.
+    pub(crate) fn new(
+        model: &Model,
+        base: &Base,
+        soil: &Arc<Thinned>,
+        factor: Factor,
+        tangent: SparseMatrix,
+    ) -> Self {
+        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
+        let (columns, delassus) = condense(solve, base, soil, model.coordinates);
+        let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
+        let delassus = Delassus::new(delassus, soil, &columns, means);
+        Self { tangent, factor, columns, delassus }
+    }
+
+    /// Reciprocals of K_eff in modes; empty in degrees of freedom.
+    pub(crate) fn reciprocals(&self) -> &[f64] {
+        match &self.factor {
+            Factor::Diagonal(values) => values,
+            Factor::Sparse(_) => &[],
+        }
+    }
+
+    /// Overwrites `rhs` with K_eff⁻¹ rhs.
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
+        match &mut self.factor {
+            Factor::Sparse(factor) => factor.solve(rhs),
+            Factor::Diagonal(inverse) => rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d),
+        }
+    }
+
+    /// Condition of K_eff, scaled by its diagonal.
+    pub(crate) fn condition(&mut self, model: &Model, c: &SchemeCoefficients) -> Result<f64> {
+        match &mut self.factor {
+            Factor::Diagonal(_) => Ok(1.0),
+            Factor::Sparse(factor) => {
+                let matrix = effective_stiffness(model, c, &self.tangent);
+                Ok(sparse_condition(&SparseMatrix::new(NAME, &matrix)?, factor))
+            }
+        }
+    }
+
+    /// Diagonal of K_eff without its inertia.
+    pub(crate) fn stiffness_diagonal(&self, model: &Model, c: &SchemeCoefficients) -> Vec<f64> {
+        let massless = SchemeCoefficients { acceleration: [0.0; 3], ..*c };
+        let mut diagonal = vec![0.0; model.coordinates];
+        for &(row, column, k) in effective_stiffness(model, &massless, &self.tangent).entries() {
+            if row == column {
+                diagonal[row] += k;
+            }
+        }
+        diagonal
+    }
+}
+
+/// K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
+fn effective_stiffness(model: &Model, c: &SchemeCoefficients, tangent: &SparseMatrix) -> Triplets {
+    let mut matrix = Triplets::new(model.coordinates);
+    model.mass.add_to(c.acceleration[0], &mut matrix);
+    model.damping.add_to(c.velocity[0], &mut matrix);
+    model.stiffness.add_to(c.displacement[0], &mut matrix);
+    tangent.add_to(c.displacement[0], &mut matrix);
+    matrix
+}
+
+impl Factor {
+    /// Factors K_eff of degrees of freedom.
+    pub(crate) fn of_dofs(
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+        tangent: &SparseMatrix,
+    ) -> Result<Box<SparseFactor>> {
+        SparseFactor::new(NAME, &effective_stiffness(model, coefficients, tangent)).map(Box::new)
+    }
+
+    /// Inverts K_eff of modes.
+    pub(crate) fn of_modes(model: &Model, coefficients: &SchemeCoefficients) -> Result<Self> {
+        let mut inverse = vec![0.0; model.coordinates];
+        let matrix = effective_stiffness(model, coefficients, &SparseMatrix::default());
+        matrix.entries().iter().for_each(|&(i, _, k)| inverse[i] += k);
+        for k in &mut inverse {
+            *k = 1.0 / *k;
+        }
+        if inverse.iter().all(|x| x.is_finite()) {
+            return Ok(Self::Diagonal(inverse));
+        }
+        Err(Error::Singular { matrix: NAME, order: model.coordinates })
+    }
+
+    /// Overwrites many right-hand sides, one after the other.
+    fn solve_many(&self, rhs: &mut [f64]) {
+        match self {
+            Self::Sparse(factor) => factor.solve_many(rhs),
+            Self::Diagonal(inverse) => {
+                for rhs in rhs.chunks_exact_mut(inverse.len()) {
+                    rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d);
+                }
+            }
+        }
+    }
+}
+
+/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA; `solve` overwrites many right-hand
+/// sides, one after the other.
+pub(crate) fn condense(
+    solve: impl FnOnce(&mut [f64]),
+    base: &Base,
+    soil: &[f64],
+    dofs: usize,
+) -> (Vec<f64>, Vec<f64>) {
+    let size = base.layout().len();
+    let mut columns = vec![0.0; size * dofs];
+    let mut delassus = soil.to_vec();
+    let mut unit = vec![0.0; size];
+    let mut means = vec![0.0; size];
+    for (i, column) in columns.chunks_exact_mut(dofs.max(1)).enumerate() {
+        unit[i] = 1.0;
+        base.add_forces(1.0, &unit, column);
+        unit[i] = 0.0;
+    }
+    solve(&mut columns);
+    for (i, column) in columns.chunks_exact(dofs.max(1)).enumerate() {
+        base.means(column, &mut means);
+        for (row, mean) in means.iter().enumerate() {
+            delassus[row * size + i] += mean;
+        }
+    }
+    (columns, delassus)
+}

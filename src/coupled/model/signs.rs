@@ -1,0 +1,70 @@
+//! Whether a symmetric stiffness is negative where the base is held.
+
+use crate::coupled::base::Base;
+use crate::error::{Error, Result};
+use crate::linalg::{SparseMatrix, indefinite_row};
+use crate::structure::{HeldBase, Triplets, stiffest};
+
+/// Springs that hold the base and constraints where they must not give way, relative to the largest
+/// stiffness.
+pub(crate) const FIRMLY: f64 = 1e6;
+/// Remainder of a zero after assembly and factors, relative to the diagonal and to the largest stiffness.
+const ROUNDING: f64 = 1e-12;
+
+/// Refuses a symmetric K that is not positive semi-definite where the base is held.
+pub(crate) fn check_signs(
+    base: &Base,
+    [mass, damping, stiffness]: [&SparseMatrix; 3],
+) -> Result<()> {
+    let tie = stiffest(stiffness);
+    let held = HeldBase::new(base.nodes(), stiffness, FIRMLY * tie);
+    let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+    if matrix.asymmetry() > ROUNDING {
+        return Ok(());
+    }
+    let constrained = constrain(&matrix, &multipliers(&matrix, [mass, damping]), held.spring)?;
+    match indefinite_row(&constrained, ROUNDING, ROUNDING * tie) {
+        Some(row) => {
+            let diagonal = stiffness.diagonal()[row];
+            Err(Error::Indefinite { matrix: HeldBase::NAME, row, diagonal })
+        }
+        None => Ok(()),
+    }
+}
+
+/// Marks of the degrees of freedom that are Lagrange multipliers: forces that enter others' equations and whose own
+/// equation is a constraint. Zeros are exact: a multiplier with the least mass m, on a coupling c with a mass M, grows
+/// at the rate √(c / √(m M)).
+fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool> {
+    let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
+    for (row, column, value) in others.into_iter().flat_map(SparseMatrix::entries) {
+        if value != 0.0 {
+            (multipliers[row], multipliers[column]) = (false, false);
+        }
+    }
+    multipliers
+}
+
+/// A symmetric matrix with a spring of stiffness `penalty` in place of each Lagrange multiplier, on
+/// the sum of degrees of freedom that this keeps at zero.
+fn constrain(matrix: &SparseMatrix, multipliers: &[bool], penalty: f64) -> Result<SparseMatrix> {
+    let mut constrained = Triplets::new(matrix.order());
+    let mut constraints = vec![Vec::new(); matrix.order()];
+    for (row, column, value) in matrix.entries() {
+        match (multipliers[row], multipliers[column]) {
+            (false, false) => constrained.add(row, column, value),
+            (true, false) => constraints[row].push((column, value)),
+            _ => {}
+        }
+    }
+    for mut constraint in constraints {
+        let largest = constraint.iter().fold(0.0, |m: f64, (_, c)| m.max(c.abs()));
+        if largest > 0.0 {
+            for (_, c) in &mut constraint {
+                *c /= largest;
+            }
+            constrained.add_outer(&constraint, penalty);
+        }
+    }
+    SparseMatrix::new(HeldBase::NAME, &constrained)
+}

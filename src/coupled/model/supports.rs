@@ -1,0 +1,235 @@
+//! Whether a structure translates freely: no stiffness to a fixed point.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | r | displacements when the contact nodes are pulled along by 1 m and the rest follows |
+//! | s | r in whole numbers: 1 for what moves along, 0 for what does not, if that is what r is like |
+//! | lag | by how much the contact nodes stay behind, pulled by the largest stiffness |
+//!
+//! A support shows in r in two ways: it holds the contact nodes back with a force, and it bends the
+//! structure. Where the force is no longer large beside the largest stiffness (a weak support, or
+//! one on top of a slender tower), K s is the sharper test: row by row it compares the support with
+//! the stiffness around it. What is left there in a free structure is the rounding of the entries.
+//! Measured on walls of quadrilaterals, as fractions of the row, with the largest |r − s|:
+//!
+//! | | row | r − s |
+//! |---|---|---|
+//! | elements added up in double precision | 4e-16 | 3e-5 |
+//! | entries of 10 digits; of 8 digits | 2e-10; 2e-8 | 3e-6; 3e-4 |
+//! | reduced walls, up to 800 times as high as wide | 1e-7 | 3e-5 |
+//! | a spring of 1e-9 of the largest stiffness on a block | 4e-10 | 4e-9 |
+//! | the same on a wall 200 times as high as wide | 7e-10 | 0.09 |
+//!
+//! The reduced walls meet a force of 2e-10 of the largest stiffness in all, the springs one of 1e-9.
+//! A support is what is above all of the limits below, and lets the structure sway to a fixed point with a period that a
+//! run could notice: r·K r over r·M r, which no scaling of coordinates changes, tells it from rounding in a stiffness
+//! of a rigid base alone, where there is nothing stiff to compare with.
+
+use crate::coupled::base::Base;
+use crate::coupled::base::influence::Influence;
+use crate::error::{Error, Result, require, require_part};
+use crate::linalg::matrix::spread;
+use crate::linalg::{SparseMatrix, largest};
+use crate::structure::{Structure, Tangent, UNNOTICED};
+
+/// Largest lag: far above rounding, and what a weight may be off.
+const LAG: f64 = 1e-6;
+/// Largest work r·K r, relative to the largest stiffness, that is ignored.
+const FORCE: f64 = 3e-10;
+/// Largest force of a row of K s, relative to |K| |s|.
+const ROW: f64 = 3e-10;
+/// Largest force of a row of K s relative to the diagonal, for rows in which all entries are rounding.
+const DIAGONAL: f64 = 1e-13;
+/// Work r·K r that is rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
+const WORK: f64 = 1e-15;
+/// Largest |r − s| that bends nothing.
+const BENT: f64 = 1e-9;
+/// Largest |r − s| with which r is taken to be s.
+const WHOLE: f64 = 0.25;
+
+/// Largest error of a contact node's displacement under a rigid translation of 1 m.
+const EXACT: f64 = 1e-14;
+/// Translations (m) that no nonlinear force may resist.
+const TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
+
+/// Names of the translations.
+const DIRECTIONS: [&str; 3] = ["to the right", "upwards", "along y"];
+
+/// Refuses a structure that does not translate freely, and rounds its translations (to the right,
+/// upwards, in plan away) to whole numbers where these are what they are meant to be, exactly so at the contact
+/// nodes. `stiffness` without what ties these, springs `firmer` times as stiff as its largest entry on the diagonal.
+pub(crate) fn check(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    firmer: f64,
+    base: &Base,
+    translations: &mut [Vec<f64>],
+) -> Result<()> {
+    let lag = base.translation_error(translations);
+    for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
+        let resistance = Resistance::new(stiffness, translation);
+        let square = stiffness.form(translation, translation).abs();
+        let is_noticed = square > UNNOTICED * mass.form(translation, translation);
+        if is_noticed && resistance.holds(lag, firmer) {
+            let Resistance { force, dof, ratio, .. } = resistance;
+            return Err(Error::Restrained { direction, force, dof, ratio });
+        }
+        if resistance.is_free || !is_noticed && resistance.bent <= LAG {
+            for r in translation.iter_mut() {
+                *r = r.round();
+            }
+        }
+    }
+    require_part("structure", lag <= LAG, "its contact nodes must be able to translate together")?;
+    for (direction, translation) in translations.iter_mut().enumerate() {
+        base.translate_nodes(direction, translation);
+    }
+    let error = base.translation_error(translations);
+    let needed = "1e-14 or less: contact nodes must be able to translate together";
+    require("error of the base under a rigid translation of 1 m", error, error <= EXACT, needed)?;
+    Ok(())
+}
+
+/// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
+pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Result<()> {
+    let mut means = vec![0.0; base.layout().len()];
+    // A mean is a sum over the nodes above an element, each of which may be rounded.
+    let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;
+    for part in influence.parts() {
+        for (direction, vector) in part.vectors.iter().enumerate() {
+            base.means(&spread(vector, dofs), &mut means);
+            for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
+                let [down, along, across] = base.layout().places(e);
+                let (component, sign) = [(along, 1.0), (down, -1.0), (across, 1.0)][direction];
+                let moved = sign * means[component];
+                if (moved - 1.0).abs() > exact {
+                    return Err(Error::Input {
+                        quantity: "mean of the base under a rigid translation of 1 m",
+                        value: moved,
+                        needed: "1: all of a connected part's base must translate with it",
+                    });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a nonlinear force that resists a translation of the whole structure from the static
+/// state: it is tied to a fixed point. Returns which parts it joins with others: those that it does
+/// not let translate alone.
+pub(crate) fn joined_by_force(
+    structure: &dyn Structure,
+    stiffness: &SparseMatrix,
+    influence: &Influence,
+    [displacement, static_force]: [&[f64]; 2],
+) -> Result<Vec<bool>> {
+    let parts = influence.parts();
+    let mut joined = vec![false; parts.len()];
+    let Some(own) = structure.nonlinear() else { return Ok(joined) };
+    let n = displacement.len();
+    let tangent = Tangent::at(structure, displacement)?;
+    let stiffest = largest(&tangent.matrix.diagonal()).max(largest(&stiffness.diagonal()));
+    let resistance = |translation: &[f64]| -> Result<Option<(f64, usize, f64)>> {
+        let [_, around] = products(&tangent.matrix, translation);
+        let mut force = vec![0.0; n];
+        for distance in TRANSLATIONS {
+            let pairs = displacement.iter().zip(translation);
+            let moved: Vec<f64> = pairs.map(|(u, r)| u + distance * r).collect();
+            force.fill(0.0);
+            own.force(&moved, &mut force)?;
+            for (dof, (force, before)) in force.iter().zip(static_force).enumerate() {
+                let force = force - before;
+                let scale = distance.abs() * around[dof] + before.abs();
+                let rounding = f64::EPSILON * stiffest * distance.abs();
+                if force.is_nan() || force.abs() > ROW * scale + rounding {
+                    let ratio = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
+                    return Ok(Some((force, dof, ratio)));
+                }
+            }
+        }
+        Ok(None)
+    };
+    for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
+        if let Some((force, dof, ratio)) = resistance(translation)? {
+            return Err(Error::Restrained { direction, force, dof, ratio });
+        }
+    }
+    if parts.len() > 1 {
+        for (part, joined) in parts.iter().zip(&mut joined) {
+            for vector in &part.vectors {
+                *joined |= resistance(&spread(vector, n))?.is_some();
+            }
+        }
+    }
+    Ok(joined)
+}
+
+/// Resistance of the stiffness to a translation.
+struct Resistance {
+    /// r·K r over |r|·|K| |r|, and over the largest stiffness.
+    work: f64,
+    reaction: f64,
+    /// Largest |r − s|.
+    bent: f64,
+    /// Whether every row of K s is free of force.
+    is_free: bool,
+    /// Largest force relative to the stiffness around it, its row, and that ratio.
+    force: f64,
+    dof: usize,
+    ratio: f64,
+}
+
+impl Resistance {
+    fn new(stiffness: &SparseMatrix, translation: &[f64]) -> Self {
+        let whole: Vec<f64> = translation.iter().map(|r| r.round()).collect();
+        let apart: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
+        let bent = largest(&apart);
+        let [force, around] = products(stiffness, translation);
+        let work: f64 = translation.iter().zip(&force).map(|(r, f)| r * f).sum();
+        let scale: f64 = translation.iter().zip(&around).map(|(r, f)| (r * f).abs()).sum();
+        let is_whole = bent <= WHOLE;
+        let [force, around] = if is_whole { products(stiffness, &whole) } else { [force, around] };
+        let diagonal = stiffness.diagonal();
+        let over = |scale: f64| if scale > 0.0 { work.abs() / scale } else { 0.0 };
+        let is_free = (0..translation.len())
+            .all(|i| force[i].abs() <= ROW * around[i] + DIAGONAL * diagonal[i].abs());
+        let ratio = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
+        let dof = (0..translation.len()).fold(0, |a, b| if ratio(b) > ratio(a) { b } else { a });
+        Self {
+            work: over(scale),
+            reaction: over(stiffest(stiffness, &diagonal)),
+            bent,
+            is_free: is_whole && is_free,
+            force: force.get(dof).copied().unwrap_or(0.0),
+            dof,
+            ratio: ratio(dof),
+        }
+    }
+
+    /// Whether the structure is held, at contact nodes that stay behind by `lag` under springs `firmer` times as stiff as
+    /// its largest stiffness.
+    fn holds(&self, lag: f64, firmer: f64) -> bool {
+        let is_rounding = self.reaction <= FORCE || firmer * self.bent <= BENT || self.is_free;
+        self.work > WORK && (firmer * lag > LAG || !is_rounding)
+    }
+}
+
+/// The largest stiffness between two degrees of freedom, to which a support adds nothing; of any where there is
+/// none.
+fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
+    let between = stiffness.entries().filter(|(row, column, _)| row != column);
+    let most = between.fold(0.0_f64, |most, entry| most.max(entry.2.abs()));
+    if most > 0.0 { most } else { largest(diagonal) }
+}
+
+/// A x and |A| |x|.
+fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
+    let [mut sums, mut sizes] = [vec![0.0; x.len()], vec![0.0; x.len()]];
+    for (row, column, value) in matrix.entries() {
+        let term = value * x[column];
+        sums[row] += term;
+        sizes[row] += term.abs();
+    }
+    [sums, sizes]
+}

@@ -1,0 +1,300 @@
+//! Parts of a simulation, each checked by itself.
+
+use std::sync::Arc;
+
+use crate::bem::{Ground, patch};
+use crate::contact::ContactSearch;
+use crate::coupled::base::held::held;
+use crate::coupled::coordinates::Coordinates;
+use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::model::load::Load;
+use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
+use crate::coupled::serviceability::Serviceability;
+use crate::error::{
+    Error, Observer, Result, all_finite, finite, memory, not_negative, positive, require,
+    require_part, same_length,
+};
+use crate::geometry::Patch;
+use crate::interface::{
+    Bonded, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, check_list,
+};
+use crate::linalg::matrix::Thinned;
+use crate::linalg::{indefinite_pivot, matrix};
+use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::structure::probe::Probe;
+use crate::structure::{Structure, is_nonlinear, probe};
+
+/// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of
+/// one.
+const ROUNDING: f64 = 1e-9;
+
+/// Rotation of a base at which a run ends unless another is given, rad.
+const ROTATION_LIMIT: f64 = 1.0;
+
+/// Parts of a [`Simulation`](crate::Simulation): a structure, a ground and an interface law are needed, the rest has
+/// defaults (no motion, standard gravity, midpoint rule, no probes).
+pub struct SimulationBuilder {
+    pub(crate) structure: Option<Box<dyn Structure>>,
+    pub(crate) ground: Option<Box<dyn Ground>>,
+    pub(crate) time_step: f64,
+    pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(crate) motion: Box<dyn FreeField>,
+    pub(crate) scheme: Box<dyn TimeScheme>,
+    pub(crate) search: ContactSearch,
+    pub(crate) gravity: f64,
+    pub(crate) gravity_stage: GravityStage,
+    pub(crate) loads: Vec<Load>,
+    /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) probes: Vec<Probe>,
+    pub(crate) moment_center: Option<f64>,
+    /// Steps expected, 0 if unknown.
+    pub(crate) steps: usize,
+    pub(crate) coordinates: Coordinates,
+    pub(crate) energy_balance: bool,
+    pub(crate) safety_friction: Vec<f64>,
+    pub(crate) serviceability: Serviceability,
+    /// Rotation of a base at which a run ends, rad.
+    pub(crate) rotation_limit: f64,
+    /// Whether the base is held in place of standing on the ground.
+    pub(crate) held: bool,
+}
+
+short_debug! {
+    SimulationBuilder;
+    self;
+    time_step: self.time_step,
+    structure: self.structure.is_some(),
+    ground: self.ground.is_some(),
+    laws: self.laws.len(),
+    gravity: self.gravity,
+    gravity_stage: self.gravity_stage,
+    search: self.search,
+    coordinates: self.coordinates,
+}
+
+impl SimulationBuilder {
+    /// Settings with this time step, all others default.
+    pub(crate) fn new(time_step: f64) -> Self {
+        Self {
+            structure: None,
+            ground: None,
+            time_step,
+            laws: Vec::new(),
+            motion: Box::new(AtRest),
+            scheme: Box::new(Midpoint),
+            search: ContactSearch::default(),
+            gravity: STANDARD_GRAVITY,
+            gravity_stage: GravityStage::default(),
+            loads: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            probes: Vec::new(),
+            moment_center: None,
+            steps: 0,
+            coordinates: Coordinates::default(),
+            energy_balance: true,
+            safety_friction: Vec::new(),
+            serviceability: Serviceability::default(),
+            rotation_limit: ROTATION_LIMIT,
+            held: false,
+        }
+    }
+
+    /// Whether weight and loads are there before the run begins.
+    pub(crate) fn is_static(&self) -> bool {
+        self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
+    }
+
+    /// Whether weight acts as a load from t = 0 on.
+    pub(crate) fn falls(&self) -> bool {
+        self.gravity > 0.0 && self.gravity_stage == GravityStage::Unloaded
+    }
+}
+
+/// All parts of a simulation, and what follows from the ground and the time scheme by themselves.
+pub(crate) struct Parts {
+    pub(crate) structure: Box<dyn Structure>,
+    /// The ground, prepared for steps.
+    pub(crate) ground: Box<dyn Ground>,
+    /// The builder, whose structure and ground have gone to the fields above.
+    pub(crate) given: SimulationBuilder,
+    pub(crate) elements: Patch,
+    pub(crate) coefficients: SchemeCoefficients,
+    /// Instantaneous operator of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
+    pub(crate) soil: Arc<Thinned>,
+    /// Free field at t = 0, 2Q or 3Q.
+    pub(crate) start_motion: Vec<f64>,
+    /// Point `[x, y]` about which the base moment is taken.
+    pub(crate) moment_center: [f64; 2],
+}
+
+impl Parts {
+    /// Checks what was given, each part by itself, and makes the ground ready for steps.
+    pub(crate) fn new(
+        mut given: SimulationBuilder,
+        observer: Option<&mut Observer<'_>>,
+    ) -> Result<Self> {
+        let time_step = positive("time step", given.time_step)?;
+        positive("square of the time step", time_step * time_step)?;
+        not_negative("gravity", given.gravity)?;
+        given.serviceability = given.serviceability.checked()?;
+        let limit = given.rotation_limit;
+        require("rotation limit", limit, limit > 0.0, "above zero (infinite: none)")?;
+        let missing = |quantity, needed| Error::Scene { quantity, needed };
+        let mut structure = given
+            .structure
+            .take()
+            .ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        is_nonlinear(structure.as_mut())?;
+        let mut ground = given
+            .ground
+            .take()
+            .ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        let elements = patch(ground.as_ref())?;
+        if given.held {
+            given.laws = vec![Box::new(Bonded)];
+            (structure, ground) = held(structure, ground.as_ref(), &elements, time_step)?;
+        }
+        let (layout, count) = (elements.layout(), elements.len());
+        // The laws may count on gravity only where something presses at the start.
+        let gravity = if given.is_static() { given.gravity } else { 0.0 };
+        check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
+        if elements.is_plan() {
+            check_limits(&given)?;
+        }
+        given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
+        let dofs = structure.dofs();
+        check_dofs(dofs, layout.len())?;
+        probe::check(&given.probes, dofs)?;
+        check_motion(&given, dofs)?;
+        let coefficients = given.scheme.coefficients(time_step);
+        coefficients.check()?;
+        let [x, y] = elements.center();
+        let moment_center = [finite("moment center", given.moment_center.unwrap_or(x))?, y];
+        ground.prepare(time_step)?;
+        ground.expect_steps(given.steps, observer)?;
+        let soil = instantaneous_operator(ground.as_ref(), &elements)?;
+        let mut start_motion = vec![0.0; layout.len()];
+        ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);
+        for displacement in &start_motion {
+            finite("free field at t = 0", *displacement)?;
+        }
+        let soil = Arc::new(Thinned::new(soil, start_motion.len()));
+        Ok(Self {
+            structure,
+            ground,
+            given,
+            elements,
+            coefficients,
+            soil,
+            start_motion,
+            moment_center,
+        })
+    }
+}
+
+/// Refuses loads and motions of other degrees of freedom than the structure's, and numbers that are not finite.
+fn check_motion(given: &SimulationBuilder, dofs: usize) -> Result<()> {
+    let mut loads = given.loads.iter().enumerate();
+    loads.try_for_each(|(index, load)| load.check(index, dofs))?;
+    for (values, quantity) in
+        [(&given.displacement, "initial displacement"), (&given.velocity, "initial velocity")]
+    {
+        if !values.is_empty() {
+            same_length(quantity, values.len(), dofs)?;
+            all_finite(quantity, values)?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses more degrees of freedom than fit into memory, by themselves or with a response to the traction of
+/// each of the contact elements, `tractions` numbers, twice while they are computed.
+fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
+    matrix::check_order("degrees of freedom of the structure", dofs)?;
+    let (responses, dofs) = (16.0 * dofs as f64 * tractions as f64, dofs as f64);
+    let quantity = "degrees of freedom of the structure on its contact elements";
+    Ok(memory::check(quantity, dofs, responses)?)
+}
+
+/// Step compliance of the ground: with rows weighted by the elements' areas, its symmetric part
+/// must not be negative, or the ground would push back work that it never got.
+fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f64>> {
+    const NAME: &str = "instantaneous operator of the ground";
+    let (layout, areas) = (elements.layout(), elements.areas());
+    let size = layout.len();
+    let mut operator = vec![0.0; layout.square()];
+    ground.step_compliance(&mut operator)?;
+    elements.refer_inside(&mut operator);
+    all_finite(NAME, &operator)?;
+    let area = |i: usize| areas[layout.origin(i)[1]];
+    let scale: Vec<f64> = (0..size)
+        .map(|i| (area(i) * operator[i * (size + 1)].abs()).sqrt())
+        .map(|root| if root > 0.0 { root.recip() } else { 1.0 })
+        .collect();
+    let weighted = |i: usize, j: usize| {
+        let both = area(i) * operator[i * size + j] + area(j) * operator[j * size + i];
+        0.5 * scale[i] * scale[j] * both
+    };
+    let mut symmetric: Vec<f64> = (0..size * size).map(|k| weighted(k / size, k % size)).collect();
+    for row in 0..size {
+        symmetric[row * (size + 1)] += ROUNDING;
+    }
+    match indefinite_pivot(&symmetric, size) {
+        None => Ok(operator),
+        Some(row) => {
+            let diagonal = operator[row * (size + 1)];
+            Err(Error::Indefinite { matrix: NAME, row, diagonal })
+        }
+    }
+}
+
+/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
+fn check_laws(
+    laws: &[Box<dyn InterfaceLaw>],
+    search: ContactSearch,
+    scene: &ContactScene,
+    count: usize,
+) -> Result<()> {
+    let needed = "give one to the builder with `interface`";
+    require_part("interface law", !laws.is_empty(), needed)?;
+    check_list(laws, count)?;
+    let iterates = search != ContactSearch::FlowChart { iterations: 0 };
+    require_part("contact search", iterates, "the flow chart needs one iteration or more")?;
+    laws.iter().try_for_each(|law| law.check(scene))
+}
+
+/// Refuses laws without limits on a ground in plan, and the search of the plane.
+fn check_limits(given: &SimulationBuilder) -> Result<()> {
+    let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
+    require_part("contact search", given.search == ContactSearch::Robust, needed)?;
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, given.time_step);
+    given.laws.iter().try_for_each(|law| {
+        law.limits(&start.with_state_variables(&start.first_state_variables(law))).map(|_| ())
+    })
+}
+
+/// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one
+/// for all elements, one each, or none unless all laws have one.
+fn safety_friction(
+    laws: &[Box<dyn InterfaceLaw>],
+    given: Vec<f64>,
+    count: usize,
+) -> Result<Vec<f64>> {
+    let coefficients = if given.is_empty() {
+        let each: Option<_> = laws.iter().map(InterfaceLaw::friction_coefficient).collect();
+        each.unwrap_or_default()
+    } else {
+        given
+    };
+    if coefficients.len() > 1 {
+        same_length("list of friction coefficients", coefficients.len(), count)?;
+    }
+    for &value in &coefficients {
+        // Infinity is a coefficient.
+        require("friction coefficient", value, value >= 0.0, "zero or more")?;
+    }
+    Ok(coefficients)
+}

@@ -1,0 +1,63 @@
+//! Uplift of a base in a run: for how long it left the ground.
+
+use crate::interface::Mode;
+
+/// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
+/// with the first one that ends without.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Uplift {
+    /// Time with any part uplifted, s.
+    pub duration: f64,
+    /// Time without any contact at all, s.
+    pub flight: f64,
+    /// Number of stretches.
+    pub count: usize,
+    /// Longest stretch, s.
+    pub longest: f64,
+    current: f64,
+}
+
+impl Uplift {
+    /// A step that began at `begin`.
+    pub(crate) fn see(&mut self, uplifted: f64, modes: &[Mode], step: f64) {
+        self.advance(uplifted, step, modes.iter().any(|mode| mode.is_closed()));
+    }
+
+    /// A step of length `step`, and whether any element is closed at its end.
+    fn advance(&mut self, fraction: f64, step: f64, closed: bool) {
+        if fraction <= 0.0 {
+            self.current = 0.0;
+            return;
+        }
+        if self.current == 0.0 {
+            self.count += 1;
+        }
+        self.duration += step;
+        self.current += step;
+        self.longest = self.longest.max(self.current);
+        if !closed {
+            self.flight += step;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn by_hand() {
+        let mut uplift = Uplift::default();
+        for fraction in [0.0, 0.2, 0.5, 0.0, 1.0, 1.0, 0.3, 0.0] {
+            uplift.advance(fraction, 0.1, fraction < 1.0);
+        }
+        assert_eq!(uplift.count, 2);
+        for (found, known) in [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
+        {
+            assert!((found - known).abs() < 1e-15);
+        }
+    }
+}

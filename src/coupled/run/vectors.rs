@@ -1,0 +1,54 @@
+//! Forces, moments and rotations of a state as vectors.
+
+use super::Quantity;
+use crate::coupled::State;
+use crate::coupled::state::foundation::{force_vector, turning_vector};
+use crate::geometry::SPACE;
+
+impl State {
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and
+    /// towards the reader.
+    pub fn force_vector(&self) -> [f64; SPACE] {
+        let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
+        force_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+    }
+
+    /// Moment on the soil as a vector by the right-hand rule, N·m/m, about the point of
+    /// [`base_moment`](State::base_moment), with axes as in [`force_vector`](State::force_vector).
+    ///
+    /// ```
+    /// use basemat::bem::ElasticGround;
+    /// use basemat::interface::Bonded;
+    /// use basemat::motion::STANDARD_GRAVITY;
+    /// use basemat::structure::RigidBody;
+    /// use basemat::{Simulation, Soil};
+    ///
+    /// // The weight W of a machine stands 1 m to the right of the middle of its mat: M = r × F.
+    /// let mat = vec![[-4.0, -3.0], [4.0, -3.0], [4.0, 3.0], [-4.0, 3.0]];
+    /// let inertia = [[2e6, 0.0, 0.0], [0.0, 3e6, 0.0], [0.0, 0.0, 3e6]];
+    /// let block = RigidBody::from_mass(mat, 4e5, inertia, [1.0, 0.0, 2.0])?;
+    /// let weight = STANDARD_GRAVITY * block.total_mass();
+    /// let soil = Soil::from_shear_wave_speed(300.0, 0.3, 1900.0)?;
+    /// let simulation = Simulation::builder(0.01)
+    ///     .ground(ElasticGround::under(soil, &block, 4)?)
+    ///     .structure(block)
+    ///     .interface(Bonded)
+    ///     .build()?;
+    /// let [x, y, vertical] = simulation.state().moment_vector();
+    /// assert!((y / weight - 1.0).abs() < 1e-6);
+    /// assert!(x.abs().max(vertical.abs()) < 1e-6 * weight);
+    /// assert!((simulation.state().force_vector()[2] / weight + 1.0).abs() < 1e-9);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn moment_vector(&self) -> [f64; SPACE] {
+        let quantities = [Quantity::MomentAcross, Quantity::BaseMoment, Quantity::Torque];
+        turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+    }
+
+    /// Rotation of the base as a vector by the right-hand rule, rad, of several foundations the largest of each
+    /// component, with axes as in [`force_vector`](State::force_vector).
+    pub fn rotation_vector(&self) -> [f64; SPACE] {
+        let quantities = [Quantity::RotationAcross, Quantity::BaseRotation, Quantity::Twist];
+        turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+    }
+}

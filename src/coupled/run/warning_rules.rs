@@ -1,0 +1,244 @@
+//! When a run warns: limits, and the warnings of a scene, a motion and a run.
+
+use crate::bem::Ground;
+use crate::coupled::run::warning::Warning;
+use crate::coupled::run::warning_text::within;
+use crate::coupled::run::{GroundMotion, Quantity, Run};
+use crate::coupled::scene::Scene;
+use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::interface::{InterfaceLaw, Mode};
+use crate::motion::FreeField;
+use crate::soil::Soil;
+
+impl Warning {
+    /// Rotation above which a run warns, rad: the cosine is off by half a percent.
+    const ROTATION_LIMIT: f64 = 0.1;
+    /// Settlement over the width of a foundation above which a run warns: the usual criterion of bearing failure in
+    /// load tests.
+    const SETTLEMENT_LIMIT: f64 = 0.1;
+    /// Energy error at the end of a run above which it warns. Earlier, while energies are still
+    /// small, it may be larger.
+    const ENERGY_ERROR_LIMIT: f64 = 1e-9;
+    /// Energy that the time scheme may make before a run warns, relative to the largest energy.
+    const ALGORITHMIC_LIMIT: f64 = 0.02;
+
+    /// Tension above which a run under weight warns, relative to the largest static pressure.
+    pub(crate) const TENSION_LIMIT: f64 = 0.01;
+
+    /// Speeds of shear waves in soils, m/s, from mud to rock.
+    const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
+    /// Densities of soils, kg/m³.
+    const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
+
+    /// Period above which a structure is unusually slow, s: only the tallest towers and liquid in wide tanks are
+    /// slower.
+    const LONGEST_PERIOD: f64 = 8.0;
+    /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
+    const LARGEST_ACCELERATION: f64 = 60.0;
+
+    /// Acceleration of a record (m/s²) that is more likely one in g: weaker than strong motions, and not zero.
+    const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
+    /// Time steps of records, s.
+    const INTERVALS: [f64; 2] = [1e-4, 0.2];
+    /// Weight over the area of a base below which masses are likely in another unit, Pa: a timber floor has as much.
+    const LEAST_PRESSURE: f64 = 2e3;
+    /// Friction coefficients that are likely angles in degrees or percentages.
+    const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
+    /// Height above which a storey is none, m.
+    const TALLEST_STOREY: f64 = 100.0;
+    /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
+    const GRAVITIES: [f64; 2] = [1.5, 30.0];
+    /// Least fraction of a record's intensity that a run should see.
+    const PASSED: f64 = 2.0 / 3.0;
+    /// Loss of a slip event by damping above which a run warns.
+    const BRAKED: f64 = 0.1;
+    /// Ground acceleration of a run over that of its records from which on the run shakes.
+    const SHAKING: f64 = 0.01;
+    /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that are rounding.
+    const ROUNDING: f64 = 1e-9;
+    /// Fewest steps after which a peak in the last one counts.
+    const LEAST_STEPS: usize = 8;
+    /// Responses that should not be largest at the end of a run.
+    const RESPONSES: [Quantity; 4] =
+        [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
+
+    /// Warnings of numbers of a scene that are usual in another unit: of its laws, its gravity (m/s²), its weight over the
+    /// area of its base (Pa) and the height of its tallest storey (m); of one that is not to scale of its laws alone.
+    pub(crate) fn of_units(
+        is_to_scale: bool,
+        laws: &[Box<dyn InterfaceLaw>],
+        gravity: f64,
+        pressure: f64,
+        storey: Option<f64>,
+    ) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        let frictions = laws.iter().filter_map(InterfaceLaw::friction_coefficient);
+        let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
+        warnings
+            .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
+        if !is_to_scale {
+            return warnings;
+        }
+        if gravity > 0.0 && !within(Self::GRAVITIES, gravity) {
+            warnings.push(Self::UnusualGravity { gravity });
+        }
+        if gravity > 0.0 && pressure < Self::LEAST_PRESSURE {
+            warnings.push(Self::LightStructure { pressure });
+        }
+        let tall = storey.filter(|height| *height > Self::TALLEST_STOREY);
+        warnings.extend(tall.map(|height| Self::TallStorey { height }));
+        warnings
+    }
+
+    /// Friction from which on mirror images of scenes in plan were seen to differ.
+    const HIGH_FRICTION: f64 = 3.0;
+
+    /// Warnings of a scene before its first step, of a structure with this `period` on a fixed base (s).
+    pub(crate) fn of_scene(
+        scene: &Scene,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
+        period: f64,
+    ) -> Vec<Self> {
+        let mut warnings: Vec<_> = Self::of_soils(&ground.soils()).collect();
+        // A model not to scale has its own warning.
+        if warnings.is_empty() && period > Self::LONGEST_PERIOD {
+            warnings.push(Self::LongPeriod { period });
+        }
+        let uncovered = scene.base.uncovered().into_iter();
+        warnings.extend(uncovered.map(|(foundation, axis, reach)| Self::UncoveredBase {
+            foundation,
+            reach,
+            axis,
+        }));
+        warnings.extend(Self::of_friction(scene));
+        if motion.moves_across() && !scene.layout().is_plan() {
+            warnings.push(Self::MotionAcross);
+        }
+        if let Some(taken) = scene.static_state.stand_in {
+            Self::count_friction(&mut warnings, taken);
+        }
+        let sample = ground.sampled_cells();
+        warnings.extend(sample.map(|[checked, cells]| Self::SampledPassivity { checked, cells }));
+        warnings
+    }
+
+    /// Warnings of a largest ground acceleration (m/s²) that a run saw, and of the records of its motion.
+    pub(crate) fn of_motion(acceleration: f64, motion: &GroundMotion) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        if acceleration > Self::LARGEST_ACCELERATION {
+            warnings.push(Self::UnusualMotion { acceleration });
+        }
+        let Some(time_step) = motion.time_step else { return warnings };
+        if within(Self::WEAK_ACCELERATIONS, motion.peak) {
+            warnings.push(Self::UnusualMotion { acceleration: motion.peak });
+        }
+        if !within(Self::INTERVALS, time_step) {
+            warnings.push(Self::UnusualInterval { time_step });
+        }
+        warnings
+    }
+
+    /// Warnings of the end of a run that saw this largest ground acceleration (m/s²): too early, unless an observer or a
+    /// loop of the caller's own ended it, or of a base that has overturned.
+    pub(crate) fn of_end(run: &Run, seen: f64, rotation_limit: f64) -> Vec<Self> {
+        let (end, motion) = (run.end, &run.ground_motion);
+        if run.is_overturned {
+            return vec![Self::Overturned { limit: rotation_limit, time: end }];
+        }
+        let mut warnings = Vec::new();
+        if !run.ends_by_steps {
+            return warnings;
+        }
+        if let (Some(duration), Some(passed)) = (motion.duration, motion.passed)
+            && passed < Self::PASSED
+        {
+            warnings.push(Self::EndsEarly { end, duration, passed });
+        }
+        let moves = seen > Self::SHAKING * motion.peak && run.steps >= Self::LEAST_STEPS;
+        let last = |quantity: &Quantity| {
+            let peak = run.whole.peak(*quantity);
+            let is_force = matches!(quantity, Quantity::BaseShear | Quantity::BaseMoment);
+            let scale = if is_force { run.whole.static_normal_force } else { 1.0 };
+            peak.time == end && peak.magnitude() > Self::ROUNDING * scale
+        };
+        let at_end = Self::RESPONSES.into_iter().find(last).filter(|_| moves);
+        warnings.extend(at_end.map(|quantity| Self::PeakAtEnd { quantity, end }));
+        warnings
+    }
+
+    /// Warning of damping that brakes a sliding base at `rate` (1/s), by the duration of the longest slip event (s).
+    pub(crate) fn of_drag(rate: f64, longest: f64) -> Option<Self> {
+        // Sliding to rest against friction takes ln(1 + x)/rate, x the force of damping over friction at its beginning,
+        // and goes as far as 2 (1 − ln(1 + x)/x)/x of the distance without damping.
+        let x = (rate * longest).exp_m1();
+        let loss = 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x;
+        (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
+    }
+
+    /// Warning of friction with which steps in plan may have several solutions.
+    fn of_friction(scene: &Scene) -> Option<Self> {
+        let can_slide =
+            |law: &&Box<dyn InterfaceLaw>| law.modes().iter().any(|mode| *mode != Mode::Stick);
+        let laws = scene.laws.iter().filter(can_slide);
+        let greatest = laws.filter_map(InterfaceLaw::friction_coefficient).fold(0.0, f64::max);
+        (scene.layout().is_plan() && greatest >= Self::HIGH_FRICTION)
+            .then_some(Self::HighFriction { friction: greatest })
+    }
+
+    /// Warnings of `soils` with unusual numbers.
+    fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
+        let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
+        let unusual = numbers.filter(|[speed, density]| {
+            !(within(Self::SOIL_SPEEDS, *speed) && within(Self::SOIL_DENSITIES, *density))
+        });
+        unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
+    }
+
+    /// Counts a step that was solved with the friction `taken` in place of a greater one.
+    pub(crate) fn count_friction(warnings: &mut Vec<Self>, taken: f64) {
+        for warning in &mut *warnings {
+            if let Self::LessFriction { steps, friction } = warning {
+                (*steps, *friction) = (*steps + 1, friction.min(taken));
+                return;
+            }
+        }
+        warnings.push(Self::LessFriction { steps: 1, friction: taken });
+    }
+
+    /// Warning of foundation number `foundation`, of this `width`, if its `settlement` is beyond the limit.
+    pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
+        let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
+        is_large.then_some(Self::LargeSettlement { foundation, settlement, width })
+    }
+
+    /// Warnings of the largest slip, mean element length, largest rotation, last energy balance and least algorithmic
+    /// energy of a run.
+    pub(crate) fn all(
+        slip: f64,
+        element_length: f64,
+        rotation: f64,
+        energy_balance: &EnergyBalance,
+        least_algorithmic: f64,
+    ) -> Vec<Self> {
+        let (slip, rotation) = (slip.abs(), rotation.abs());
+        let mut warnings = Vec::new();
+        if slip > element_length {
+            warnings.push(Self::LargeSlip { slip, element_length });
+        }
+        if rotation > Self::ROTATION_LIMIT {
+            warnings.push(Self::LargeRotation { rotation });
+        }
+        let residual = energy_balance.residual();
+        if residual > Self::ENERGY_ERROR_LIMIT
+            || (residual.is_nan() && !energy_balance.is_left_out())
+        {
+            warnings.push(Self::EnergyBalance { residual });
+        }
+        let made = -least_algorithmic / energy_balance.scale();
+        if made > Self::ALGORITHMIC_LIMIT {
+            warnings.push(Self::AlgorithmicEnergy { made });
+        }
+        warnings
+    }
+}

@@ -1,0 +1,233 @@
+//! A scene: all that does not change while a simulation runs.
+
+use std::sync::Arc;
+
+use crate::coupled::base::Base;
+use crate::coupled::base::influence::{ConnectedPart, UP};
+use crate::coupled::base::transformation::{Transformation, Weights};
+use crate::coupled::model::Model;
+use crate::coupled::model::load::SteppedLoad;
+use crate::coupled::model::motion::Motion;
+use crate::coupled::parts::Parts;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::serviceability::Serviceability;
+use crate::coupled::state::Context;
+use crate::coupled::statics::equilibrium::StaticState;
+use crate::error::LawError;
+use crate::geometry::{ContactLayout, Footing};
+use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
+use crate::linalg::matrix::{Thinned, spread};
+use crate::linalg::mixed;
+use crate::structure::probe::Probe;
+
+/// Structure, base, laws and static state as a step sees them, read-only once built.
+///
+/// The parts that have a state of their own stand beside it: structure, ground and motion.
+pub(crate) struct Scene {
+    pub(crate) time_step: f64,
+    pub(crate) coefficients: SchemeCoefficients,
+    /// Whether the scheme takes no energy of its own.
+    pub(crate) conserves_energy: bool,
+    pub(crate) model: Model,
+    pub(crate) base: Base,
+    pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    /// Limits that runs are held against.
+    pub(crate) serviceability: Serviceability,
+    pub(crate) static_state: StaticState,
+    /// External loads beside the structure's own.
+    pub(crate) loads: Vec<SteppedLoad>,
+    /// Weight as a load, in stepped coordinates, where the run begins without a static state; else empty.
+    pub(crate) weight: Vec<f64>,
+    /// Parts that the nonlinear force joins with others.
+    pub(crate) joined: Vec<bool>,
+    /// Instantaneous operator of the ground, 2Q × 2Q.
+    pub(crate) soil: Arc<Thinned>,
+    /// Free field at t = 0, from which it is measured, 2Q.
+    pub(crate) start_motion: Vec<f64>,
+    /// Displacement, velocity and acceleration of each probe.
+    pub(crate) probe_rows: Vec<ProbeRows>,
+    /// Number of the gravity stage, and sums over the initial displacement and velocity: compared with the numbers in
+    /// a checkpoint.
+    pub(crate) start: [f64; 3],
+    /// Data that results of the scene's states need.
+    pub(crate) context: Arc<Context>,
+}
+
+/// A probe in the coordinates that are stepped.
+pub(crate) struct ProbeRows {
+    pub(crate) rows: [Weights; 3],
+    /// Displacement by a translation of 1 m of each part `[right, up, away]`, where it is absolute.
+    pub(crate) carried: Vec<[f64; 3]>,
+}
+
+impl ProbeRows {
+    pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
+        let rows = probe.rows().map(|row| model.transformation.row(row));
+        let parts = model.influence.parts().iter().filter(|_| probe.absolute);
+        let carried = parts
+            .map(|part| part.vectors.each_ref().map(|r| rows[0].of(&spread(r, model.coordinates))));
+        Self { carried: carried.collect(), rows }
+    }
+}
+
+impl Scene {
+    /// Takes over what steps need of the parts.
+    pub(crate) fn new(
+        parts: &mut Parts,
+        model: Model,
+        base: Base,
+        static_state: StaticState,
+        joined: Vec<bool>,
+    ) -> Self {
+        let Parts { given, coefficients, .. } = parts;
+        let (time_step, coefficients) = (given.time_step, *coefficients);
+        let is_static = given.is_static();
+        let loads = std::mem::take(&mut given.loads).into_iter();
+        let loads = loads.map(|load| SteppedLoad::new(load, &model.transformation, is_static));
+        let mut weight = Vec::new();
+        if given.falls() {
+            weight.resize(model.coordinates, 0.0);
+            let up = model.influence.of(UP, model.coordinates);
+            model.mass.multiply_add(-given.gravity, &up, &mut weight);
+        }
+        let (elements, origin) = (&parts.elements, parts.moment_center);
+        let shapes = base.foundations().zip(base.outlines());
+        let footings =
+            shapes.map(|((_, own), outline)| Footing::new(elements, own, outline, origin));
+        let probe_rows = given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
+        let context = Context {
+            probes: std::mem::take(&mut given.probes),
+            elements: elements.clone(),
+            friction: std::mem::take(&mut given.safety_friction),
+            footings: footings.collect(),
+        };
+        Self {
+            time_step,
+            coefficients,
+            conserves_energy: coefficients.conserves_energy(time_step),
+            laws: std::mem::take(&mut given.laws),
+            serviceability: given.serviceability,
+            static_state,
+            loads: loads.collect(),
+            weight,
+            joined,
+            soil: parts.soil.clone(),
+            start_motion: std::mem::take(&mut parts.start_motion),
+            probe_rows,
+            start: [
+                given.gravity_stage as usize as f64,
+                mixed(&given.displacement),
+                mixed(&given.velocity),
+            ],
+            context: Arc::new(context),
+            model,
+            base,
+        }
+    }
+
+    /// Number of contact elements Q.
+    pub(crate) fn count(&self) -> usize {
+        self.base.elements().len()
+    }
+
+    /// Order of the numbers of a contact vector.
+    pub(crate) fn layout(&self) -> ContactLayout {
+        self.base.layout()
+    }
+
+    /// The law of an element.
+    pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
+        law_of(&self.laws, element)
+    }
+
+    /// Subtracts the mean translation of each part's base from a displacement, before K acts on it.
+    ///
+    /// A translation strains nothing, but in degrees of freedom K would only find that out by cancellation,
+    /// with an error that grows with the stiffness times the displacement. In modes it has no
+    /// stiffness to begin with.
+    pub(crate) fn subtract_base(&self, displacement: &mut [f64], means: &mut [f64]) {
+        if let Transformation::Identity = self.model.transformation {
+            self.base.means(displacement, means);
+            let influence = &self.model.influence;
+            let parts = influence.parts().iter().map(|part| part.mean(&self.base, means));
+            influence.translate(-1.0, parts, displacement);
+        }
+    }
+
+    /// Makes of a relative displacement the one that a nonlinear force sees: each part's measured
+    /// from the mean translation of its base, so that it stays small. Parts that the force joins are
+    /// measured from that of the first of them, with the distances between them as they are. The static
+    /// displacement is added. `translations` are those of the parts' free fields.
+    pub(crate) fn seen_by_force(
+        &self,
+        displacement: &mut [f64],
+        means: &mut [f64],
+        translations: impl Iterator<Item = [f64; 3]> + Clone,
+    ) {
+        self.base.means(displacement, means);
+        let influence = &self.model.influence;
+        let mean = |part: &ConnectedPart| part.mean(&self.base, means);
+        let parts = || influence.parts().iter().zip(&self.joined);
+        let first = parts().zip(translations.clone()).find(|((_, joined), _)| **joined);
+        let first = first.map(|((part, _), y)| (mean(part), y));
+        let shifts = parts().zip(translations).map(|((part, joined), y)| match first {
+            Some((own, reference)) if *joined => [0, 1, 2].map(|k| (y[k] - reference[k]) - own[k]),
+            _ => mean(part).map(|own| -own),
+        });
+        influence.translate(1.0, shifts, displacement);
+        for (seen, at_rest) in displacement.iter_mut().zip(&self.static_state.displacement) {
+            *seen += at_rest;
+        }
+    }
+
+    /// Displacement in a motion that the nonlinear force depends on.
+    pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
+        let mut seen = motion.displacement.clone();
+        let translations = motion.translations.iter().map(|y| y.displacement);
+        self.seen_by_force(&mut seen, &mut vec![0.0; self.layout().len()], translations);
+        seen
+    }
+
+    /// Whether [`Scene::add_loads`] has anything to add.
+    pub(crate) fn has_loads(&self) -> bool {
+        !(self.weight.is_empty() && self.loads.is_empty())
+    }
+
+    /// Adds the weight and the external loads at `time`, less those of the static state, to `force`,
+    /// up to a load that is not finite: its number and its value.
+    pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> Option<(usize, f64)> {
+        force.iter_mut().zip(&self.weight).for_each(|(force, weight)| *force += weight);
+        let mut added = self.loads.iter().map(|load| load.add(time, force)).enumerate();
+        added.find(|(_, value)| !value.is_finite())
+    }
+
+    /// Whether any law stores energy in its elements, or may do so once its state variables have
+    /// changed.
+    pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
+        let mut compliant = false;
+        for element in 0..self.count() {
+            for &mode in self.law(element).modes() {
+                compliant |= self.compliance(element, mode, start)? != [0.0; 2];
+            }
+        }
+        Ok(compliant || !start.state_variables().is_empty())
+    }
+
+    /// Compliance of an element whose step ends in `mode`.
+    pub(crate) fn compliance(
+        &self,
+        element: usize,
+        mode: Mode,
+        start: &PreviousContacts,
+    ) -> Result<[f64; 2], LawError> {
+        let compliance = self.law(element).compliance(mode, &start.of(element));
+        let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
+        match named.into_iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(compliance),
+            Some((quantity, value)) => {
+                let mode = mode.word();
+                Err(LawError::NotFinite { element, mode, quantity, value })
+            }
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Serviceability: allowable slip, gap, uplifted part and rotation of a base.
+
+use crate::coupled::State;
+use crate::error::{Result, positive, require};
+use crate::geometry::resultant;
+
+/// Response of a base that a service requirement limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Criterion {
+    /// Slip averaged over a foundation, m, either way and in plan any way; tangential motion of open elements counts.
+    Slip,
+    /// Gap of an element, m.
+    Gap,
+    /// Uplifted fraction of a foundation.
+    UpliftedFraction,
+    /// Rotation of a foundation's chord, rad, either way, static part included; in plan the tilt in any direction.
+    Rotation,
+}
+
+words! { pub(crate) Criterion, "criterion", {
+    Slip = "slip",
+    Gap = "gap",
+    UpliftedFraction = "uplifted_fraction",
+    Rotation = "rotation",
+} }
+
+impl Criterion {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Slip => "slip",
+            Self::Gap => "gap",
+            Self::UpliftedFraction => "uplifted fraction",
+            Self::Rotation => "rotation",
+        }
+    }
+
+    /// SI unit; empty for a fraction.
+    pub(crate) fn unit(self) -> &'static str {
+        match self {
+            Self::Slip | Self::Gap => "m",
+            Self::UpliftedFraction => "",
+            Self::Rotation => "rad",
+        }
+    }
+
+    /// The value of a state that is furthest from zero, of several foundations or elements.
+    pub(crate) fn of(self, state: &State) -> f64 {
+        let furthest = |far: f64, value: f64| if value.abs() > far.abs() { value } else { far };
+        let foundations = state.foundations.iter();
+        match self {
+            Self::Slip => foundations
+                .map(|own| resultant(own.mean_slip, own.mean_slip_across))
+                .fold(0.0, furthest),
+            Self::Gap => state.contact.iter().fold(0.0, |far, own| own.gap.max(far)),
+            Self::UpliftedFraction => foundations.map(|f| f.uplifted_fraction).fold(0.0, furthest),
+            Self::Rotation => foundations
+                .map(|own| resultant(own.base_rotation, own.rotation_across))
+                .fold(0.0, furthest),
+        }
+    }
+}
+
+/// Limits that service sets to the motion of a base: give them to
+/// [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability), and
+/// each [`Run`](crate::results::Run) says whether they were kept.
+///
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::results::{Criterion, Serviceability};
+/// use basemat::structure::RigidBlock;
+/// use basemat::Simulation;
+///
+/// let limits =
+///     Serviceability { slip: Some(5e-3), rotation: Some(0.05), ..Serviceability::default() };
+/// let mut simulation = Simulation::builder(0.01)
+///     .structure(RigidBlock::new(4.0, 2.0, 2000.0)?)
+///     .ground(SpringGround::new(-2.0..2.0, 8, 2e8, 1e8)?)
+///     .interface(Coulomb::new(0.1)?)
+///     .motion(el_centro_1940())
+///     .serviceability(limits)
+///     .build()?;
+/// let run = simulation.run(1000, |_| {})?;
+///
+/// // It slides too far, and turns little.
+/// let [slip, rotation] = &run.serviceability[..] else { panic!("two criteria") };
+/// assert_eq!(slip.criterion, Criterion::Slip);
+/// assert!(!slip.is_met() && slip.margin() < 0.0);
+/// assert!(slip.first_excess.is_some_and(|time| time > 1.0 && time <= slip.largest.time));
+/// assert!(rotation.is_met() && rotation.margin() > 0.9 && rotation.first_excess.is_none());
+/// assert_eq!(run.is_serviceable(), Some(false));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "ServiceabilityForm"))]
+pub struct Serviceability {
+    /// Allowable slip (m), above zero: [`Criterion::Slip`].
+    pub slip: Option<f64>,
+    /// Allowable gap (m), above zero: [`Criterion::Gap`].
+    pub gap: Option<f64>,
+    /// Allowable uplifted fraction, above zero and at most one: [`Criterion::UpliftedFraction`].
+    pub uplifted_fraction: Option<f64>,
+    /// Allowable rotation (rad), above zero: [`Criterion::Rotation`].
+    pub rotation: Option<f64>,
+}
+
+validated! {
+    Serviceability as ServiceabilityForm {
+        slip: Option<f64>,
+        gap: Option<f64>,
+        uplifted_fraction: Option<f64>,
+        rotation: Option<f64>,
+    }
+    => {
+        Serviceability { slip, gap, uplifted_fraction, rotation }.checked()
+    }
+}
+
+impl Serviceability {
+    /// Returns the limits, if all of them are valid.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless slip, gap and rotation are finite and above zero, and the fraction
+    /// is at most one.
+    pub(crate) fn checked(self) -> Result<Self> {
+        for (quantity, limit) in [
+            ("allowable slip", self.slip),
+            ("allowable gap", self.gap),
+            ("allowable rotation", self.rotation),
+        ] {
+            limit.map_or(Ok(0.0), |limit| positive(quantity, limit))?;
+        }
+        if let Some(value) = self.uplifted_fraction {
+            let (is_fraction, needed) = (value > 0.0 && value <= 1.0, "above zero, at most one");
+            require("allowable uplifted fraction", value, is_fraction, needed)?;
+        }
+        Ok(self)
+    }
+}

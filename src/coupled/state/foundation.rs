@@ -1,0 +1,287 @@
+//! One foundation after a step: its forces on the soil, the motion of its base, and its factors of safety against
+//! sliding and overturning.
+//!
+//! Factors of safety are made of the contact tractions that did act. Tractions of a base that may open and slide
+//! cannot go beyond its strength: such a factor stays at or above one, and reaches it when the base
+//! does slide, or stands on its edge. Below one it falls on a bonded base only, where it says how
+//! much the interface would have lacked.
+
+use std::ops::Range;
+
+use crate::geometry::resultant;
+use crate::geometry::{Edge, Footing, Patch, SPACE};
+use crate::interface::{ContactState, Mode};
+
+/// Forces of one foundation on the soil, and motion of its base.
+///
+/// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Foundation {
+    /// Elements of the foundation, as indices of [`State::contact`](crate::coupled::State::contact).
+    pub elements: Range<usize>,
+    /// Horizontal force on the soil, positive to the right, N/m.
+    pub base_shear: f64,
+    /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m; in plan about the axis along y
+    /// through the middle of its outline, by the right-hand rule, N·m.
+    pub base_moment: f64,
+    /// Total pressure on the soil, positive in compression, N/m.
+    pub normal_force: f64,
+    /// Length of its open elements over that of all its elements.
+    pub uplifted_fraction: f64,
+    /// Slip averaged over its elements, m.
+    pub mean_slip: f64,
+    /// Rotation of its chord, counter-clockwise, rad; in plan the rotation about the axis along y, by the right-hand
+    /// rule, of the flat that fits its base best.
+    pub base_rotation: f64,
+    /// In plan: force on the soil along y, N; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub shear_across: f64,
+    /// In plan: moment on the soil about the axis along x through the middle, by the right-hand rule, N·m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub moment_across: f64,
+    /// In plan: moment on the soil about the vertical axis through the middle, counter-clockwise from above, N·m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub torque: f64,
+    /// In plan: slip along y averaged over the elements, m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mean_slip_across: f64,
+    /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub rotation_across: f64,
+    /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub twist: f64,
+    /// Whether the ground is one in plan: forces are then those of the whole body.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub in_plan: bool,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) derived: Derived,
+}
+
+/// Factors of safety and largest slip of a foundation; two foundations are compared without them.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Derived {
+    /// Largest |slip| of any element, m.
+    pub(crate) largest_slip: f64,
+    /// Resistance of the interface over the horizontal force; NaN without friction coefficients and in flight.
+    pub(crate) sliding: f64,
+    /// Restoring over overturning moment about the edges that face along x, and along y; NaN in flight, infinite along y
+    /// in the plane.
+    pub(crate) overturning: [f64; 2],
+    /// Downward displacement of the base since the static state, against the free field, m.
+    pub(crate) settlement: f64,
+}
+
+impl PartialEq for Derived {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Sums over the elements of a foundation that those of the whole base are made of.
+#[derive(Default)]
+pub(crate) struct Sums {
+    pub(crate) area: f64,
+    pub(crate) open: f64,
+    pub(crate) slip: f64,
+}
+
+impl Foundation {
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and
+    /// towards the reader.
+    pub fn force_vector(&self) -> [f64; SPACE] {
+        force_vector(self.in_plan, [self.base_shear, self.shear_across, self.normal_force])
+    }
+
+    /// Moment on the soil about the middle of the foundation as a vector by the right-hand rule, N·m/m, with axes as in
+    /// [`force_vector`](Foundation::force_vector).
+    pub fn moment_vector(&self) -> [f64; SPACE] {
+        turning_vector(self.in_plan, [self.moment_across, self.base_moment, self.torque])
+    }
+
+    /// Rotation of the base as a vector by the right-hand rule, rad, with axes as in
+    /// [`force_vector`](Foundation::force_vector).
+    pub fn rotation_vector(&self) -> [f64; SPACE] {
+        turning_vector(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
+    }
+
+    /// Forces, uplift, slip and factors of safety from the contact of all elements of `patch`, with the shape of this
+    /// foundation and the friction coefficients of all elements (one for all, one each, or none).
+    pub(crate) fn update(
+        &mut self,
+        footing: &Footing,
+        patch: &Patch,
+        friction: &[f64],
+        contact: &[ContactState],
+        modes: &[Mode],
+    ) -> Sums {
+        let own = self.elements.clone();
+        let friction = if friction.len() > 1 { &friction[own.clone()] } else { friction };
+        let (areas, contact) = (&patch.areas()[own.clone()], &contact[own.clone()]);
+        let (mut sums, mut resistance, mut largest_slip) = (Sums::default(), 0.0, 0.0_f64);
+        let ([mut normal, mut shear], mut moment) = ([0.0; 2], [0.0; 2]);
+        for (e, (area, state)) in areas.iter().zip(contact).enumerate() {
+            let force = area * state.pressure;
+            let coefficient = friction.get(e).or(friction.first()).copied().unwrap_or(f64::NAN);
+            // Infinity times zero is no resistance.
+            if force != 0.0 && !(coefficient == f64::INFINITY && force < 0.0) {
+                resistance += coefficient * force;
+            }
+            normal += force;
+            shear += area * state.shear;
+            moment[0] += force * footing.arms[e][0];
+            moment[1] += force * footing.arms[e][1];
+            sums.area += area;
+            sums.slip += area * state.slip;
+            largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
+            if !modes[own.start + e].is_closed() {
+                sums.open += area;
+            }
+        }
+        (self.base_shear, self.normal_force) = (shear, normal);
+        // Counter-clockwise in the plane is by the right-hand rule about the axis towards the reader; y points away.
+        self.in_plan = patch.is_plan();
+        self.base_moment = if self.in_plan { moment[0] } else { -moment[0] };
+        self.uplifted_fraction = sums.open / sums.area;
+        self.mean_slip = sums.slip / sums.area;
+        if self.in_plan {
+            let [mut across, mut torque, mut slip] = [0.0; 3];
+            for ((area, state), [x, y]) in areas.iter().zip(contact).zip(&footing.arms) {
+                across += area * state.shear_across;
+                slip += area * state.slip_across;
+                torque += area * (x * state.shear_across - y * state.shear);
+            }
+            (self.shear_across, self.moment_across, self.torque) = (across, -moment[1], torque);
+            self.mean_slip_across = slip / sums.area;
+        }
+        let demand = resultant(shear, self.shear_across).abs();
+        let sliding =
+            if friction.is_empty() { f64::NAN } else { ratio(normal, resistance, demand) };
+        let overturning = [0, 1].map(|axis| against_overturning(footing, normal, moment, axis));
+        self.derived = Derived { largest_slip, sliding, overturning, settlement: 0.0 };
+        sums
+    }
+}
+
+/// A force as a vector from its components to the right, along y and, as pressure, down.
+pub(crate) fn force_vector(in_plan: bool, [along, across, pressure]: [f64; SPACE]) -> [f64; SPACE] {
+    if in_plan { [along, across, -pressure] } else { [along, -pressure, 0.0] }
+}
+
+/// A moment or a rotation as a vector from its components about x, about y and about the vertical; in the plane the
+/// second alone turns, about the axis towards the reader.
+pub(crate) fn turning_vector(in_plan: bool, [x, y, vertical]: [f64; SPACE]) -> [f64; SPACE] {
+    if in_plan { [x, y, vertical] } else { [0.0, 0.0, y] }
+}
+
+/// N b over the moment of the pressure about the middle of the base, b the half width. In plan the least of the edges
+/// that face along `axis` (x 0, y 1), at their distances b from the middle of the outline; infinite along y in the plane.
+fn against_overturning(footing: &Footing, normal: f64, moment: [f64; 2], axis: usize) -> f64 {
+    let factor =
+        |(edge, reach): &(Edge, f64)| ratio(normal, normal * reach, edge.outward(moment).max(0.0));
+    footing.edges[axis].iter().map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
+}
+
+/// Resistance over demand: NaN without any pressure, infinite without demand, zero when the base is
+/// pulled up on the whole.
+fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
+    if normal == 0.0 {
+        f64::NAN
+    } else if normal < 0.0 || resistance <= 0.0 {
+        0.0
+    } else if demand == 0.0 || resistance == f64::INFINITY {
+        f64::INFINITY
+    } else {
+        resistance / demand
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::ContactElement;
+
+    const BASE: [ContactElement; 2] =
+        [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }];
+
+    fn patch(depths: [f64; 2], is_plan: bool) -> Patch {
+        let depths = depths.map(|depth| [0.0, depth]).to_vec();
+        Patch::new(if is_plan { 3 } else { 2 }, BASE.to_vec(), depths, vec![1.0; 2]).unwrap()
+    }
+
+    /// Factors of safety on `patch`, whose outline is empty in the plane.
+    fn safety(
+        patch: &Patch,
+        outline: &[[f64; 2]],
+        friction: &[f64],
+        contact: &[ContactState; 2],
+    ) -> Derived {
+        let footing = Footing::new(patch, 0..2, outline, [0.0; 2]);
+        let mut foundation = Foundation { elements: 0..2, ..Default::default() };
+        foundation.update(&footing, patch, friction, contact, &[Mode::Stick; 2]);
+        foundation.derived
+    }
+
+    fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {
+        [0, 1].map(|e| ContactState {
+            pressure: pressure[e],
+            shear: shear[e],
+            ..Default::default()
+        })
+    }
+
+    /// N = 2·30 + 10 = 70, H = −14, middle 0.5, half width 1.5, moment 60·(−0.5) + 10·1 = −20.
+    #[test]
+    fn by_hand() {
+        let state = contact([30.0, 10.0], [-10.0, 6.0]);
+        let of = |friction: &[f64]| safety(&patch([1.0; 2], false), &[], friction, &state);
+        assert!((of(&[0.4]).sliding - 0.4 * 70.0 / 14.0).abs() < 1e-14);
+        assert!((of(&[0.5, 0.1]).sliding - 31.0 / 14.0).abs() < 1e-14);
+        assert!(of(&[]).sliding.is_nan());
+        assert!((of(&[]).overturning[0] - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+        assert_eq!(of(&[]).overturning[1], f64::INFINITY);
+    }
+
+    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5)
+    /// along x 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
+    #[test]
+    fn by_hand_in_plan() {
+        let mut state = contact([30.0, 10.0], [-10.0, 6.0]);
+        [state[0].shear_across, state[1].shear_across] = [5.0, 10.0];
+        let patch = patch([3.0, 1.0], true);
+        let square = [[-1.0, 0.0], [2.0, 0.0], [2.0, 3.0], [-1.0, 3.0]];
+        let found = safety(&patch, &square, &[0.4], &state);
+        assert!((found.sliding - 0.4 * 190.0 / 54.0_f64.hypot(40.0)).abs() < 1e-14);
+        assert!((found.overturning[0] - 190.0 * 1.5 / 80.0).abs() < 1e-13);
+        assert!((found.overturning[1] - 190.0 * 1.5 / 10.0).abs() < 1e-13);
+        // Pressure under the second element, at (1, −1) from the middle; a diamond about the same middle has edges
+        // that face both ways: (e · n)/h = 2/1.5.
+        let diamond = [[-1.0, 1.5], [0.5, 0.0], [2.0, 1.5], [0.5, 3.0]];
+        for (outline, factor) in [(square, 1.5), (diamond, 0.75)] {
+            let found = safety(&patch, &outline, &[], &contact([0.0, 10.0], [0.0; 2]));
+            assert!(found.overturning.iter().all(|own| (own - factor).abs() < 1e-14));
+        }
+    }
+
+    #[test]
+    fn limits() {
+        let patch = patch([1.0; 2], false);
+        let of = |friction: f64, state: &[ContactState; 2]| safety(&patch, &[], &[friction], state);
+        let (flight, pressed) = (contact([0.0; 2], [0.0; 2]), contact([1.0; 2], [0.0; 2]));
+        for friction in [0.0, 0.4, f64::INFINITY] {
+            let found = of(friction, &flight);
+            assert!(found.sliding.is_nan() && found.overturning[0].is_nan());
+        }
+        // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
+        let found = of(0.4, &pressed);
+        assert_eq!([found.sliding, found.overturning[0]], [f64::INFINITY; 2]);
+        assert_eq!(of(0.0, &pressed).sliding, 0.0);
+        let sheared = contact([1.0, 0.0], [0.3, 0.0]);
+        assert_eq!(of(f64::INFINITY, &sheared).sliding, f64::INFINITY);
+        // Pulled up on the whole: nothing resists.
+        assert_eq!(of(0.4, &contact([-1.0; 2], [0.0; 2])).overturning[0], 0.0);
+    }
+}

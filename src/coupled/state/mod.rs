@@ -1,0 +1,207 @@
+//! The state after a step, and a sequence of states.
+
+pub(crate) mod energy_balance;
+pub(crate) mod foundation;
+pub(crate) mod origin;
+pub(crate) mod sequence;
+
+use origin::Origin;
+use std::sync::Arc;
+
+use crate::contact::SearchMethod;
+use crate::coupled::model::motion::{DofResponse, Motion};
+use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::state::foundation::Foundation;
+use crate::error::Result;
+use crate::geometry::resultant;
+use crate::geometry::{Footing, Patch};
+use crate::interface::{ContactState, Mode, PreviousContacts};
+use crate::structure::probe::Probe;
+use crate::structure::probe::probe_index;
+
+/// A change of contact mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Transition {
+    /// Step in which it happened, from 1.
+    pub step: usize,
+    /// Time at the end of that step, s.
+    pub time: f64,
+    /// Element, from the left, from 0.
+    pub element: usize,
+    /// Mode before.
+    pub from: Mode,
+    /// Mode after.
+    pub to: Mode,
+}
+
+impl Transition {
+    /// Whether the element opened.
+    pub(crate) fn is_debonding(&self) -> bool {
+        self.from.is_closed() && !self.to.is_closed()
+    }
+
+    /// Whether the element closed again.
+    pub(crate) fn is_rebonding(&self) -> bool {
+        !self.from.is_closed() && self.to.is_closed()
+    }
+}
+
+/// Data of the simulation that results of a state need; two states are compared without them.
+#[derive(Debug)]
+pub(crate) struct Context {
+    pub(crate) probes: Vec<Probe>,
+    pub(crate) elements: Patch,
+    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    pub(crate) friction: Vec<f64>,
+    /// Shape of each foundation.
+    pub(crate) footings: Vec<Footing>,
+}
+
+impl PartialEq for Context {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// The simulation at the end of an accepted step.
+///
+/// Displacements are changes against the static state, relative to the free field's
+/// translation unless they say otherwise. Forces are those of the
+/// structure **on the soil**, per metre of thickness or, on a ground in plan, in all; tractions of the step act at
+/// its middle.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct State {
+    /// Steps made.
+    pub step: usize,
+    /// Time, s.
+    pub time: f64,
+    /// Opening and total traction of each element.
+    pub contact: Vec<ContactState>,
+    /// Mode of each element.
+    pub modes: Vec<Mode>,
+    /// Changes of mode in this step.
+    pub transitions: Vec<Transition>,
+    /// Values of the probes, in the order they were given to the builder.
+    pub probes: Vec<f64>,
+    /// Horizontal force on the soil, positive to the right, N/m.
+    pub base_shear: f64,
+    /// Moment on the soil, counter-clockwise, N·m/m; about the middle of the base, or the
+    /// builder's moment center. In plan about the axis along y there, by the right-hand rule, N·m.
+    pub base_moment: f64,
+    /// Total pressure on the soil, positive in compression, N/m.
+    pub normal_force: f64,
+    /// Length of open elements over the length of the base.
+    pub uplifted_fraction: f64,
+    /// Slip averaged over the length of the base, m; positive when the structure moved to the right.
+    pub mean_slip: f64,
+    /// Rotation of the base's chord, counter-clockwise, rad, in plan about the axis along y by the right-hand rule; of
+    /// several foundations the largest.
+    pub base_rotation: f64,
+    /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
+    pub foundations: Vec<Foundation>,
+    /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
+    pub free_field: [f64; 2],
+    /// In plan: mean displacement of the free field along y, m; zero in the plane.
+    pub free_field_across: f64,
+    /// The energy balance; every term is NaN if none is kept.
+    pub energy_balance: EnergyBalance,
+    /// Linear solves that the mode search needed.
+    pub trials: usize,
+    /// Method that found the modes; in a nonlinear step, the last resort of any iteration.
+    pub method: SearchMethod,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) origin: Origin,
+    /// Shared by all states of a simulation.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) context: Arc<Context>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) motion: Motion,
+    /// Start of the next step as the laws see it, per element.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) start: PreviousContacts,
+}
+
+impl State {
+    /// Displacements of the structure's degrees of freedom (m, rad) relative to the free field: what each
+    /// connected part has moved since t = 0 beyond the mean translation of the ground under it.
+    ///
+    /// These four are worked out when they are first asked for in a step: a structure that is
+    /// stepped in its modes pays for all n² of them then, and nothing otherwise; absolute displacements
+    /// are made at every step that asks for them. A few quantities
+    /// at every step are cheaper as a [`Probe`](super::Probe).
+    pub fn displacement(&self) -> &[f64] {
+        self.motion.dofs(DofResponse::Displacement)
+    }
+
+    /// Displacement with the translation of the free field added.
+    pub fn absolute_displacement(&self) -> &[f64] {
+        self.motion.dofs(DofResponse::AbsoluteDisplacement)
+    }
+
+    /// Total (not relative) rates of the degrees of freedom at the end of the step.
+    pub fn velocity(&self) -> &[f64] {
+        self.motion.dofs(DofResponse::Velocity)
+    }
+
+    /// Total accelerations of the degrees of freedom; for the midpoint and θ rules the mean over the step.
+    pub fn acceleration(&self) -> &[f64] {
+        self.motion.dofs(DofResponse::Acceleration)
+    }
+
+    /// The value of the probe called `name`: found by its name at every call; by its place,
+    /// [`State::probes`] has it at once.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Probe;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::{Error, Simulation};
+    ///
+    /// let block = RigidBlock::new(4.0, 6.0, 2000.0)?;
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .probe(Probe::displacement("top", block.horizontal_at(6.0)))
+    ///     .structure(block)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Coulomb::new(0.4)?)
+    ///     .motion(el_centro_1940())
+    ///     .build()?;
+    /// let state = simulation.step()?;
+    /// assert_eq!(state.probe("top")?, state.probes[0]);
+    /// assert!(matches!(state.probe("roof"), Err(Error::Name { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if there is none.
+    pub fn probe(&self, name: &str) -> Result<f64> {
+        // The list of values is public: it may have been cut.
+        let known = &self.context.probes;
+        let known = &known[..known.len().min(self.probes.len())];
+        probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
+    }
+
+    /// Largest rotation of a foundation about a horizontal axis, rad.
+    pub(crate) fn tilt(&self) -> f64 {
+        let tilts = self.foundations.iter();
+        let tilts = tilts.map(|own| resultant(own.base_rotation, own.rotation_across).abs());
+        tilts.fold(0.0, f64::max)
+    }
+
+    pub(crate) fn is_plan(&self) -> bool {
+        self.context.elements.is_plan()
+    }
+
+    /// State variables of the law of an element
+    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no such
+    /// variables, or if there is no such element.
+    pub fn state_variables(&self, element: usize) -> &[f64] {
+        if element < self.start.len() { self.start.state_variables_of(element) } else { &[] }
+    }
+}

@@ -1,0 +1,400 @@
+//! Equilibrium with contact conditions and a soil at rest, by proximal point iteration.
+
+use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
+use crate::coupled::base::Base;
+use crate::coupled::base::influence::UP;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::operators::condense;
+use crate::error::{Error, Result, StepError};
+use crate::geometry::{ContactLayout, PLANE};
+use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
+use crate::linalg::{
+    SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
+};
+use crate::structure::{InternalEnergy, Structure, Tangent, nonlinear_state};
+
+const NAME: &str = "static stiffness matrix";
+/// Force out of balance, relative to the load, up to which a state is one of equilibrium.
+const EQUILIBRIUM: f64 = 1e-7;
+/// Condition beyond which rounding of K u is a larger force than that (`tests/coupled/conditioning.rs`).
+const STIFFEST_CONDITION: f64 = 1e10;
+/// Proximal iterations at most.
+const ITERATIONS: usize = 500;
+/// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding lets a
+/// very stiff structure converge no further.
+const LATE: usize = 100;
+const LATE_CHANGE: f64 = 1e-8;
+/// Most out-of-balance force of a steady drift, relative to the load.
+const DRIFT: f64 = 1e-8;
+/// Share of the foundation's stiffness that the fictitious springs start with.
+const PROXIMAL_SHARE: f64 = 1e-4;
+/// Share of that down to which they are softened.
+const SOFTEST: f64 = 1e-9;
+/// Decrease of their pull in an iteration above which they are softened tenfold, as long as it is
+/// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
+/// that are stiffer than itself.
+const SLOW: f64 = 0.2;
+/// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
+const STIFFENED: f64 = 1e4;
+/// Pull of the springs, relative to the load, below which rounding may keep it from falling.
+const ROUNDING: f64 = 1e-6;
+/// Iterations after which the pull may be slow for rounding only as far as the condition explains: even a pull below
+/// [`ROUNDING`] can make an element that hardly presses switch its mode back and forth, and with it a large shear.
+const LONG: usize = 20;
+
+/// A static state: what weight and loads at t = 0 leave, contact conditions included.
+#[derive(Debug, Clone)]
+pub(crate) struct StaticState {
+    pub(crate) traction: Vec<f64>,
+    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
+    pub(crate) gap: Vec<f64>,
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) modes: Vec<Mode>,
+    /// The structure's own load at t = 0.
+    pub(crate) load: Vec<f64>,
+    /// Memory of each element's law where that acted in it; empty where the law begins anew.
+    pub(crate) state_variables: Vec<Vec<f64>>,
+    /// f(u) of a nonlinear structure, and its energies where it returns them.
+    pub(crate) force: Vec<f64>,
+    pub(crate) energy: Option<InternalEnergy>,
+    /// Friction coefficient taken in place of a greater one where an element slides, if any was.
+    pub(crate) stand_in: Option<f64>,
+}
+
+impl StaticState {
+    /// State without weight: all elements touch and none is pressed.
+    pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
+        let elements = layout.elements();
+        Self {
+            traction: vec![0.0; layout.len()],
+            gap: vec![0.0; elements],
+            displacement: vec![0.0; dofs],
+            modes: vec![Mode::Stick; elements],
+            load: vec![0.0; dofs],
+            state_variables: Vec::new(),
+            force: Vec::new(),
+            energy: None,
+            stand_in: None,
+        }
+    }
+
+    fn is_plan(&self) -> bool {
+        self.traction.len() > PLANE * self.modes.len()
+    }
+
+    /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
+    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+        let is_plan = self.is_plan();
+        let modes = self.modes.iter().enumerate().map(|(e, mode)| {
+            let known = law_of(laws, e).modes();
+            if known.contains(mode) && !mode.is_closed() {
+                *mode
+            } else if is_plan {
+                known[0].in_plan()
+            } else {
+                known[0]
+            }
+        });
+        modes.collect()
+    }
+
+    /// Gaps from the states of the contact solver, exactly where a law pins them.
+    fn close_gaps(
+        &mut self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &PreviousContacts,
+        states: &[ContactState],
+    ) -> Result<()> {
+        let is_plan = self.is_plan();
+        for (e, gap) in self.gap.iter_mut().enumerate() {
+            let (law, start, mode, pressure) =
+                (law_of(laws, e), start.of(e), self.modes[e], self.traction[e]);
+            let pinned = if !is_plan {
+                law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
+            } else if mode.is_closed() && !mode.is_yield() {
+                let [compliance, _] = law.compliance(Mode::Stick, &start);
+                Some(law.limits(&start)?.gap_offset - compliance * pressure)
+            } else {
+                None
+            };
+            *gap = pinned.unwrap_or(states[e].gap);
+        }
+        Ok(())
+    }
+}
+
+/// A structure on a soil at rest.
+pub(crate) struct Standing<'a> {
+    pub(crate) assembled: &'a Assembled,
+    pub(crate) structure: &'a dyn Structure,
+    /// Static compliance of the ground.
+    pub(crate) soil: &'a [f64],
+    /// In plan, whether the laws act without friction and cohesion.
+    pub(crate) frictionless: bool,
+}
+
+impl Standing<'_> {
+    /// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
+    ///
+    /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum.
+    /// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
+    /// converges (proximal point method); Newton's linearisation of f goes along.
+    /// Begins at `state`, the end of the stage before in which the laws' `start` is. Returns with it the
+    /// states of the elements.
+    pub(crate) fn equilibrium(
+        &self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &PreviousContacts,
+        mut state: StaticState,
+        load: &[f64],
+    ) -> Result<(StaticState, Vec<ContactState>)> {
+        let Self { assembled, structure, soil, frictionless } = *self;
+        let (base, n) = (&assembled.base, assembled.dofs());
+        let size = base.layout().len();
+        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
+        if !epsilon.is_finite() {
+            return Err(Error::Singular { matrix: NAME, order: n });
+        }
+        let (stiffest, mut softest) = (epsilon, SOFTEST * epsilon);
+        let mut solver = ContactSolver::new(base.layout());
+        let kind = ContactSearch::Robust;
+        let mut search = ModeSearch::new(base.layout(), base.areas(), false, kind);
+        let measure = Measure::new(assembled, load);
+        let (mut tangent, mut compliance) = (Tangent::new(n), None::<Compliance>);
+        let mut free_jump = vec![0.0; size];
+        let (mut change, mut iterations) = (f64::INFINITY, 0);
+        while iterations < ITERATIONS {
+            iterations += 1;
+            tangent.refill(structure, &state.displacement)?;
+            let current = match compliance.take() {
+                Some(current) if assembled.linear => current,
+                _ => {
+                    solver.invalidate();
+                    let found = Compliance::new(assembled, &tangent.matrix, soil, epsilon)?;
+                    let (found, stiffness) =
+                        self.held(found, &tangent.matrix, [epsilon, STIFFENED * stiffest])?;
+                    if stiffness > epsilon {
+                        (epsilon, softest) = (stiffness, stiffness);
+                    }
+                    found
+                }
+            };
+            let current = compliance.insert(current);
+            // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
+            // would sink by 1/PROXIMAL_SHARE settlements; so the response to τ₀ is put in by the columns
+            // that take out τ₁, and only what is out of balance is solved for.
+            let mut displacement = out_of_balance(assembled, structure, load, &state)?;
+            current.factor.solve(&mut displacement);
+            for (d, u) in displacement.iter_mut().zip(&state.displacement) {
+                *d += u;
+            }
+            transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
+            base.means(&displacement, &mut free_jump);
+            for jump in &mut free_jump {
+                *jump = -*jump;
+            }
+            let input = ContactInput {
+                delassus: &current.delassus,
+                free_jump: &free_jump,
+                static_traction: &vec![0.0; size],
+                start,
+                laws,
+                length_scale: largest(&free_jump),
+                bonds: &[],
+                frictionless,
+            };
+            match search.solve(&mut solver, &input, &mut state.modes) {
+                Ok(_) => {}
+                Err(StepError::Law(error)) => return Err(Error::Law(error)),
+                Err(_) => break,
+            }
+            transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
+            // What the fictitious springs still pull.
+            let moved: Vec<f64> =
+                displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
+            let mut pull = vec![0.0; n];
+            assembled.mass.multiply_add(epsilon, &moved, &mut pull);
+            let previous = change;
+            change = measure.of(&pull);
+            state.displacement = displacement;
+            state.traction.copy_from_slice(&solver.traction);
+            // The force of the springs is known no better than the solve is exact.
+            let stalled = change <= 1e-10 && change >= 0.5 * previous;
+            let late = iterations > LATE
+                && change <= LATE_CHANGE
+                && change <= current.condition() * f64::EPSILON;
+            // What nothing resists (a frictionless base along the ground) drifts for ever by the same
+            // amount under what rounding leaves of the sums of K, a fraction that grows with its size.
+            let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
+            if change <= 1e-13 || stalled || late || drifts {
+                // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
+                let rest = imbalance(assembled, load, &state.traction);
+                if rest <= EQUILIBRIUM {
+                    state.stand_in = solver.stand_in.or(state.stand_in);
+                    state.close_gaps(laws, start, &solver.states)?;
+                    return Ok((state, solver.states));
+                }
+                change = rest;
+                break;
+            }
+            if !change.is_finite() {
+                break;
+            }
+            let rounding = match iterations {
+                0..LONG => ROUNDING,
+                _ => ROUNDING.min(current.condition() * f64::EPSILON),
+            };
+            if change > rounding.max(SLOW * previous) && epsilon > softest {
+                epsilon *= 0.1;
+                compliance = None;
+                solver.invalidate();
+            }
+        }
+        // Against the first springs: what softened ones leave of a matrix that is all rounding has no condition.
+        let first = Compliance::new(assembled, &tangent.matrix, soil, stiffest);
+        let condition = first.map_or(1.0, |mut first| first.condition());
+        Err(failure(condition, iterations, change))
+    }
+
+    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground, and
+    /// their stiffness. Each iteration then finds the least energy; with softer springs it may find a structure on the
+    /// verge of a fall, on a corner. Where stiffer springs do not help (Lagrange multipliers), or rounding is the
+    /// cause, they stay as they were.
+    fn held(
+        &self,
+        mut found: Compliance,
+        tangent: &SparseMatrix,
+        [epsilon, most]: [f64; 2],
+    ) -> Result<(Compliance, f64)> {
+        if found.factor.is_positive_definite() || found.condition() > STIFFEST_CONDITION {
+            return Ok((found, epsilon));
+        }
+        let mut stiffer = 10.0 * epsilon;
+        while stiffer <= most {
+            let next = Compliance::new(self.assembled, tangent, self.soil, stiffer)?;
+            if next.factor.is_positive_definite() {
+                return Ok((next, stiffer));
+            }
+            stiffer *= 10.0;
+        }
+        Ok((found, epsilon))
+    }
+}
+
+/// Message for a search without end.
+fn failure(condition: f64, iterations: usize, change: f64) -> Error {
+    if condition <= STIFFEST_CONDITION {
+        return Error::Preload { iterations, residual: change };
+    }
+    Error::IllConditioned {
+        matrix: NAME,
+        condition,
+        limit: STIFFEST_CONDITION,
+        quantity: "stiffness of the structure over that of the ground",
+        ratio: PROXIMAL_SHARE * condition,
+    }
+}
+
+/// Relative force imbalance: K resists no translation, so that tractions alone must carry the
+/// resultants of the load.
+fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
+    let mut rest = load.to_vec();
+    assembled.base.add_forces(-1.0, traction, &mut rest);
+    let [mut worst, mut scale] = [0.0_f64; 2];
+    for vector in &assembled.influence.of_all(load.len()) {
+        worst = worst.max(dot(vector, &rest).abs());
+        scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
+    }
+    worst / scale.max(f64::MIN_POSITIVE)
+}
+
+/// load − K u − f(u) − BᵀAτ.
+fn out_of_balance(
+    assembled: &Assembled,
+    structure: &dyn Structure,
+    load: &[f64],
+    state: &StaticState,
+) -> Result<Vec<f64>> {
+    let mut rest = load.to_vec();
+    assembled.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
+    assembled.base.add_forces(-1.0, &state.traction, &mut rest);
+    let (force, _) = nonlinear_state(structure, &state.displacement)?;
+    rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
+    Ok(rest)
+}
+
+/// Size of a force relative to the load: each component over the square root of its mass, so
+/// that forces and moments compare in any units.
+struct Measure {
+    weights: Vec<f64>,
+    scale: f64,
+}
+
+impl Measure {
+    fn new(assembled: &Assembled, load: &[f64]) -> Self {
+        let mut weights = assembled.mass.diagonal();
+        for weight in &mut weights {
+            *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
+        }
+        let largest_of =
+            |w: &[f64]| w.iter().zip(load).fold(0.0_f64, |m, (w, f)| m.max(w * f.abs()));
+        let scale = largest_of(&weights);
+        if scale > 0.0 && scale.is_finite() {
+            return Self { weights, scale };
+        }
+        // Nothing but massless degrees of freedom is loaded.
+        let weights = vec![1.0; load.len()];
+        Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
+    }
+
+    fn of(&self, force: &[f64]) -> f64 {
+        let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
+        // Unlike `max`, the sum does not lose NaN.
+        let sum: f64 = force.iter().sum();
+        if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
+    }
+}
+
+/// Factored K + D + εM, its response to unit tractions, and the static Delassus operator.
+struct Compliance {
+    matrix: SparseMatrix,
+    factor: SparseFactor,
+    columns: Vec<f64>,
+    delassus: Delassus,
+}
+
+impl Compliance {
+    fn new(
+        assembled: &Assembled,
+        tangent: &SparseMatrix,
+        soil: &[f64],
+        epsilon: f64,
+    ) -> Result<Self> {
+        let terms = [(1.0, &assembled.stiffness), (1.0, tangent), (epsilon, &assembled.mass)];
+        let matrix = SparseMatrix::weighted_sum(assembled.dofs(), &terms);
+        let factor = SparseFactor::new(NAME, &matrix)?;
+        let matrix = SparseMatrix::new(NAME, &matrix)?;
+        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
+        let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.dofs());
+        Ok(Self { matrix, factor, columns, delassus: delassus.into() })
+    }
+
+    fn condition(&mut self) -> f64 {
+        sparse_condition(&self.matrix, &mut self.factor)
+    }
+}
+
+/// Mass that a vertical translation moves.
+fn total_mass(assembled: &Assembled) -> f64 {
+    let up = assembled.influence.of(UP, assembled.dofs());
+    assembled.mass.form(&up, &up)
+}
+
+/// Vertical force per settlement of the soil under a uniform pressure.
+fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
+    let (areas, size) = (base.areas(), base.layout().len());
+    let (count, area) = (areas.len(), areas.iter().sum::<f64>());
+    let settled: f64 =
+        (0..count).map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>()).sum();
+    area * area / settled
+}

@@ -1,0 +1,111 @@
+//! Strength of an interface law under static loads: in the plane by its modes, in plan by its limits.
+
+use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance};
+
+/// Traction that counts as none, relative to the pressure.
+const LITTLE: f64 = 1e-6;
+/// Ratio of shear traction to pressure that counts as endless.
+const MOST: f64 = 1e6;
+
+/// Tractions that a law bears on an element that has not moved so far.
+pub(crate) struct Strength {
+    /// Whether the element can open.
+    pub(crate) opens: bool,
+    /// Whether a bond bears tension.
+    pub(crate) pulls: bool,
+    /// Whether a bond bears shear without pressure.
+    pub(crate) coheres: bool,
+    /// Friction coefficient, or the ratio of shear traction to pressure at which the element slides; infinite if it
+    /// does not.
+    pub(crate) friction: f64,
+    /// Largest pressure, Pa; infinite for a law without one.
+    pub(crate) bearing_pressure: f64,
+}
+
+impl Strength {
+    /// Strength of an element under this mean pressure (Pa); in plan without friction and cohesion, if they are left
+    /// out.
+    pub(crate) fn of(
+        law: &dyn InterfaceLaw,
+        pressure: f64,
+        is_plan: bool,
+        frictionless: bool,
+    ) -> Self {
+        if is_plan {
+            return Self::by_limits(law, pressure, frictionless);
+        }
+        let little = LITTLE * pressure.abs().max(1.0);
+        Self {
+            opens: law.modes().contains(&Mode::Open),
+            pulls: sticks_at(law, ContactState { pressure: -little, ..ContactState::default() }),
+            coheres: sticks_at(law, ContactState { shear: little, ..ContactState::default() }),
+            friction: friction(law, pressure),
+            bearing_pressure: bearing_pressure(law),
+        }
+    }
+
+    /// Strength in plan.
+    fn by_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
+        let pressed = ContactState { pressure: pressure.max(0.0), ..ContactState::default() };
+        let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
+        let state_variables = start.first_state_variables(law);
+        // Errors of a law were met before.
+        let limits = law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default();
+        let limits = if frictionless { limits.frictionless() } else { limits };
+        let known = law.friction_coefficient().filter(|_| !frictionless);
+        let attracted = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
+        let borne = limits.shear_strength + attracted * limits.attraction;
+        let ratio = limits.friction + borne / pressure.max(f64::MIN_POSITIVE);
+        Self {
+            opens: !limits.bonded,
+            pulls: !limits.bonded && limits.tension > 0.0,
+            coheres: !limits.bonded && borne > 0.0,
+            friction: if limits.bonded { f64::INFINITY } else { known.unwrap_or(ratio) },
+            bearing_pressure: limits.pressure_cap,
+        }
+    }
+}
+
+/// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides;
+/// infinite if it does not.
+fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
+    if let Some(known) = law.friction_coefficient() {
+        return known;
+    }
+    let holds = |ratio: f64| {
+        sticks_at(
+            law,
+            ContactState { pressure, shear: ratio * pressure, ..ContactState::default() },
+        )
+    };
+    if law.modes().len() == 1 || holds(MOST) {
+        return f64::INFINITY;
+    }
+    let (mut low, mut high) = (0.0, MOST);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Whether a law holds an element that has not moved so far at these tractions, without sliding
+/// or opening.
+fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
+    let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
+    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
+    let state_variables = start.first_state_variables(law);
+    let start = start.with_state_variables(&state_variables);
+    let tolerance = Tolerance::new(0.0, 0.0);
+    // A bonded base has no other mode.
+    law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick
+}
+
+/// The largest pressure that a law carries; infinite if it has no mode of yielding.
+fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
+    let yielding = law.modes().iter().filter(|mode| mode.is_yield());
+    let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
+    let pressures = conditions.filter_map(|c| c.pressure_alone());
+    pressures.reduce(f64::max).unwrap_or(f64::INFINITY)
+}

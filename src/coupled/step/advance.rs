@@ -1,0 +1,133 @@
+//! Advance of the state to the end of an accepted step.
+
+use crate::contact::SearchMethod;
+use crate::coupled::model::motion::Motion;
+use crate::coupled::scene::Scene;
+use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::state::foundation::{Foundation, Sums};
+use crate::coupled::state::origin::Origin;
+use crate::coupled::state::{Context, State, Transition};
+use crate::coupled::step::{Forcing, Increment};
+use crate::error::Result;
+use crate::interface::{ContactState, PreviousContact, PreviousContacts};
+
+impl State {
+    /// The static state.
+    pub(crate) fn at_rest(scene: &Scene) -> Result<Self> {
+        let (model, count) = (&scene.model, scene.count());
+        let at = &scene.static_state;
+        let contact: Vec<_> = (0..count)
+            .map(|e| {
+                let jump = |component| if component == 0 { at.gap[e] } else { -0.0 };
+                let traction = |component| at.traction[scene.layout().place(component, e)];
+                ContactState::from_components(jump, traction, scene.layout().is_plan())
+            })
+            .collect();
+        let modes = at.modes_with(&scene.laws);
+        let start: Vec<_> = (0..count)
+            .map(|e| {
+                let start = PreviousContact::new(contact[e], modes[e], scene.time_step);
+                start.with_state_variables(at.state_variables.get(e).map_or(&[], Vec::as_slice))
+            })
+            .collect();
+        let start = PreviousContacts::new(&scene.laws, &start)?;
+        let foundations = scene.base.foundations();
+        let foundations =
+            foundations.map(|(_, elements)| Foundation { elements, ..Foundation::default() });
+        let mut state = Self {
+            step: 0,
+            time: 0.0,
+            origin: Origin::new(),
+            context: scene.context.clone(),
+            motion: Motion::new(model),
+            contact,
+            modes,
+            transitions: Vec::with_capacity(count),
+            probes: vec![0.0; scene.context.probes.len()],
+            base_shear: 0.0,
+            base_moment: 0.0,
+            normal_force: 0.0,
+            uplifted_fraction: 0.0,
+            mean_slip: 0.0,
+            base_rotation: 0.0,
+            foundations: foundations.collect(),
+            free_field: [0.0; 2],
+            free_field_across: 0.0,
+            energy_balance: EnergyBalance::default(),
+            trials: 0,
+            method: SearchMethod::ActiveSet,
+            start,
+        };
+        state.update_resultants(scene);
+        Ok(state)
+    }
+
+    /// Goes to the end of the step that `increment` solved; its buffers of displacements,
+    /// velocities and accelerations are swapped.
+    pub(crate) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
+        self.step += 1;
+        self.time = self.step as f64 * scene.time_step;
+        let motion = &mut self.motion;
+        std::mem::swap(&mut motion.displacement, &mut increment.end);
+        std::mem::swap(&mut motion.velocity, &mut increment.velocity);
+        std::mem::swap(&mut motion.acceleration, &mut increment.acceleration);
+        motion.translations.copy_from_slice(&forcing.translations);
+        motion.changed();
+        let [right, up, away] = scene.base.mean(&forcing.free_field);
+        (self.free_field, self.free_field_across) = ([right, up], away);
+        self.contact.copy_from_slice(&increment.contact);
+        self.transitions.clear();
+        let (step, time) = (self.step, self.time);
+        for (element, (from, &to)) in self.modes.iter_mut().zip(&increment.modes).enumerate() {
+            if *from != to {
+                self.transitions.push(Transition { step, time, element, from: *from, to });
+                *from = to;
+            }
+        }
+        self.start.advance(&self.contact, &self.modes, &increment.state_variables);
+        (self.trials, self.method) = (increment.trials, increment.method);
+        self.update_resultants(scene);
+    }
+
+    /// Resultants and probes from the present state.
+    pub(crate) fn update_resultants(&mut self, scene: &Scene) {
+        let state = self;
+        let Motion { displacement, velocity, acceleration, .. } = &state.motion;
+        let (mut total, mut sums) = ([0.0; 3], Sums::default());
+        state.base_rotation = 0.0;
+        for (k, foundation) in state.foundations.iter_mut().enumerate() {
+            let Context { elements, friction, footings, .. } = &*state.context;
+            let footing = &footings[k];
+            let own = foundation.update(footing, elements, friction, &state.contact, &state.modes);
+            sums.area += own.area;
+            sums.open += own.open;
+            sums.slip += own.slip;
+            let lever = foundation.normal_force * footing.center[0];
+            let moment = foundation.base_moment + if foundation.in_plan { lever } else { -lever };
+            let forces = [foundation.base_shear, foundation.normal_force, moment];
+            total.iter_mut().zip(forces).for_each(|(sum, own)| *sum += own);
+            let own = [
+                &mut foundation.base_rotation,
+                &mut foundation.rotation_across,
+                &mut foundation.twist,
+            ];
+            let rotations = scene.base.rotations(k, displacement);
+            own.into_iter().zip(rotations).for_each(|(own, rotation)| *own = rotation);
+            foundation.derived.settlement = scene.base.settlement(k, displacement);
+            if foundation.base_rotation.abs() > state.base_rotation.abs() {
+                state.base_rotation = foundation.base_rotation;
+            }
+        }
+        [state.base_shear, state.normal_force, state.base_moment] = total;
+        state.uplifted_fraction = sums.open / sums.area;
+        state.mean_slip = sums.slip / sums.area;
+        let translations = &state.motion.translations;
+        for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
+            let [u, v, a] = &probe.rows;
+            let carried = probe.carried.iter().zip(translations);
+            let by = |r: &[f64; 3], y: [f64; 3]| r[0] * y[0] + r[1] * y[1] + r[2] * y[2];
+            let carried: f64 = carried.map(|(r, y)| by(r, y.displacement)).sum();
+            *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
+        }
+    }
+}
