@@ -1,4 +1,4 @@
-//! Placement of the structure on the ground.
+//! Friction while the weight of the structure comes on.
 
 /// Friction while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
