@@ -10,9 +10,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::coupled::assembly::SimulationBuilder;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::load::Load;
+use crate::coupled::parts::SimulationBuilder;
 use crate::coupled::scheme::Midpoint;
 use crate::error::{Error, Result};
 use crate::interface::Bonded;

@@ -260,7 +260,7 @@ fn law_numbers(scene: &Scene) -> Vec<f64> {
 
 /// Numbers that a law returns for sample states under this pressure, Pa.
 fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
-    let state = |slip: f64| ContactState { pressure, slip, ..ContactState::default() };
+    let state = |slip: f64| ContactState { slip, pressure, ..ContactState::default() };
     let at_rest = PreviousContact::new(state(0.0), law.modes()[0], time_step);
     let variables = at_rest.first_state_variables(law);
     let mut slid = PreviousContact::new(state(SLIP), law.modes()[0], time_step);

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::coupled::assembly::SimulationBuilder;
 use crate::coupled::free_vibration::{FixedBaseMode, free_vibration};
+use crate::coupled::parts::SimulationBuilder;
 use crate::coupled::run::quantity::Place;
 use crate::coupled::run::{Extremes, Quantity, Run};
 use crate::error::{Result, not_negative};

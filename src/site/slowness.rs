@@ -181,6 +181,7 @@ struct Above<C> {
 impl<C: Number> Above<C> {
     /// The same at the top of the next medium down; at the free surface without one above.
     #[inline(always)]
+    #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
     fn enter(above: Option<Self>, medium: &Medium<C>) -> [Square<C>; 2] {
         let Some(Self { medium: upper, surface, reflection }) = above else {
             return [medium.free_surface(), medium.surface_reflection()];

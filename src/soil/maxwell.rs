@@ -140,7 +140,7 @@ impl Relaxation for GeneralizedMaxwell {
     }
 
     fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
-        vectorized(Moduli { body: self, s, moduli });
+        vectorized(AtMany { body: self, s, moduli });
     }
 
     fn describe(&self) -> String {
@@ -160,13 +160,13 @@ impl Relaxation for GeneralizedMaxwell {
 }
 
 /// Moduli of a body at many Laplace variables.
-struct Moduli<'a> {
+struct AtMany<'a> {
     body: &'a GeneralizedMaxwell,
     s: &'a [Complex],
     moduli: &'a mut [Complex],
 }
 
-impl WithSimd for Moduli<'_> {
+impl WithSimd for AtMany<'_> {
     type Output = ();
 
     #[allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]

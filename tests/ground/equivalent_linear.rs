@@ -387,6 +387,7 @@ fn strained_assumptions_are_told() {
 }
 
 #[test]
+#[allow(clippy::too_many_lines, reason = "a table of bad sites")]
 fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_base().with_layer(soil, 5.0).unwrap();

@@ -216,7 +216,7 @@ fn random_scenes_resume_to_the_last_bit() {
         let cuts: [f64; 2] = [0, 30].map(|from| random.within(from.into(), (from + 25).into()));
         let (mut saved, mut states) = (Vec::new(), Vec::new());
         for step in 0..STEPS {
-            if cuts.iter().any(|cut| cut.round() as usize == step) {
+            if cuts.iter().any(|cut| cut.round() == step as f64) {
                 saved.push((step, whole.checkpoint().unwrap()));
             }
             let Ok(state) = whole.step() else { break };

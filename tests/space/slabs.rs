@@ -135,7 +135,9 @@ impl Slab {
         let mut add = |node: [usize; 2], m: f64| {
             let [x, y] = node.map(|k| self.place(k));
             let terms = [[(0, 1.0), (2, -y)], [(1, 1.0), (2, x)]];
-            terms.iter().for_each(|row| mass.add_outer(row, m));
+            for row in &terms {
+                mass.add_outer(row, m);
+            }
             let first = self.dof(node);
             // Rotary inertia, small.
             let turned = m * 1e-2 * pitch * pitch;
@@ -154,7 +156,9 @@ impl Slab {
                     .collect();
                 stiffness.add_block(&dofs, &own);
                 let quarter = 0.25 * pitch * pitch * self.thickness * Self::DENSITY;
-                corners.iter().for_each(|node| add(*node, quarter));
+                for node in &corners {
+                    add(*node, quarter);
+                }
                 faces.push(corners.map(|node| self.node(node)).to_vec());
             }
         }

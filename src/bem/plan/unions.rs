@@ -34,7 +34,7 @@ impl Unions {
             if found != count {
                 return Err(Error::Size { quantity: "cells in unions", found, needed: count });
             }
-            let empty = sizes.iter().any(|size| *size == 0);
+            let empty = sizes.contains(&0);
             require("cells in a union", 0.0, !empty, "1 or more")?;
             lines.extend(sizes.iter().enumerate().flat_map(|(n, size)| vec![n; *size]));
         }

@@ -134,6 +134,7 @@ struct Unknown {
 }
 
 /// The system, its factors and W⁻¹.
+#[allow(clippy::struct_excessive_bools, reason = "each says of one matrix whether it is there")]
 pub(super) struct System {
     dofs: Vec<Unknown>,
     rhs: Vec<f64>,

@@ -208,7 +208,9 @@ impl UnseenShape {
             if !(whole.is_finite() && whole > 0.0) {
                 return None;
             }
-            force.iter_mut().for_each(|f| *f /= whole);
+            for f in &mut force {
+                *f /= whole;
+            }
             shape.copy_from_slice(&force);
             factor.solve(&mut shape);
             let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());

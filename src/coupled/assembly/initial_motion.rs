@@ -5,7 +5,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::error::{Result, require, require_part};
 use crate::geometry::PLANE;
-use crate::interface::{InterfaceLaw, Mode, PreviousContact, PreviousContacts};
+use crate::interface::{Mode, PreviousContact, PreviousContacts};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
 use crate::structure::{Structure, massless, nonlinear_state};

@@ -27,7 +27,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
 use crate::coupled::parts::Parts;
-pub use crate::coupled::parts::SimulationBuilder;
+use crate::coupled::parts::SimulationBuilder;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::TimeScheme;

@@ -13,7 +13,6 @@ use crate::coupled::assembly::subspace::{DECOUPLED, transpose};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::linalg::{Partition, dot, generalised_modes, largest};
-use crate::structure::Structure;
 
 /// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
 const ZERO: f64 = 1e-11;

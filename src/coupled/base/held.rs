@@ -100,7 +100,9 @@ fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
         }
         let rest = dot(&own, &own).sqrt();
         if rest > ROUNDING * whole {
-            own.iter_mut().for_each(|x| *x /= rest);
+            for x in &mut own {
+                *x /= rest;
+            }
             rigid.push(own);
         }
     }
@@ -112,7 +114,7 @@ fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
     dofs.dedup();
     let dense = |row: usize| {
         let mut values = vec![0.0; dofs.len()];
-        for &(dof, weight) in rows[row].iter() {
+        for &(dof, weight) in rows[row] {
             if let Ok(place) = dofs.binary_search(&dof) {
                 values[place] += weight;
             }

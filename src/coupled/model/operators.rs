@@ -9,7 +9,7 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
-use crate::structure::{Structure, Triplets};
+use crate::structure::Triplets;
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
 pub(crate) struct Operators {

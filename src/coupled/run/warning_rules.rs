@@ -178,9 +178,8 @@ impl Warning {
 
     /// Warning of friction with which steps in plan may have several solutions.
     fn of_friction(scene: &Scene) -> Option<Self> {
-        let can_slide =
-            |law: &&Box<dyn InterfaceLaw>| law.modes().iter().any(|mode| *mode != Mode::Stick);
-        let laws = scene.laws.iter().filter(can_slide);
+        let slides = |mode: &Mode| *mode != Mode::Stick;
+        let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
         let greatest = laws.filter_map(InterfaceLaw::friction_coefficient).fold(0.0, f64::max);
         (scene.layout().is_plan() && greatest >= Self::HIGH_FRICTION)
             .then_some(Self::HighFriction { friction: greatest })

@@ -9,8 +9,6 @@
 //! | B | element means of the base displacement |
 //! | R | influence vectors |
 
-#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
-
 use super::modal_loops::{answer, free};
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::coupled::model::motion::Motion;

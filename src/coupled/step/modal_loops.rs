@@ -11,6 +11,8 @@
 //! The loops are functions of their own, since the compiler knows of an argument, and not of a
 //! field, that nothing else points to what is written.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use crate::coupled::model::motion::Motion;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step::{Forcing, Increment};

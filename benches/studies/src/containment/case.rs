@@ -77,7 +77,7 @@ impl Case {
         }
         .build()?;
         let mut time_series = Recorder::new().start(&simulation)?;
-        time_series.reserve(steps);
+        time_series.reserve(steps)?;
         let run = simulation.run(steps, |state| time_series.record(state))?;
         Ok(Outcome {
             case: self.clone(),
