@@ -86,8 +86,8 @@ impl SoilColumn {
     /// ```
     ///
     /// # Errors
-    /// [`SiteError`] for curves that do not fit the layers or have parameters out of their range, and a column of
-    /// pressure waves; [`Error::Input`] for options out of theirs and motions that overflow.
+    /// [`SiteError`](crate::SiteError) for curves that do not fit the layers or have parameters out of their range, and a column of
+    /// pressure waves; [`Error::Input`](crate::Error::Input) for options out of theirs and motions that overflow.
     pub fn equivalent_linear(
         &self,
         motion: &Record,
@@ -101,7 +101,7 @@ impl SoilColumn {
     /// allowed, and comes to the end at once after the last one made.
     ///
     /// # Errors
-    /// [`Error::Stopped`]; as for [`equivalent_linear`](SoilColumn::equivalent_linear).
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`equivalent_linear`](SoilColumn::equivalent_linear).
     pub fn equivalent_linear_observed(
         &self,
         motion: &Record,

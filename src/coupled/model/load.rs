@@ -15,8 +15,8 @@ use std::fmt;
 /// the weight; what acts suddenly is zero there.
 ///
 /// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once, at
-/// the time at which the scheme writes the equation of motion: t + Δt/2 for [`Midpoint`](super::Midpoint) and
-/// [`DissipativeMidpoint`](super::DissipativeMidpoint), t + Δt for [`Newmark`](super::Newmark). The iterations of a
+/// the time at which the scheme writes the equation of motion: t + Δt/2 for [`Midpoint`](crate::coupled::Midpoint) and
+/// [`DissipativeMidpoint`](crate::coupled::DissipativeMidpoint), t + Δt for [`Newmark`](crate::coupled::Newmark). The iterations of a
 /// nonlinear structure use this one value; a step that failed and is tried again evaluates the load again. A force that
 /// follows from the state, as a controller's does, is [set](crate::Simulation::set_load) between the steps.
 ///
@@ -65,7 +65,7 @@ impl Load {
     }
 
     /// A `force` of the static state that is gone from the first step on (snap-back). Without a static
-    /// state (no gravity, or [`GravityStage::Unloaded`](super::GravityStage::Unloaded)) it never acts.
+    /// state (no gravity, or [`GravityStage::Unloaded`](crate::coupled::GravityStage::Unloaded)) it never acts.
     pub fn released(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }

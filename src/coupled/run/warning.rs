@@ -50,7 +50,7 @@ pub enum Warning {
         residual: f64,
     },
     /// The time scheme has made energy, more than 2 % of the run's largest:
-    /// see [`Newmark`](super::Newmark).
+    /// see [`Newmark`](crate::coupled::Newmark).
     AlgorithmicEnergy {
         /// Most that it had made at any time, relative to the largest energy of the run.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
@@ -216,7 +216,7 @@ pub enum Warning {
         end: f64,
     },
     /// The run ended because a base turned beyond the rotation limit
-    /// ([`SimulationBuilder::rotation_limit`](super::SimulationBuilder::rotation_limit)): it has overturned, or what
+    /// ([`SimulationBuilder::rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit)): it has overturned, or what
     /// small rotations cannot describe. A further run goes on.
     Overturned {
         /// Rotation limit, rad.
