@@ -76,7 +76,8 @@ fn builders_refuse_parts_that_do_not_fit() {
 
     // Twice as wide as the block.
     let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
-    assert!(matches!(unbuilt("overhang", good().ground(wide)), Error::Input { value: 2.0, .. }));
+    let error = unbuilt("reaches beyond the structure's base, -2 to 2 m", good().ground(wide));
+    assert!(matches!(error, Error::Part { .. }));
     refused("free field at t = 0", &NOT_FINITE, |x| good().motion(Standing(x)).build().map(drop));
 }
 

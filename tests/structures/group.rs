@@ -298,7 +298,7 @@ fn groups_that_make_no_sense_are_refused() {
     // An element between the two, and a foundation without any.
     let across = [strip(0.0, 3.0), Strip::uniform(1.7..2.3, 1).unwrap(), strip(5.0, 3.0)];
     let built = base().structure(pair()).ground(half_plane(&across)).build();
-    assert!(matches!(built, Err(Error::Input { .. })), "{:?}", built.err());
+    assert!(matches!(built, Err(Error::Part { .. })), "{:?}", built.err());
     let built = base().structure(pair()).ground(half_plane(&across[..1])).build();
     assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
     let empty = base().structure(StructureGroup::new()).ground(half_plane(&across[..1])).build();
