@@ -45,7 +45,7 @@ fn shake(cells: usize, time_step: f64) -> basemat::Result<Run> {
         .interface(Coulomb::new(0.7)?)
         .motion(Triaxial { x: Some(along), y: Some(across), up: None })
         .build()?;
-    simulation.run(simulation.steps_for(8.0), |_| {})
+    simulation.run(simulation.steps_for(12.0), |_| {})
 }
 
 fn main() -> basemat::Result<()> {

@@ -1,8 +1,9 @@
-//! Lists of objects of a class, as Python gives them: messages that say what was given in their place.
+//! Lists of objects of a class, and of pairs, as Python gives them: messages that say what was given in their place.
 
 use std::ops::Deref;
 
 use pyo3::exceptions::PyTypeError;
+use pyo3::conversion::FromPyObjectOwned;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use pyo3::{PyClass, PyTypeInfo};
@@ -34,6 +35,30 @@ impl<'py, T: PyClass> FromPyObject<'_, 'py> for Several<'py, T> {
             let entry = entry?;
             let own = entry.cast::<T>().map_err(|_| no_such(&entry, &needed))?;
             Ok(own.clone())
+        };
+        entries.map(entry).collect::<PyResult<_>>().map(Self)
+    }
+}
+
+/// A list, or another sequence, of pairs.
+pub(crate) struct Pairs<A, B>(pub(crate) Vec<(A, B)>);
+
+impl<'py, A: FromPyObjectOwned<'py>, B: FromPyObjectOwned<'py>> FromPyObject<'_, 'py>
+    for Pairs<A, B>
+{
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let needed = "a list of pairs (a, b)";
+        let entries = object.try_iter().map_err(|_| no_such(&object, needed))?;
+        let entry = |entry: PyResult<Bound<'py, PyAny>>| {
+            let entry = entry?;
+            let two = entry.len().is_ok_and(|length| length == 2);
+            let [one, other] = [0, 1].map(|k| entry.get_item(k).ok().filter(|_| two));
+            let (Some(one), Some(other)) = (one, other) else {
+                return Err(no_such(&entry, "a pair (a, b) of a list of pairs"));
+            };
+            Ok((one.extract().map_err(Into::into)?, other.extract().map_err(Into::into)?))
         };
         entries.map(entry).collect::<PyResult<_>>().map(Self)
     }

@@ -48,6 +48,9 @@ pub struct Checkpoint {
     ground: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
+    /// Of each load one if its force was set, else zero, and this force.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    set_loads: Vec<f64>,
     /// Check sum over all of the above; checkpoints of formats before the eighth have none.
     #[cfg_attr(feature = "serde", serde(default))]
     sum: u64,
@@ -61,7 +64,8 @@ impl Checkpoint {
 
     /// Check sum over all contents, field by field.
     fn sum(&self) -> u64 {
-        let Self { format, identity, steps, modes, laws, state, ground, structure, sum: _ } = self;
+        let Self { format, identity, steps, modes, laws, state, .. } = self;
+        let Self { ground, structure, set_loads, sum: _, .. } = self;
         let mut sum = CheckSum::default();
         sum.add(u64::from(*format));
         identity.add_to(&mut sum);
@@ -71,7 +75,7 @@ impl Checkpoint {
             sum.add(*mode as u64);
             sum.add(u64::from(*has_opened));
         }
-        for list in [laws, state, ground, structure] {
+        for list in [laws, state, ground, structure, set_loads] {
             sum.add_numbers(list);
         }
         sum.value()
@@ -135,6 +139,7 @@ impl Simulation {
             state: numbers.into_iter().map(|value| *value).collect(),
             ground: self.ground.save()?,
             structure: save_variables(self.structure.as_ref())?,
+            set_loads: set_loads(scene),
             sum: 0,
         };
         checkpoint.sum = checkpoint.sum();
@@ -145,9 +150,9 @@ impl Simulation {
     /// steps have the same bits on the same processor.
     ///
     /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the initial
-    /// motion, the numbers that the interface laws return for sample states, and samples of ground motion and loads in the
-    /// steps so far. Numbers of a nonlinear force, and internal variables that a structure does not [save][`save`], are
-    /// not compared. The transitions, trials and method of the step before the checkpoint are not kept.
+    /// motion, the numbers that the interface laws return for sample states, the nonlinear force at sample displacements,
+    /// and samples of ground motion and loads in the steps so far. Internal variables that a structure does not
+    /// [save][`save`] are not compared. Forces that were [set](Simulation::set_load) are restored. The transitions, trials and method of the step before the checkpoint are not kept.
     ///
     /// # Errors
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
@@ -202,10 +207,16 @@ impl Simulation {
             (&checkpoint.state, "state"),
             (&checkpoint.ground, "state of the ground"),
             (&checkpoint.structure, "state of the structure"),
+            (&checkpoint.set_loads, "forces that were set"),
         ] {
             if values.iter().any(|value| !value.is_finite()) {
                 return Err(corrupt(quantity).into());
             }
+        }
+        // Other loads begin with their own functions.
+        let is_kept = !changes.contains(&Change::Load);
+        if is_kept && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {
+            return Err(CheckpointError::OtherScene { quantity: "load" }.into());
         }
         let (scene, structure) = (&self.scene, self.structure.as_mut());
         let (mut state, mut books) = (self.state.clone(), self.books.clone());
@@ -236,9 +247,19 @@ impl Simulation {
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         state.update_resultants(scene);
         (self.state, self.books) = (state, books);
-        self.scene.loads.iter_mut().for_each(|load| load.set(None));
+        let mut saved = checkpoint.set_loads.chunks_exact(2).filter(|_| is_kept);
+        for load in &mut self.scene.loads {
+            let set = saved.next().filter(|saved| saved[0] != 0.0);
+            load.set(set.map(|saved| saved[1]));
+        }
         Ok(())
     }
+}
+
+/// Numbers of [`Checkpoint::set_loads`].
+fn set_loads(scene: &Scene) -> Vec<f64> {
+    let pair = |set: Option<f64>| [f64::from(u8::from(set.is_some())), set.unwrap_or(0.0)];
+    scene.loads.iter().flat_map(|load| pair(load.set_value())).collect()
 }
 
 /// Takes over modes and whether elements have been open, from their numbers.

@@ -9,10 +9,15 @@ use crate::text::check_sum::CheckSum;
 
 /// Allowed difference of numbers of the same scene (other processors round differently).
 const SAME: f64 = 1e-9;
-/// Instants at which ground motion and loads are compared.
+/// Parts of the run in which ground motion and loads are compared.
 const SAMPLES: usize = 64;
-/// Slip of a sample state, m, and its pressure where no weight presses, Pa.
-const SLIP: f64 = 1e-3;
+/// Entries of the structure's own load that are evaluated; fewer steps are sampled of a larger structure.
+const LOAD_ENTRIES: usize = 10_000_000;
+/// Slip rates of sample states, m/s.
+const RATES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
+/// Slips between sample states of a law with state variables, m.
+const SLIPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
+/// Pressure of a sample state where no weight presses, Pa.
 const UNPRESSED: f64 = 1e5;
 /// Number that stands for one that is not finite.
 const ENDLESS: f64 = -7.25;
@@ -60,7 +65,8 @@ pub(crate) struct Identity {
     /// Ends of the elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     elements: Vec<f64>,
-    /// Sums over the structure's matrices, and one that depends on the signs of its modes.
+    /// Sums over the structure's matrices, one that depends on the signs of its modes, and samples of its nonlinear
+    /// force.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
     /// Sum over the ground's step compliance.
@@ -75,7 +81,7 @@ pub(crate) struct Identity {
     /// Numbers that the laws return for sample states, averaged over the elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     law_numbers: Vec<f64>,
-    /// Sums over the free field and over the loads, at instants of the steps so far.
+    /// Sums over the free field and over the loads, in parts of the steps so far.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     free_field: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -190,6 +196,13 @@ impl Simulation {
             elements.extend(scene.base.elements().depths().iter().flatten());
         }
         let (free_field, loads) = self.samples(steps)?;
+        let mut structure = vec![
+            sum(model.mass.values()),
+            sum(model.damping.values()),
+            sum(model.stiffness.values()),
+            signed,
+        ];
+        structure.extend(scene.nonlinear_samples.iter().copied().map(finite_or_endless));
         Ok(Identity {
             dofs: model.dofs,
             energy_balance: self.books.is_some(),
@@ -197,12 +210,7 @@ impl Simulation {
             laws: state.start.state_variable_ends().to_vec(),
             steps: scheme,
             elements,
-            structure: vec![
-                sum(model.mass.values()),
-                sum(model.damping.values()),
-                sum(model.stiffness.values()),
-                signed,
-            ],
+            structure,
             ground: vec![sum(&scene.soil)],
             // A weight that acts as a load is not part of the static state.
             static_contact: [&scene.static_state.traction, &scene.weight]
@@ -215,22 +223,40 @@ impl Simulation {
         })
     }
 
-    /// Sums over the free field and over all loads at instants of the first `steps`.
+    /// Sums over the free field and over all loads in [`SAMPLES`] parts of the first `steps`.
+    ///
+    /// A pulse may be as short as a step: external loads, and the motion of one element, enter at every step.
     fn samples(&self, steps: usize) -> Result<(Vec<f64>, Vec<f64>)> {
         let Self { scene, structure, ground, motion, .. } = self;
-        let (mut moved, mut loaded) = (Vec::with_capacity(SAMPLES), Vec::with_capacity(SAMPLES));
+        let count = steps.max(SAMPLES);
+        let (mut moved, mut loaded) = (vec![0.0; SAMPLES], vec![0.0; SAMPLES]);
         let mut displacement = vec![0.0; scene.layout().len()];
+        for (sample, moved) in moved.iter_mut().enumerate() {
+            let step = (sample + 1) as f64 * (count as f64 / SAMPLES as f64);
+            ground.free_field(motion.as_ref(), step.round() * scene.time_step, &mut displacement);
+            *moved = mixed(&displacement);
+        }
         let mut force = vec![0.0; scene.model.dofs];
-        for sample in 1..=SAMPLES {
-            let step = sample as f64 * (steps.max(SAMPLES) as f64 / SAMPLES as f64);
-            let time = step.round() * scene.time_step;
-            ground.free_field(motion.as_ref(), time, &mut displacement);
-            moved.push(mixed(&displacement));
-            force.fill(0.0);
-            structure.load(time, &mut force)?;
+        let stride = count.div_ceil((LOAD_ENTRIES / force.len().max(1)).max(SAMPLES));
+        let (is_plan, place) = (scene.layout().is_plan(), scene.base.elements().middle(0));
+        for step in 0..count {
+            let (part, weight) = (step * SAMPLES / count, mixing_weight(step));
+            let end = (step + 1) as f64 * scene.time_step;
+            moved[part] += weight
+                * if is_plan {
+                    mixed(&motion.displacement_at(place, end))
+                } else {
+                    mixed(&motion.displacement(place[0], end))
+                };
+            let time = (step as f64 + scene.coefficients.load_fraction) * scene.time_step;
             let external = scene.loads.iter().enumerate();
             let external = external.map(|(k, load)| mixing_weight(k) * load.mixed_value(time));
-            loaded.push(mixed(&force) + external.sum::<f64>());
+            loaded[part] += weight * external.sum::<f64>();
+            if step % stride == 0 {
+                force.fill(0.0);
+                structure.load(time, &mut force)?;
+                loaded[part] += weight * mixed(&force);
+            }
         }
         Ok((moved, loaded))
     }
@@ -250,48 +276,84 @@ fn law_numbers(scene: &Scene) -> Vec<f64> {
         let own = numbers_of(scene.law(element), pressure, scene.time_step, plan);
         all.resize(all.len().max(own.len()), 0.0);
         for (all, own) in all.iter_mut().zip(own) {
-            // Numbers that are not finite would hide the others.
-            let own = if own.is_finite() { own } else { ENDLESS };
-            *all += mixing_weight(element) / sum * own;
+            *all += mixing_weight(element) / sum * finite_or_endless(own);
         }
     }
     all
 }
 
-/// Numbers that a law returns for sample states under this pressure, Pa.
+/// The number, or [`ENDLESS`] in place of one that is not finite, which would hide the others.
+fn finite_or_endless(number: f64) -> f64 {
+    if number.is_finite() { number } else { ENDLESS }
+}
+
+/// Numbers that a law returns under this pressure, Pa: at rest, at each of [`RATES`], and with the state variables that
+/// [`SLIPS`] leave behind, one slip after the other.
 fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
-    let state = |slip: f64| ContactState { slip, pressure, ..ContactState::default() };
-    let at_rest = PreviousContact::new(state(0.0), law.modes()[0], time_step);
-    let variables = at_rest.first_state_variables(law);
-    let mut slid = PreviousContact::new(state(SLIP), law.modes()[0], time_step);
-    (slid.slip_rate, slid.static_pressure) = (SLIP / time_step, pressure);
+    let at_rest = PreviousContact::new(sample_state(0.0, pressure), law.modes()[0], time_step);
+    let mut variables = at_rest.first_state_variables(law);
     let mut all = vec![law.state_variables() as f64, law.friction_coefficient().unwrap_or(-1.0)];
     all.extend(&variables);
-    for start in [at_rest, slid] {
-        let start = start.with_state_variables(&variables);
-        if plan {
-            all.extend(law.compliance(Mode::Stick, &start));
-            if let Ok(limits) = law.limits(&start) {
-                let Limits { friction, attraction, shear_strength, .. } = limits;
-                let Limits { tension, pressure_cap, gap_offset, bonded, .. } = limits;
-                all.extend([friction, attraction, shear_strength, tension, pressure_cap]);
-                all.extend([gap_offset, f64::from(u8::from(bonded))]);
-            }
-            continue;
-        }
-        for &mode in law.modes() {
-            all.push(mode as usize as f64);
-            all.extend(law.compliance(mode, &start));
-            for Condition { gap, slip, pressure, shear, value } in law.conditions(mode, &start) {
-                all.extend([gap, slip, pressure, shear, value]);
-            }
-        }
-        for (pressure, shear) in [(-pressure, 0.0), (0.0, pressure), (pressure, 3.0 * pressure)] {
-            let trial = ContactState { pressure, shear, ..start.state };
-            all.push(law.bond_overload(&start, &trial).unwrap_or(0.0));
-        }
+    add_numbers(law, &at_rest.with_state_variables(&variables), pressure, plan, &mut all);
+    let slips = law.modes().iter().copied().find(|mode| mode.is_slip());
+    let mode = slips.unwrap_or(law.modes()[0]);
+    let start = |slip: f64, rate: f64| {
+        let mut start = PreviousContact::new(sample_state(slip, pressure), mode, time_step);
+        (start.slip_rate, start.static_pressure) = (rate, pressure);
+        start
+    };
+    for rate in RATES {
+        let start = start(SLIPS[0], rate);
+        add_numbers(law, &start.with_state_variables(&variables), pressure, plan, &mut all);
+    }
+    let mut slid = 0.0;
+    let has_variables = !variables.is_empty();
+    for slip in SLIPS.into_iter().filter(|_| has_variables) {
+        let before = variables.clone();
+        let end = sample_state(slid + slip, pressure);
+        let from = start(slid, slip / time_step).with_state_variables(&before);
+        law.commit(&from, &end, mode, &mut variables);
+        slid += slip;
+        all.extend(&variables);
+        let from = start(slid, RATES[0]).with_state_variables(&variables);
+        add_numbers(law, &from, pressure, plan, &mut all);
     }
     all
+}
+
+fn sample_state(slip: f64, pressure: f64) -> ContactState {
+    ContactState { slip, pressure, ..ContactState::default() }
+}
+
+/// Adds the numbers that a law returns for a step from this start.
+fn add_numbers(
+    law: &dyn InterfaceLaw,
+    start: &PreviousContact<'_>,
+    pressure: f64,
+    plan: bool,
+    all: &mut Vec<f64>,
+) {
+    if plan {
+        all.extend(law.compliance(Mode::Stick, start));
+        if let Ok(limits) = law.limits(start) {
+            let Limits { friction, attraction, shear_strength, .. } = limits;
+            let Limits { tension, pressure_cap, gap_offset, bonded, .. } = limits;
+            all.extend([friction, attraction, shear_strength, tension, pressure_cap]);
+            all.extend([gap_offset, f64::from(u8::from(bonded))]);
+        }
+        return;
+    }
+    for &mode in law.modes() {
+        all.push(mode as usize as f64);
+        all.extend(law.compliance(mode, start));
+        for Condition { gap, slip, pressure, shear, value } in law.conditions(mode, start) {
+            all.extend([gap, slip, pressure, shear, value]);
+        }
+    }
+    for (pressure, shear) in [(-pressure, 0.0), (0.0, pressure), (pressure, 3.0 * pressure)] {
+        let trial = ContactState { pressure, shear, ..start.state };
+        all.push(law.bond_overload(start, &trial).unwrap_or(0.0));
+    }
 }
 
 /// Floating-point numbers as their bits.

@@ -19,6 +19,7 @@ use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::linalg::mixed;
 use crate::structure::probe::Probe;
+use crate::structure::sample_forces;
 
 /// Structure, base, laws and static state as a step sees them, read-only once built.
 ///
@@ -49,6 +50,8 @@ pub(crate) struct Scene {
     /// Number of the gravity stage, and sums over the initial displacement and velocity: compared with the numbers in
     /// a checkpoint.
     pub(crate) start: [f64; 3],
+    /// Samples of the structure's nonlinear force before the run, compared likewise; empty without one.
+    pub(crate) nonlinear_samples: Vec<f64>,
     /// Data that results of the scene's states need.
     pub(crate) context: Arc<Context>,
 }
@@ -114,6 +117,7 @@ impl Scene {
             soil: parts.soil.clone(),
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows,
+            nonlinear_samples: sample_forces(parts.structure.as_ref()),
             start: [
                 given.gravity_stage as usize as f64,
                 mixed(&given.displacement),

@@ -42,6 +42,8 @@ pub struct Simulation {
     pub(crate) drag: f64,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
+    /// Steps that the builder was told of, or zero.
+    pub(crate) expected_steps: usize,
 }
 
 short_debug! {
@@ -202,7 +204,8 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// A checkpoint does not hold the value: [`resume`](Simulation::resume) returns every load to its own function.
+    /// A checkpoint holds the value. [`resume_changed`](Simulation::resume_changed) with
+    /// [`Change::Load`](crate::coupled::Change::Load) returns every load to its own function.
     ///
     /// # Errors
     /// [`Error::Index`] unless the builder was given such a load, [`Error::NotFinite`] for a value that is not finite.
@@ -280,7 +283,7 @@ impl Simulation {
                 return Ok(self.end_run(run));
             }
         }
-        run.ends_by_steps = true;
+        run.ends_by_steps = self.state.step >= self.expected_steps;
         Ok(self.end_run(run))
     }
 

@@ -372,8 +372,9 @@ fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
 /// the structure alone.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed} (twice as \
-     many change its static shape by {:.0} %)", along(*axis), 100.0 * difference
+    "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed}{}",
+    along(*axis),
+    twice_as_many(*difference)
 )]
 pub struct CoarseBaseError {
     /// Number of the foundation, from the left, from 0.
@@ -382,8 +383,15 @@ pub struct CoarseBaseError {
     pub elements: usize,
     /// About as many as it needs.
     pub needed: usize,
-    /// Change of its vertical static shape by twice the elements, relative.
-    pub difference: f64,
+    /// Change of its vertical static shape by twice the elements, relative; `None` if the ground does not tell their
+    /// compliance, or if they are too many for a check.
+    pub difference: Option<f64>,
     /// In plan: `x` for elements of a row, `y` for elements of a column.
     pub axis: Option<char>,
+}
+
+fn twice_as_many(difference: Option<f64>) -> String {
+    difference.map_or(String::new(), |own| {
+        format!(" (twice as many change its static shape by {:.0} %)", 100.0 * own)
+    })
 }

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, at_least, damping_ratio, not_negative, positiv
 use crate::linalg::{Partition, SparseMatrix, dot, generalised_modes};
 use crate::structure::detached::SYMMETRIC;
 use crate::structure::{
-    ContactNode, FaceNode, HeldBase, NonlinearForce, Structure, Triplets, base_nodes, stiffest,
+    FaceNode, HeldBase, NonlinearForce, Structure, Triplets, base_nodes, stiffest,
 };
 
 /// Rayleigh damping C = α M + β K.
@@ -285,19 +285,11 @@ impl WithModalDamping {
 }
 
 impl Structure for WithModalDamping {
+    forward_structure! { self.structure }
+
     forward! {
         self.structure;
-        fn dofs(&self) -> usize;
-        fn contact_nodes(&self) -> Vec<ContactNode>;
-        fn foundation_ends(&self) -> Vec<usize>;
-        fn contact_faces(&self) -> Vec<Vec<FaceNode>>;
-        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
-        fn has_active_damping(&self) -> bool;
-        fn has_active_stiffness(&self) -> bool;
-        fn tallest_storey(&self) -> Option<f64>;
-        fn describe(&self, dofs: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
         fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
         fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
     }

@@ -1,5 +1,25 @@
 //! Structures: the trait that users implement, implementations of it, and hysteretic springs.
 
+/// Implements the methods of [`Structure`] that no structure around another one replaces.
+macro_rules! forward_structure {
+    ($own:ident.$inner:ident) => {
+        forward! {
+            $own.$inner;
+            fn dofs(&$own) -> usize;
+            fn contact_nodes(&$own) -> Vec<$crate::structure::ContactNode>;
+            fn foundation_ends(&$own) -> Vec<usize>;
+            fn contact_faces(&$own) -> Vec<Vec<$crate::structure::FaceNode>>;
+            fn mass(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
+            fn has_active_damping(&$own) -> bool;
+            fn has_active_stiffness(&$own) -> bool;
+            fn tallest_storey(&$own) -> Option<f64>;
+            fn describe(&$own, dofs: &[usize]) -> Option<String>;
+            fn load(&$own, time: f64, load: &mut [f64]) -> $crate::error::Result<()>;
+        }
+    };
+}
+pub(crate) use forward_structure;
+
 mod base_motion;
 mod contact_node;
 mod damping;
@@ -30,7 +50,7 @@ pub use models::{
 };
 pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{
-    Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
+    Tangent, is_nonlinear, nonlinear_state, restore_variables, sample_forces, save_variables,
 };
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use section_rows::SectionRows;

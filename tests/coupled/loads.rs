@@ -4,8 +4,8 @@
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{
-    DissipativeMidpoint, GravityStage, HhtAlpha, Load, Midpoint, Newmark, SimulationBuilder,
-    TimeScheme,
+    Change, DissipativeMidpoint, GravityStage, HhtAlpha, Load, Midpoint, Newmark,
+    SimulationBuilder, TimeScheme,
 };
 use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
 use basemat::interface::{Bonded, Cohesive, Coulomb, FrictionLimit, ThinLayer, Yielding};
@@ -593,7 +593,7 @@ fn glued_bases_are_not_said_to_slide() {
     assert!(!error.to_string().contains("pushes it off"), "{error}");
 }
 
-/// A load that is set before every step is one by a function; a checkpoint returns to the function.
+/// A load that is set before every step is one by a function; a checkpoint keeps what was set.
 #[test]
 fn a_load_that_is_set_acts_from_then_on() {
     let push = |time: f64| 200.0e3 * (12.0 * time).sin();
@@ -625,6 +625,20 @@ fn a_load_that_is_set_acts_from_then_on() {
     for simulation in [&mut set, &mut other, &mut rest] {
         simulation.run(20, |_| {}).unwrap();
     }
+    // A force that is set at a checkpoint acts on after it, in another simulation too.
+    let mut pushed = scene(|_| 0.0);
+    pushed.set_load(1, 100e3).unwrap();
+    pushed.run(30, |_| {}).unwrap();
+    let saved = pushed.checkpoint().unwrap();
+    let mut resumed = scene(|_| 0.0);
+    resumed.resume(&saved).unwrap();
+    let mut changed = scene(|_| 0.0);
+    changed.resume_changed(&saved, &[Change::Load]).unwrap();
+    for simulation in [&mut pushed, &mut resumed, &mut changed] {
+        simulation.run(20, |_| {}).unwrap();
+    }
+    assert_eq!(resumed.state(), pushed.state());
+    assert_ne!(changed.state().displacement(), pushed.state().displacement());
     assert_eq!(set.state().displacement(), rest.state().displacement());
     assert_eq!(other.state().displacement(), rest.state().displacement());
     let unknown = rest.set_load(2, 1.0).unwrap_err();

@@ -70,7 +70,7 @@ fn too_few_elements_under_a_mat_are_told() {
             panic!("{error}")
         };
         assert_eq!(elements, count);
-        assert!((18..=26).contains(&needed) && difference > 0.3, "{error}");
+        assert!((18..=26).contains(&needed) && difference.unwrap() > 0.3, "{error}");
     }
     let (found, warnings) = on(16).unwrap();
     assert!((found / exact - 1.0).abs() < 0.03, "{found}");
@@ -85,6 +85,27 @@ fn too_few_elements_under_a_mat_are_told() {
     // A thick mat is stiffer than the soil between few elements.
     let (_, warnings) = stand(2.0, Strip::graded(-10.0..10.0, 8).unwrap()).unwrap();
     assert!(warnings.is_empty(), "{warnings:?}");
+}
+
+/// A law for each element makes no difference to the check.
+#[test]
+fn too_few_elements_are_told_with_a_law_for_each() {
+    let on = |count: usize| -> Result<Simulation> {
+        let (model, _) = mat(0.25, BEAMS)?;
+        let laws = (0..count).map(|e| -> Result<Box<dyn InterfaceLaw>> {
+            Ok(Box::new(Coulomb::new(0.4 + 0.01 * e as f64)?))
+        });
+        Simulation::builder(0.005)
+            .structure(model)
+            .ground(ElasticGround::new(soil(), Strip::graded(-10.0..10.0, count)?)?)
+            .interfaces(laws.collect::<Result<_>>()?)
+            .build()
+    };
+    for count in [4, 8] {
+        let error = on(count).expect_err("an error");
+        assert!(matches!(error, Error::CoarseBase(_)), "{error}");
+    }
+    assert!(on(32).is_ok());
 }
 
 /// `under` takes an element for each segment at least; a rigid base as many as wanted.

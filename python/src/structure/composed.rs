@@ -13,6 +13,7 @@ use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::recipe::{Make, Recipe, Shared};
 use crate::row::{PyDofCombination, RowLike};
+use crate::several::Pairs;
 
 /// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
@@ -96,8 +97,9 @@ pub(crate) struct PyStructureGroup {
 #[pymethods]
 impl PyStructureGroup {
     #[new]
-    fn new(members: Vec<(Bound<'_, PyAny>, f64)>) -> PyResult<PyClassInitializer<Self>> {
+    fn new(members: Pairs<Bound<'_, PyAny>, f64>) -> PyResult<PyClassInitializer<Self>> {
         let members: Vec<(Recipe<dyn Structure>, f64)> = members
+            .0
             .iter()
             .map(|(structure, shift)| Ok((recipe(structure)?, *shift)))
             .collect::<PyResult<_>>()?;

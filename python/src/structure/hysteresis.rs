@@ -12,6 +12,7 @@ use crate::dof_names::DofNames;
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::RowLike;
+use crate::several::Pairs;
 use crate::user;
 
 /// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
@@ -163,12 +164,13 @@ members! {
     PyWithSprings, own;
     new(
         structure: Bound<'_, PyAny>,
-        springs: Vec<(RowLike, LawLike)>,
+        springs: Pairs<RowLike, LawLike>,
     ) = {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
         let names = DofNames::of(&object, dofs)?;
         let springs: Vec<(DofCombination, Recipe<dyn Hysteresis>)> = springs
+            .0
             .into_iter()
             .map(|(RowLike(row, order), LawLike(law))| {
                 order.check("the row of a spring", dofs)?;

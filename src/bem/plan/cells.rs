@@ -15,6 +15,8 @@ use crate::structure::{FaceNode, Structure};
 const OVERHANG: f64 = 0.105;
 /// Part of the area that may be missing.
 const MISSING: f64 = 0.1;
+/// Cells to which the number of cells under flexible faces is raised.
+const MOST_RAISED: f64 = 1000.0;
 /// Memory for a cell, bytes.
 const CELL: f64 = 1000.0;
 /// Relative difference of sides that counts as rounding.
@@ -184,7 +186,9 @@ impl Plan {
 
     /// Cells under the faces of a structure, with `cells` along the shorter side of them all: [`Plan::on_faces`]. Under
     /// flexible faces there are at least as many cells as faces, of which two triangles count as one, as between cells
-    /// nothing but the structure holds its nodes.
+    /// nothing but the structure holds its nodes. Beyond 1000 cells in all the number is not raised: a base that needs
+    /// more is an error or a warning of the build
+    /// ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
     /// As for [`Plan::on_faces`].
@@ -208,7 +212,10 @@ impl Plan {
                 let along = sides[0].min(sides[1]) * f64::sqrt(pieces / area);
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
                 let along = (along * (1.0 - 1e-9)).ceil() as usize;
-                most = most.max(along);
+                let ratio = sides[0].max(sides[1]) / sides[0].min(sides[1]);
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+                let limit = (MOST_RAISED / ratio).sqrt() as usize;
+                most = most.max(along.min(limit));
             }
         }
         Self::covering(faces, most, OVERHANG)

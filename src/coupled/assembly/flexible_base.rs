@@ -30,6 +30,8 @@ const STIFF: f64 = 6.0;
 /// and above which it is an error.
 const DIFFERENCE: f64 = 0.03;
 const ANOTHER: f64 = 0.3;
+/// ρ below which the static shape is another one, where twice the elements are not known.
+const SOFT: f64 = 0.3;
 /// Increase of ρ with half the length of the elements, as a power of two: of beams and plates 3, of solids 0.
 const POWERS: [f64; 2] = [1.0, 3.0];
 /// Springs that hold element means, relative to the soil.
@@ -61,18 +63,26 @@ pub(crate) fn check(
     if !base.is_flexible() {
         return Ok(None);
     }
-    let soil = static_stages::compliance(parts)?;
-    let shape = UnseenShape::of(assembled, base, &soil).filter(|shape| shape.ratio < STIFF);
+    let own_soil = static_stages::compliance(parts)?;
+    let shape = UnseenShape::of(assembled, base, &own_soil).filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut foundation }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = finer(parts, base) {
         // Without a shape that twice the elements do not see, they are enough.
         let next = UnseenShape::of(assembled, &finer, &soil);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
-        if parts.given.is_static() && parts.given.laws.len() == 1 {
-            let assembled = assembled.on(finer);
-            let finer = static_stages::under_loads(parts, &assembled, &soil).ok();
-            difference = finer.map(|finer| largest_difference(base, at_rest, &finer));
+        if parts.given.is_static() {
+            // With a law for each element both states are those with the first law.
+            let law = &parts.given.laws[..1];
+            let under = |assembled: &Assembled, soil: &[f64]| {
+                static_stages::under_loads(parts, assembled, soil, law).ok()
+            };
+            let many = parts.given.laws.len() > 1;
+            let coarse = if many { under(assembled, &own_soil) } else { None };
+            let coarse = if many { coarse.as_ref() } else { Some(at_rest) };
+            let fine = under(&assembled.on(finer), &soil);
+            let both = coarse.zip(fine.as_ref());
+            difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));
         }
     }
     let is_off = difference.is_some_and(|(_, own)| own > DIFFERENCE);
@@ -88,7 +98,8 @@ pub(crate) fn check(
     let (axis, elements) = count(base, foundation);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let needed = (elements as f64 * factor).ceil() as usize;
-    if let Some(difference) = difference.filter(|own| *own > ANOTHER) {
+    let is_soft = parts.given.is_static() && ratio < SOFT;
+    if difference.map_or(is_soft, |own| own > ANOTHER) {
         return Err(CoarseBaseError { foundation, elements, needed, difference, axis }.into());
     }
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))

@@ -165,7 +165,7 @@ impl SimulationBuilder {
 
     /// Sets about how many steps will be made: weights and memory are then ready before the first (of up to 100 000),
     /// and the ground's history and the structure's coordinates are chosen for this number (if not given, for that of
-    /// the first run and for 4 000).
+    /// the first run and for 4 000). A run that ends before the last of them does not warn that it ends early.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
@@ -346,6 +346,7 @@ impl SimulationBuilder {
             warnings,
             drag: assembled.drag(),
             rotation_limit: given.rotation_limit,
+            expected_steps: given.steps,
         })
     }
 }

@@ -34,7 +34,7 @@ const TIME_STEP: f64 = 1.0;
 pub(crate) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     if parts.given.is_static() {
-        state = under_loads(parts, assembled, &compliance(parts)?)?;
+        state = under_loads(parts, assembled, &compliance(parts)?, &parts.given.laws)?;
         if let Some(force) = parts.structure.nonlinear_mut() {
             force.commit(&state.displacement);
         }
@@ -57,12 +57,13 @@ pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
     Ok(soil)
 }
 
-/// The state under weight and the loads at t = 0 on elements of this static compliance; internal variables of the
-/// structure stay as they are.
+/// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws; internal
+/// variables of the structure stay as they are.
 pub(crate) fn under_loads(
     parts: &Parts,
     assembled: &Assembled,
     soil: &[f64],
+    laws: &[Box<dyn InterfaceLaw>],
 ) -> Result<StaticState> {
     let Parts { structure, given, .. } = parts;
     let n = assembled.dofs();
@@ -81,7 +82,7 @@ pub(crate) fn under_loads(
     all_finite("load at t = 0", &load)?;
     let (structure, frictionless) = (structure.as_ref(), false);
     let stage = Standing { assembled, structure, soil, frictionless };
-    let state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
+    let state = in_stages(&stage, laws, given.gravity_stage, [&weight, &load])?;
     Ok(StaticState { load: own, ..state })
 }
 

@@ -12,7 +12,7 @@ use crate::error::{Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{SparseMatrix, dot};
 use crate::structure::{
-    ContactNode, FaceNode, HeldBase, NonlinearForce, Structure, Triplets, stiffest,
+    FaceNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, stiffest,
 };
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
@@ -152,19 +152,11 @@ struct RigidBase {
 }
 
 impl Structure for RigidBase {
+    forward_structure! { self.structure }
+
     forward! {
         self.structure;
-        fn dofs(&self) -> usize;
-        fn contact_nodes(&self) -> Vec<ContactNode>;
-        fn foundation_ends(&self) -> Vec<usize>;
-        fn contact_faces(&self) -> Vec<Vec<FaceNode>>;
-        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
-        fn has_active_damping(&self) -> bool;
-        fn has_active_stiffness(&self) -> bool;
-        fn tallest_storey(&self) -> Option<f64>;
-        fn describe(&self, dofs: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
         fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
         fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
     }

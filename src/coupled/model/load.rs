@@ -155,6 +155,11 @@ impl SteppedLoad {
         self.set = value;
     }
 
+    /// Force that was set in place of the load's own, if one was.
+    pub(crate) fn set_value(&self) -> Option<f64> {
+        self.set
+    }
+
     /// Value at `time` times a sum over the weights of its row, by which loads are told apart.
     pub(crate) fn mixed_value(&self, time: f64) -> f64 {
         let row = self.load.row.iter();

@@ -129,9 +129,13 @@ pub struct Run {
     elements: Vec<ContactElement>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
     sequence: Sequence,
-    /// Whether the run ended with the steps that it was given: not by an observer or a loop of the caller's own.
+    /// Whether the run ended with the last of the steps that it was given, and of the expected ones: not by an observer
+    /// or a loop of the caller's own.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) ends_by_steps: bool,
+    /// Responses that should not be largest at the end, after the last step and before it.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    last_responses: [[f64; 4]; 2],
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
     /// Largest settlement of each foundation, m.
@@ -186,6 +190,7 @@ impl Run {
             elements: elements.to_vec(),
             sequence: Sequence::new(state),
             ends_by_steps: false,
+            last_responses: [Warning::RESPONSES.map(|quantity| state.value(quantity)); 2],
             resolution,
             settlements: state.foundations.iter().map(|own| own.derived.settlement).collect(),
             least_algorithmic: state.energy_balance.algorithmic,
@@ -202,6 +207,8 @@ impl Run {
         let (begin, time) = (self.end, state.time);
         self.steps += 1;
         self.end = time;
+        self.last_responses =
+            [Warning::RESPONSES.map(|quantity| state.value(quantity)), self.last_responses[0]];
         self.resolution.see(state);
         self.whole.see(state, begin, None);
         for (k, own) in self.foundations.iter_mut().enumerate() {
@@ -296,6 +303,12 @@ impl Run {
         let Summary { static_normal_force, base_shear, horizontal_force, .. } = &self.whole;
         let shear = if self.in_plan { horizontal_force } else { base_shear };
         (*static_normal_force > 0.0).then(|| shear.magnitude() / static_normal_force)
+    }
+
+    /// Growth of a response in the last step, relative to its value.
+    pub(crate) fn last_growth(&self, response: usize) -> f64 {
+        let [last, before] = self.last_responses.map(|values| values[response].abs());
+        1.0 - before / last
     }
 
     /// Number of slip events, of several foundations those of each.

@@ -6,6 +6,7 @@ use crate::coupled::run::warning_text::within;
 use crate::coupled::run::{GroundMotion, Quantity, Run};
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::statics::strength::friction_at_rest;
 use crate::interface::{InterfaceLaw, Mode};
 use crate::motion::FreeField;
 use crate::soil::Soil;
@@ -36,7 +37,8 @@ impl Warning {
     /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
     const LARGEST_ACCELERATION: f64 = 60.0;
 
-    /// Acceleration of a record (m/s²) that is more likely one in g: weaker than strong motions, and not zero.
+    /// Acceleration of a record (m/s²) that is more likely one in g: weaker than design motions, from 0.5 m/s² where
+    /// earthquakes are rare, and not zero.
     const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
     /// Time steps of records, s.
     const INTERVALS: [f64; 2] = [1e-4, 0.2];
@@ -56,10 +58,12 @@ impl Warning {
     const SHAKING: f64 = 0.01;
     /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that are rounding.
     const ROUNDING: f64 = 1e-9;
+    /// Growth of a response in the last step up to which it has come to rest, relative.
+    const GROWTH: f64 = 1e-4;
     /// Fewest steps after which a peak in the last one counts.
     const LEAST_STEPS: usize = 8;
     /// Responses that should not be largest at the end of a run.
-    const RESPONSES: [Quantity; 4] =
+    pub(crate) const RESPONSES: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
     /// Warnings of numbers of a scene that are usual in another unit: of its laws, its gravity (m/s²), its weight over the
@@ -72,7 +76,7 @@ impl Warning {
         storey: Option<f64>,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let frictions = laws.iter().filter_map(InterfaceLaw::friction_coefficient);
+        let frictions = laws.iter().map(|law| friction_at_rest(law.as_ref()));
         let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
         warnings
             .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
@@ -156,14 +160,15 @@ impl Warning {
             warnings.push(Self::EndsEarly { end, duration, passed });
         }
         let moves = seen > Self::SHAKING * motion.peak && run.steps >= Self::LEAST_STEPS;
-        let last = |quantity: &Quantity| {
+        let last = |(number, quantity): &(usize, Quantity)| {
             let peak = run.whole.peak(*quantity);
             let is_force = matches!(quantity, Quantity::BaseShear | Quantity::BaseMoment);
             let scale = if is_force { run.whole.static_normal_force } else { 1.0 };
-            peak.time == end && peak.magnitude() > Self::ROUNDING * scale
+            let grows = peak.magnitude() > Self::ROUNDING * scale;
+            peak.time == end && grows && run.last_growth(*number) > Self::GROWTH
         };
-        let at_end = Self::RESPONSES.into_iter().find(last).filter(|_| moves);
-        warnings.extend(at_end.map(|quantity| Self::PeakAtEnd { quantity, end }));
+        let at_end = Self::RESPONSES.into_iter().enumerate().find(last).filter(|_| moves);
+        warnings.extend(at_end.map(|(_, quantity)| Self::PeakAtEnd { quantity, end }));
         warnings
     }
 
@@ -180,9 +185,11 @@ impl Warning {
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;
         let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
-        let greatest = laws.filter_map(InterfaceLaw::friction_coefficient).fold(0.0, f64::max);
-        (scene.layout().is_plan() && greatest >= Self::HIGH_FRICTION)
-            .then_some(Self::HighFriction { friction: greatest })
+        if !scene.layout().is_plan() {
+            return None;
+        }
+        let greatest = laws.map(|law| friction_at_rest(law.as_ref())).fold(0.0, f64::max);
+        (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
     }
 
     /// Warnings of `soils` with unusual numbers.

@@ -2,4 +2,4 @@
 
 pub(crate) mod equilibrium;
 pub(crate) mod stability;
-mod strength;
+pub(crate) mod strength;

@@ -6,6 +6,8 @@ use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolera
 const LITTLE: f64 = 1e-6;
 /// Ratio of shear traction to pressure that counts as endless.
 const MOST: f64 = 1e6;
+/// Pressure beside which cohesion is small, Pa.
+const PRESSURE: f64 = 1e9;
 
 /// Tractions that a law bears on an element that has not moved so far.
 pub(crate) struct Strength {
@@ -64,6 +66,17 @@ impl Strength {
             bearing_pressure: limits.pressure_cap,
         }
     }
+}
+
+/// Friction coefficient of a law on an element at rest, cohesion left out: as the law states it, by its limits, or by
+/// the tractions at which the element slides.
+pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw) -> f64 {
+    let pressed = ContactState { pressure: PRESSURE, ..ContactState::default() };
+    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
+    let state_variables = start.first_state_variables(law);
+    let limits = || law.limits(&start.with_state_variables(&state_variables)).ok();
+    let by_limits = || limits().map(|own| if own.bonded { 0.0 } else { own.friction });
+    law.friction_coefficient().or_else(by_limits).unwrap_or_else(|| friction(law, PRESSURE))
 }
 
 /// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides;

@@ -3,9 +3,7 @@
 use super::Hysteresis;
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
-use crate::structure::{
-    ContactNode, DofCombination, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
-};
+use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets};
 
 /// A spring and the deformation l·u that it sees.
 #[derive(Clone)]
@@ -181,20 +179,12 @@ impl WithSprings {
 }
 
 impl Structure for WithSprings {
+    forward_structure! { self.structure }
+
     forward! {
         self.structure;
-        fn dofs(&self) -> usize;
-        fn contact_nodes(&self) -> Vec<ContactNode>;
-        fn foundation_ends(&self) -> Vec<usize>;
-        fn contact_faces(&self) -> Vec<Vec<FaceNode>>;
-        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
-        fn has_active_damping(&self) -> bool;
-        fn has_active_stiffness(&self) -> bool;
-        fn tallest_storey(&self) -> Option<f64>;
-        fn describe(&self, dofs: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {

@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use basemat_problems::check_sum::{check_sum, text_words};
 
-const FIELDS: [&str; 8] =
-    ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure"];
+const FIELDS: [&str; 9] =
+    ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure", "set_loads"];
 const IDENTITY: [&str; 13] = [
     "dofs",
     "energy_balance",

@@ -8,6 +8,7 @@ use basemat::coupled::{
 use basemat::fem::{Layer, Material, Mesh, Quad8, Quad8Integration};
 use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
+use basemat::motion::FreeField;
 use basemat::structure::{
     CraigBampton, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey,
 };
@@ -15,7 +16,7 @@ use basemat::{Error, Simulation, Soil};
 use proptest::prelude::*;
 
 use super::shaking::{Kind, Shaking};
-use basemat_problems::scenes::{Frame, GRAVITY};
+use basemat_problems::scenes::{Frame, GRAVITY, SI};
 
 /// Steps of a run.
 pub(crate) const STEPS: usize = 80;
@@ -194,18 +195,41 @@ impl Recipe {
         matches!(self.law, Law::ThinLayer(_, share) if share > 0.0)
     }
 
-    /// Simulation whose ground motion begins `delay` steps late.
-    pub(crate) fn build(&self, frame: Frame, delay: usize) -> Result<Simulation, Error> {
+    /// Ground motion that begins `delay` steps late.
+    fn shaking(&self, frame: Frame, delay: usize) -> Shaking {
         let step = self.time_step(frame);
         let duration = STEPS as f64 * step;
-        let motion = Shaking {
+        Shaking {
             kind: self.kind.clone(),
             // Three periods in the run, peak displacement = acceleration / ω².
             amplitude: self.strength * GRAVITY * frame.acceleration() * (duration / 19.0).powi(2),
             sign: frame.sign(),
             delay: delay as f64 * step,
             duration,
-        };
+        }
+    }
+
+    /// Largest second difference of the ground motion over the steps of a run, m/s².
+    pub(crate) fn peak_acceleration(&self) -> f64 {
+        let (step, shaking) = (self.time_step(SI), self.shaking(SI, 0));
+        let at = |k: usize| shaking.displacement(0.0, k as f64 * step);
+        let second = |k: usize, i: usize| (at(k - 1)[i] - 2.0 * at(k)[i] + at(k + 1)[i]).abs();
+        let peaks = (1..3 * STEPS).flat_map(|k| [second(k, 0), second(k, 1)]);
+        peaks.fold(0.0, f64::max) / (step * step)
+    }
+
+    /// Simulation whose ground motion begins `delay` steps late.
+    pub(crate) fn build(&self, frame: Frame, delay: usize) -> Result<Simulation, Error> {
+        self.build_with(frame, self.shaking(frame, delay))
+    }
+
+    /// Simulation under another ground motion.
+    pub(crate) fn build_with(
+        &self,
+        frame: Frame,
+        motion: impl FreeField + 'static,
+    ) -> Result<Simulation, Error> {
+        let step = self.time_step(frame);
         let gravity = if self.weightless { 0.0 } else { GRAVITY * frame.acceleration() };
         let builder = Simulation::builder(step)
             .motion(motion)
