@@ -5,25 +5,25 @@ use crate::error::{Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 
 impl DofCombination {
-    /// Displacement to the right relative to the middle of the base: what an observer on the base sees. The base's
-    /// slip is taken out, its rotation is not.
+    /// Displacement to the right relative to the middle of the base.
     ///
-    /// The base is that of `structure`, from its first contact node to its last; the row must be one
-    /// of its degrees of freedom. In a group that is a member, before
-    /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
+    /// The base's slip is subtracted, its rotation is not. The row must weigh degrees of freedom of
+    /// `structure`, whose base runs from its first contact node to its last. For a member of a group, call
+    /// this before [`StructureGroup::row`](super::StructureGroup::row) moves the row.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
-    /// [`Error::Input`](crate::Error::Input) for contact nodes at one place, [`Error::Scene`](crate::Error::Scene)
-    /// in plan: a row does not distinguish x from y, so a displacement of [`DofCombination::of_base`] is to be taken
-    /// from it.
+    /// [`Error::Input`](crate::Error::Input) for contact nodes at one place,
+    /// [`Error::Scene`](crate::Error::Scene) in plan, where a row does not distinguish x from y: subtract a
+    /// displacement of [`DofCombination::of_base`] there.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         let [translation, _, _] = in_the_plane(structure, 0.0)?;
         Ok(self.clone() - translation)
     }
 
-    /// Displacement to the right of a point `height` (m) above the base, relative to the rigid motion of the base
-    /// there, translation and rotation: the deformation of the structure.
+    /// Deformation of the structure at a point `height` (m) above the base, to the right.
+    ///
+    /// Displacement of the point, minus its displacement by the base's rigid translation and rotation.
     ///
     /// ```
     /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
@@ -52,9 +52,10 @@ impl DofCombination {
         Ok(self.clone() - carried)
     }
 
-    /// Displacements along x, along y and up of a point that the base carries with it as if it were rigid, at `place`
-    /// `[x, y, height]` (m) from the middle of the base: what an observer on the base does not see. In the plane
-    /// nothing moves along y, and y is ignored.
+    /// Displacements of a point that moves rigidly with the base: along x, along y, up.
+    ///
+    /// `place`: `[x, y, height]` (m) from the middle of the base. Subtract them from a displacement to get
+    /// the part that an observer on the base sees. In the plane nothing moves along y, and y is ignored.
     ///
     /// ```
     /// use basemat::structure::{DofCombination, PlanStorey, RigidBody, StoreyBuilding};
@@ -98,7 +99,7 @@ impl DofCombination {
     }
 }
 
-/// Rigid motion of a base in the plane above its middle.
+/// Displacements of a point `height` above the middle of a rigid base in the plane.
 fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombination; 3]> {
     let needed = "in plan a row does not tell x from y: subtract a displacement of `DofCombination::of_base`";
     require_part(
@@ -109,7 +110,8 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
     DofCombination::of_base(structure, [0.0, 0.0, height])
 }
 
-/// Displacement to the right of the base's middle, rotation of its chord, and displacement of the middle upwards.
+/// Displacement of the base's middle to the right, rotation of its chord, and displacement of the middle
+/// upwards.
 fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 3]> {
     let nodes = structure.contact_nodes();
     at_least("contact nodes", nodes.len(), 2)?;

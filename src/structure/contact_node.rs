@@ -9,7 +9,7 @@ use crate::geometry::{PLANE, SPACE};
 /// Relative difference of displacements, and of a distance from a line, that counts as rounding.
 const FLAT: f64 = 1e-9;
 
-/// A point of the base: where it is, and how the degrees of freedom move it.
+/// A point of the base, and its motion by the degrees of freedom.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -45,7 +45,7 @@ impl ContactNode {
     }
 }
 
-/// A corner of a face of a base in plan: where it is, and how the degrees of freedom move it.
+/// A corner of a face of a base in plan, and its motion.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -68,8 +68,10 @@ impl FaceNode {
         Self { x, y, horizontal: along.into(), across: across.into(), vertical: up.into() }
     }
 
-    /// A point `[x, y]` (m) of a rigid flat base with degrees of freedom at `center`: displacements along x, along y
-    /// and up, and rotations about the same axes by the right-hand rule.
+    /// A point `[x, y]` (m) of a rigid flat base.
+    ///
+    /// `dofs` at `center`: displacements along x, along y and up, and rotations about the same axes by the
+    /// right-hand rule.
     pub fn rigid([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
         let [along, across, up, about_x, about_y, about_z] = dofs;
         let [dx, dy] = [x - center[0], y - center[1]];
@@ -82,15 +84,17 @@ impl FaceNode {
         }
     }
 
-    /// The face of a rigid flat base with these corners (m from `center`), degrees of freedom as for
-    /// [`FaceNode::rigid`].
+    /// The face of a rigid flat base.
+    ///
+    /// `corners`: m from `center`. `dofs` as for [`FaceNode::rigid`].
     pub fn rigid_base(corners: &[[f64; 2]], center: [f64; 2], dofs: [usize; 6]) -> Vec<Self> {
         let corner = |[x, y]: &[f64; 2]| Self::rigid([center[0] + x, center[1] + y], center, dofs);
         corners.iter().map(corner).collect()
     }
 
-    /// Rotations of the flat that fits the nodes best: rise to the right per distance, rise away from the reader, and
-    /// turn about the vertical.
+    /// Rotations of the plane that fits the nodes best.
+    ///
+    /// Slope to the right, slope away from the reader, and turn about the vertical.
     pub(crate) fn mean_rotations(nodes: &[Self]) -> [DofCombination; 3] {
         let count = nodes.len() as f64;
         let mean = |of: &dyn Fn(&Self) -> f64| nodes.iter().map(of).sum::<f64>() / count;
@@ -110,8 +114,10 @@ impl FaceNode {
         rotations
     }
 
-    /// Displacements along x, along y and up of the point `[x, y]` (m) at this height above the base, as the flat that
-    /// fits the nodes best carries it.
+    /// Displacements of a point along x, along y and up, as the nodes carry it.
+    ///
+    /// The point lies at `[x, y]` (m), `height` above the base, and moves with the plane that fits the nodes
+    /// best.
     pub(crate) fn carried(nodes: &[Self], [x, y]: [f64; 2], height: f64) -> [DofCombination; 3] {
         let share = 1.0 / nodes.len() as f64;
         let mut mean: [DofCombination; 3] = Default::default();
@@ -133,14 +139,16 @@ impl FaceNode {
         ]
     }
 
-    /// Number of segments, from node to node, of which a base in the plane consists; nodes that cannot leave the line
-    /// between their neighbours divide none.
+    /// Number of straight segments of a base in the plane.
+    ///
+    /// A node that cannot leave the line between its neighbours does not begin a new segment.
     pub(crate) fn segments(nodes: &[Self]) -> usize {
         1 + nodes.windows(3).filter(|three| !Self::are_flat(three)).count()
     }
 
-    /// Whether the nodes stay a flat, uniformly strained body, whatever the degrees of freedom are: displacements are
-    /// linear in the coordinates, as on any rigid base.
+    /// Whether the nodes stay a flat, uniformly strained body for any degrees of freedom.
+    ///
+    /// Their displacements are then linear in the coordinates, as on any rigid base.
     pub(crate) fn are_flat(nodes: &[Self]) -> bool {
         let Some(first) = nodes.first() else { return true };
         let from = |node: &Self| [node.x - first.x, node.y - first.y];
@@ -181,7 +189,7 @@ impl FaceNode {
         [self.x, self.y]
     }
 
-    /// Displacements to the right, upwards and away; a node of the plane has none of the last.
+    /// Displacements to the right, upwards and away; the last is empty for a node of the plane.
     pub(crate) fn rows(&self) -> [&DofCombination; 3] {
         [&self.horizontal, &self.vertical, &self.across]
     }
@@ -193,18 +201,18 @@ impl FaceNode {
         }
     }
 
-    /// Number of directions in which it moves: two in the plane.
+    /// Number of directions in which the node moves: two in the plane.
     pub(crate) fn directions(&self) -> usize {
         if self.across.is_empty() { PLANE } else { SPACE }
     }
 
-    /// The degrees of freedom that move it.
+    /// The degrees of freedom that move the node.
     pub(crate) fn dofs(&self) -> impl Iterator<Item = usize> {
         let terms = self.rows().into_iter().flatten();
         terms.filter(|(_, weight)| *weight != 0.0).map(|(dof, _)| *dof)
     }
 
-    /// Refuses a place and weights that are not finite, and degrees of freedom at `bound` or beyond.
+    /// Error for a place or weight that is not finite, or a degree of freedom at `bound` or beyond.
     fn check(&self, bound: usize) -> Result<()> {
         finite("coordinate of a contact node", self.x)?;
         finite("coordinate of a contact node", self.y)?;
@@ -217,7 +225,7 @@ impl FaceNode {
 }
 
 impl From<ContactNode> for FaceNode {
-    /// A node of the plane, which nothing moves along y.
+    /// A node of the plane, without displacement along y.
     fn from(node: ContactNode) -> Self {
         let ContactNode { x, horizontal, vertical } = node;
         Self { x, y: 0.0, horizontal, across: DofCombination::default(), vertical }
@@ -234,20 +242,23 @@ pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<FaceNode> {
     }
 }
 
-/// Refuses too few nodes, places and weights that are not finite, and degrees of freedom that there are not.
+/// Error for too few nodes, for places or weights that are not finite, and for degrees of freedom that do not
+/// exist.
 pub(crate) fn check_base_nodes(nodes: &[FaceNode], dofs: usize) -> Result<()> {
     at_least("list of contact nodes", nodes.len(), 2)?;
     nodes.iter().try_for_each(|node| node.check(dofs))
 }
 
-/// Error unless a contact node at `x` lies to the right of another, at `before`, that is listed before it.
+/// Error unless a contact node at `x` lies to the right of the node before it, at `before`.
 pub(crate) fn from_the_left(before: f64, x: f64) -> Result<()> {
     let needed = "to the right of the node before it: contact nodes are listed from left to right";
     require("coordinate of a contact node", x, x > before, needed).map(drop)
 }
 
-/// Contact nodes of each foundation, for `count` nodes in all and those that are the last of a
-/// foundation, the very last excepted; two or more each.
+/// Contact nodes of each foundation, two or more each.
+///
+/// `count`: contact nodes in all. `ends`: the last contact node of each foundation except the last
+/// foundation.
 pub(crate) fn foundation_nodes(count: usize, ends: &[usize]) -> Result<Vec<Range<usize>>> {
     let mut first = 0;
     let mut all = Vec::with_capacity(ends.len() + 1);
@@ -271,7 +282,8 @@ pub(crate) fn foundation_nodes(count: usize, ends: &[usize]) -> Result<Vec<Range
 mod tests {
     use super::*;
 
-    /// A rigid base is flat in the plane and in plan, wherever it lies; a node of its own divides it.
+    /// A rigid base is flat in the plane and in plan, wherever it lies; a node with its own degrees of
+    /// freedom divides it.
     #[test]
     fn only_nodes_that_leave_the_flat_divide_a_base() {
         for far in [0.0, 4500.0] {
@@ -290,7 +302,7 @@ mod tests {
             face[3].vertical = 7.into();
             assert!(!FaceNode::are_flat(&face));
         }
-        // Nodes on the line through free ends are carried by these; free ends alone are one segment.
+        // Nodes on the line through free ends move with the ends; free ends alone are one segment.
         let [left, right] = [ContactNode::free(0.0, 0, 1), ContactNode::free(4.0, 2, 3)];
         let mut between = ContactNode::free(1.0, 0, 1);
         between.vertical = [(1, 0.75), (3, 0.25)].into();

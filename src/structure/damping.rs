@@ -57,7 +57,7 @@ impl RayleighDamping {
         let spread = (high - low) * (high + low);
         let needed = "different from the first";
         require("second frequency of Rayleigh damping", frequencies[1], spread != 0.0, needed)?;
-        // Solves ζ = α/(2ω) + βω/2 at both.
+        // Solves ζ = α/(2ω) + βω/2 at both frequencies.
         let mass = 2.0 * low * high * (ratios[0] * high - ratios[1] * low) / spread;
         let stiffness = 2.0 * (ratios[1] * high - ratios[0] * low) / spread;
         Self::new(mass, stiffness)
@@ -82,14 +82,16 @@ impl RayleighDamping {
 
 // Damping given mode by mode.
 
-/// Damping ratios of a structure's own modes, on its fixed base or by itself; its rigid motions are not damped.
+/// Damping ratios of a structure's own modes; its rigid motions are not damped.
 ///
-/// * [`on_fixed_base`](ModalDamping::on_fixed_base): the modes that codes and tests speak of. On its foundation the
-///   first mode has the given ratio less the part of it that the ground's compliance takes.
-/// * [`on`](ModalDamping::on): modes of the structure by itself, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They stay
-///   the modes of the damped structure, so that it can be stepped in them
-///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above those on a base,
-///   where the first mode gets much less than its ratio: five storeys 0.9 % of 5 %.
+/// * [`on_fixed_base`](ModalDamping::on_fixed_base): modes on a fixed base, to which codes and tests refer.
+///   On a compliant ground the structural damping of the first mode is smaller, since part of the deformation
+///   is in the ground.
+/// * [`on`](ModalDamping::on): modes of the structure alone, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They
+///   are also modes of the damped structure, so that the structure can be stepped in modal coordinates
+///   ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)). Their frequencies are far above the
+///   frequencies on a base, where the first mode gets much less than its ratio: 0.9 % instead of 5 % for five
+///   storeys.
 ///
 /// ```
 /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
@@ -113,7 +115,7 @@ validated! {
     => ModalDamping::new(&ratios)
 }
 
-/// A structure with the damping of [`ModalDamping`] beside its own.
+/// A structure with the damping of [`ModalDamping`] in addition to its own.
 pub struct WithModalDamping {
     structure: Box<dyn Structure>,
     /// C, row-major.
@@ -126,15 +128,16 @@ short_debug! {
     WithModalDamping; self; dofs: self.structure.dofs(), frequencies: self.frequencies
 }
 
-/// Most degrees of freedom: C is a full matrix.
+/// Largest number of degrees of freedom: C is a full matrix.
 const MOST: usize = 3000;
-/// A mode with more of its momentum in rigid motions is one. Their eigenvalues do not show it: rounding
-/// leaves them anything small, and in fine meshes the lowest modes that are not rigid are 10⁻¹² of
-/// the highest.
+/// A mode is rigid if rigid motions hold more than this fraction of its momentum.
+///
+/// Eigenvalues do not distinguish rigid modes: rounding leaves theirs small but arbitrary, and in fine meshes
+/// the lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
 const RIGID: f64 = 0.5;
-/// Springs that hold a base, over the largest stiffness: they are a millionth of it away from a fixed one.
+/// Stiffness of the springs that hold a base, over the largest stiffness: within a millionth of a fixed base.
 const HELD: f64 = 1e6;
-/// 1/ω² beside the largest that is rounding of massless degrees of freedom.
+/// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
 const MASSLESS: f64 = 1e-13;
 const SYMMETRIC_AND_HEAVY: Error = Error::Scene {
     quantity: "structure with modal damping",
@@ -147,8 +150,9 @@ const RESISTS: Error = Error::Scene {
 };
 
 impl ModalDamping {
-    /// Damping with the ratio ζ of each mode that is not rigid, from the lowest; the last ratio is
-    /// that of all further ones.
+    /// Damping with the ratio ζ of each mode that is not rigid, from the lowest.
+    ///
+    /// The last ratio holds for all further modes.
     ///
     /// # Errors
     /// [`Error::Size`] without ratios, [`Error::Input`] unless all are from 0 to below 1.
@@ -160,11 +164,12 @@ impl ModalDamping {
         Ok(Self { ratios: ratios.to_vec() })
     }
 
-    /// Gives this damping to the modes of a structure on its fixed base, as codes and tests state it: relative to
-    /// the base, u − R N u with N u the displacements of the contact nodes and R what follows them at rest. A mode φ
-    /// of circular frequency ω moves the base by forces K φ, which rigid motions do no work on:
-    /// C = Σ (2 ζ/ω³) K φ (K φ)ᵀ. Degrees of freedom may be massless. A nonlinear structure is taken with its first
-    /// tangent.
+    /// Gives this damping to the modes of a structure on its fixed base.
+    ///
+    /// Codes and tests state ratios of these modes. Displacements are relative to the base: u − R N u, with N
+    /// u the displacements of the contact nodes and R the displacements that follow them at rest. A mode φ of
+    /// circular frequency ω exerts the forces K φ, which do no work on rigid motions: C = Σ (2 ζ/ω³) K φ (K
+    /// φ)ᵀ. Degrees of freedom may be massless. The stiffness of a nonlinear structure is its first tangent.
     ///
     /// ```
     /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
@@ -175,7 +180,7 @@ impl ModalDamping {
     /// ```
     ///
     /// # Errors
-    /// As for [`ModalDamping::on`], but for massless degrees of freedom.
+    /// As for [`ModalDamping::on`], except for massless degrees of freedom.
     pub fn on_fixed_base(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let [mass, stiffness] = matrices(&structure)?;
         let nodes = base_nodes(&structure);
@@ -194,7 +199,7 @@ impl ModalDamping {
             column(&vectors, j, &mut mode);
             force.fill(0.0);
             stiffness.multiply_add(1.0, &mode, &mut force);
-            // Else it is the base on its springs that moves.
+            // Otherwise the base moves on its springs.
             if dot(&mode, &force) > 0.5 {
                 let circular = value.sqrt().recip();
                 let ratio = self.ratio(found.frequencies.len());
@@ -204,14 +209,16 @@ impl ModalDamping {
         Ok(found)
     }
 
-    /// Gives this damping to the modes of a structure by itself. A nonlinear one is taken with its first tangent.
+    /// Gives this damping to the modes of a structure without ground.
+    ///
+    /// The stiffness of a nonlinear structure is its first tangent.
     ///
     /// # Errors
-    /// [`Error::Input`] for more than 3000 degrees of freedom, of which a
-    /// [`CraigBampton`](crate::structure::CraigBampton) reduction leaves fewer; [`Error::Scene`] when the matrices
-    /// are not symmetric, the mass is not positive definite or a motion that is not rigid meets no
-    /// stiffness or a negative one; [`Error::Singular`] when contact nodes at rest do not hold the
-    /// structure; and what is wrong with the entries.
+    /// [`Error::Input`] for more than 3000 degrees of freedom: reduce the structure by
+    /// [`CraigBampton`](crate::structure::CraigBampton) first; [`Error::Scene`] when the matrices are not
+    /// symmetric, the mass is not positive definite or a motion that is not rigid has no stiffness or a
+    /// negative one; [`Error::Singular`] when contact nodes at rest do not hold the structure; and errors of
+    /// the entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let [mass, stiffness] = matrices(&structure)?;
         let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(SYMMETRIC_AND_HEAVY)?;
@@ -241,7 +248,7 @@ impl ModalDamping {
     }
 }
 
-/// Mass and stiffness of a structure, the latter with its first tangent.
+/// Mass and stiffness of a structure; the stiffness includes the first tangent.
 fn matrices(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
     let n = structure.dofs();
     let needed = "3000 or fewer: reduce it first";
@@ -298,7 +305,8 @@ impl Structure for WithModalDamping {
         self.structure.damping(matrix)?;
         let n = self.structure.dofs().max(1);
         for (place, &value) in self.damping.iter().enumerate() {
-            // a b and b a round alike: the matrix stays symmetric to the last bit.
+            // The mean of mirrored entries, which differ by rounding: the matrix is symmetric to the last
+            // bit.
             matrix.add(
                 place / n,
                 place % n,
@@ -309,24 +317,24 @@ impl Structure for WithModalDamping {
     }
 }
 
-// The motions of a structure that strain nothing.
+// Rigid motions of a structure, which strain nothing.
 
-/// A part of a rigid motion with less of its momentum than this is rounding.
+/// A part counts as at rest if it has less than this fraction of a motion's norm.
 const NOTHING: f64 = 1e-8;
-/// Remainder of a rigid motion beside the others, if it depends on them.
+/// A motion depends on the others if what is left after removing them is below this fraction.
 const DEPENDENT: f64 = 1e-6;
 
-/// Error for contact nodes that are made of degrees of freedom beyond the last of `n`.
+/// Error for contact nodes with degrees of freedom at `n` or beyond.
 fn check_rows(contact: &[FaceNode], n: usize) -> Result<()> {
     let mut rows = contact.iter().flat_map(FaceNode::rows);
     rows.try_for_each(|row| row.check("degree of freedom of a contact node", n))
 }
 
-/// Momenta M r of the rigid motions r, with r·M r = 1 and all others zero: to the right, upwards and
-/// turning, of every part of the structure that its stiffness connects.
+/// Momenta M r of the rigid motions r of every part that stiffness connects.
 ///
-/// A motion that strains nothing follows from that of the contact nodes, whatever the degrees of freedom
-/// mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes' displacements and t their prescribed values.
+/// Motions are to the right, upwards and turning, and orthonormal in M. A motion without strain follows from
+/// the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N
+/// gives the nodes' displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
     contact: &[FaceNode],
     stiffness: &SparseMatrix,

@@ -7,17 +7,19 @@ use crate::linalg::{
     Partition, SparseFactor, SparseMatrix, indefinite_row, largest, sparse_condition,
 };
 
-/// Condition of a part's stiffness from which on the part is taken to float: that of one that does is
-/// 10¹⁶ up to rounding, that of a tower 800 times as high as wide 10¹².
+/// Condition of a part's stiffness above which the part counts as floating.
+///
+/// A floating part has a condition of 10¹⁶ up to rounding, a tower 800 times as high as wide has 10¹².
 const FLOATS: f64 = 1e14;
-/// Distance of a mass from one up to which it is that of a mode, normalised.
+/// A modal mass within 1e-6 of one counts as normalised.
 const NORMALISED: f64 = 1e-6;
 
-/// Most degrees of freedom or nodes that a text names one by one.
+/// Largest number of degrees of freedom or nodes that a text lists.
 pub(super) const NAMED: usize = 8;
 
-/// Refuses a structure with a part that no stiffness joins to one of the degrees of freedom `base`; without
-/// any there is nothing to ask for.
+/// Error for a part that no stiffness connects to a degree of freedom of `base`.
+///
+/// Without any degree of freedom in `base` nothing is checked.
 pub(crate) fn check_attached(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
@@ -39,18 +41,18 @@ pub(crate) fn numbers(dofs: &[usize]) -> String {
     format!("{noun} {}", listed(&texts, dofs.len()))
 }
 
-/// The first few of `count` things.
+/// The listed texts, and how many of `count` are left out.
 pub(super) fn listed(texts: &[String], count: usize) -> String {
     let list = texts.join(", ");
     if count > texts.len() { format!("{list} and {} more", count - texts.len()) } else { list }
 }
 
-/// Degrees of freedom of all parts that have mass or stiffness, and are not connected by stiffness to one of the
-/// degrees of freedom `base`; ascending. Symmetric or not, entries that are exactly zero couple nothing.
+/// Degrees of freedom of all parts that stiffness does not connect to `base`, ascending.
 ///
-/// A part whose own stiffness holds it is none if the mass couples it with the rest: its degrees of freedom
-/// are coordinates relative to the base, those of modes for example. A mode that the base does not
-/// excite is recognised by its unit mass.
+/// A part without mass and stiffness does not count. Entries that are exactly zero couple nothing, in
+/// symmetric matrices or others. A part that its own stiffness holds is attached if the mass couples it with
+/// the rest: its degrees of freedom are coordinates relative to the base, for example of modes. A mode that
+/// the base does not excite is recognised by its unit mass.
 fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Result<Vec<usize>> {
     let n = stiffness.order();
     let Some(&first) = base.first() else { return Ok(Vec::new()) };
@@ -96,7 +98,7 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     Ok(found)
 }
 
-/// The part of a matrix in the degrees of freedom that have a place, in those places.
+/// Submatrix of the degrees of freedom that have a place, in the order of their places.
 pub(super) fn restricted(
     name: &'static str,
     matrix: &SparseMatrix,
@@ -112,7 +114,7 @@ pub(super) fn restricted(
     SparseMatrix::new(name, &part)
 }
 
-/// Whether a stiffness lets nothing move freely.
+/// Whether a stiffness resists every motion.
 fn holds_itself(stiffness: &Triplets) -> Result<bool> {
     const NAME: &str = "stiffness matrix of a part";
     let matrix = SparseMatrix::new(NAME, stiffness)?;
@@ -153,14 +155,16 @@ impl<'a> HeldBase<'a> {
         SparseFactor::new(Self::NAME, &self.matrix)
     }
 
-    /// γ Nᵀ1 for 1 m to the right, upwards and, in plan, away.
+    /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.
     pub(crate) fn pulls(&self) -> Vec<Vec<f64>> {
         let rows = |direction| self.nodes.iter().map(move |node| (node.rows()[direction], 1.0));
         (0..self.directions()).map(|direction| self.forces(rows(direction))).collect()
     }
 
-    /// γ Nᵀn for rotations of `nodes` by 1 rad about `middle`: in the plane of x and up, and in plan out of the two
-    /// others.
+    /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
+    ///
+    /// In the plane: the rotation of x and up. In plan: the rotations of x and up, of y and up, and of x and
+    /// y.
     pub(crate) fn turns<'b>(
         &self,
         nodes: impl Iterator<Item = &'b FaceNode> + Clone,
@@ -183,7 +187,7 @@ impl<'a> HeldBase<'a> {
         self.nodes.first().map_or(PLANE, FaceNode::directions)
     }
 
-    /// Forces of springs that are pulled by these amounts.
+    /// Forces of springs with these elongations.
     fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
         let mut force = vec![0.0; self.matrix.order()];
         for (row, amount) in pulled {
@@ -205,25 +209,29 @@ pub(crate) fn stiffest(stiffness: &SparseMatrix) -> f64 {
 
 /// Relative difference of mirrored entries up to which a matrix counts as symmetric.
 pub(super) const SYMMETRIC: f64 = 1e-9;
-/// Negative masses and dampings up to this, relative to those on the diagonal, are rounding: a file
-/// with seven digits leaves as much of a singular matrix.
+/// Negative masses and dampings up to this fraction of the diagonal are rounding.
+///
+/// A file with seven digits leaves as much of a singular matrix.
 const SEMI_DEFINITE: f64 = 1e-6;
-/// Masses and dampings up to this, relative to the largest entry, are rounding: reductions and sums
-/// leave as much of none. One bound for kg and kg m², which differ by far less.
+/// Masses and dampings up to this fraction of the largest entry are rounding.
+///
+/// Reductions and sums leave as much of a zero. One bound serves kg and kg m², which differ by far less.
 pub(super) const MASSLESS: f64 = 1e-12;
 
-/// Whether each degree of freedom has no mass, but for rounding.
+/// Whether each degree of freedom is massless, up to rounding.
 pub(crate) fn massless(mass: &SparseMatrix) -> Vec<bool> {
     let masses = mass.diagonal();
     let most = MASSLESS * largest(&masses);
     masses.iter().map(|mass| mass.abs() <= most).collect()
 }
 
-/// Square of a circular frequency (1/s²) that no run notices: a period of a day.
+/// Square of a circular frequency (1/s²) too low to affect a run: a period of a day.
 pub(crate) const UNNOTICED: f64 = 5.29e-9;
 
-/// Refuses a stiffness matrix that is not symmetric. A difference is relative to the diagonal of its row and column,
-/// and to the inertia of `mass` there, so that no scaling of coordinates changes it.
+/// Error unless the stiffness matrix is symmetric.
+///
+/// A difference is relative to the diagonal of its row and column and to the inertia of `mass` there, so that
+/// scaling of coordinates does not change the result.
 pub(crate) fn check_stiffness(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<()> {
     let [diagonal, masses] = [stiffness.diagonal(), mass.diagonal()];
     let rounding = MASSLESS * stiffness.entries().fold(0.0, |m: f64, (_, _, k)| m.max(k.abs()));
@@ -233,7 +241,7 @@ pub(crate) fn check_stiffness(stiffness: &SparseMatrix, mass: &SparseMatrix) -> 
     })
 }
 
-/// Refuses a matrix whose mirrored entries differ by more than 1e-9 of its largest.
+/// Error for mirrored entries that differ by more than 1e-9 of the largest entry.
 pub(super) fn check_mirrored(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
     let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
     check_symmetric(name, matrix, |_, _| SYMMETRIC * largest)
@@ -249,12 +257,12 @@ fn check_symmetric(
     matrix.unsymmetric_pair(allowed).map_or(Ok(()), |pair| Err(refused(pair)))
 }
 
-/// Refuses a mass matrix that is not symmetric or not positive semi-definite.
+/// Error unless the mass matrix is symmetric and positive semi-definite.
 pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
     check_semi_definite("mass matrix", mass)
 }
 
-/// Refuses a damping matrix that is not symmetric or not positive semi-definite.
+/// Error unless the damping matrix is symmetric and positive semi-definite.
 pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
     check_semi_definite("damping matrix", damping)
 }

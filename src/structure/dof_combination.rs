@@ -6,9 +6,9 @@ use crate::error::{Result, finite, in_bounds};
 
 /// A weighted sum of a structure's degrees of freedom: a displacement of a point, a drift, a rotation.
 ///
-/// It is kept as (degree of freedom, weight) terms, in the order they were given; a degree of freedom that comes more
-/// than once counts with the sum of its weights. Whatever takes a row takes a bare degree of freedom (with
-/// weight one), a term, or a list of terms too.
+/// It stores (degree of freedom, weight) terms in the order given. A degree of freedom that occurs more than
+/// once counts with the sum of its weights. A function that takes a combination also takes a bare degree of
+/// freedom (with weight one), a term, or a list of terms.
 ///
 /// ```
 /// use basemat::structure::DofCombination;
@@ -27,8 +27,9 @@ use crate::error::{Result, finite, in_bounds};
 pub struct DofCombination(Vec<(usize, f64)>);
 
 impl DofCombination {
-    /// The sum for these values of all degrees of freedom (displacements, velocities or accelerations);
-    /// degrees of freedom beyond their end count as zero.
+    /// The sum for these values of all degrees of freedom.
+    ///
+    /// `dofs`: displacements, velocities or accelerations; degrees of freedom beyond their end count as zero.
     pub fn value(&self, dofs: &[f64]) -> f64 {
         let at = |index: usize| dofs.get(index).copied().unwrap_or(0.0);
         self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
@@ -39,8 +40,9 @@ impl DofCombination {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
     }
 
-    /// Error for a weight that is not finite, or a degree of freedom at `bound` or beyond, which the error
-    /// calls `quantity`.
+    /// Error for a weight that is not finite, or a degree of freedom at `bound` or beyond.
+    ///
+    /// `quantity`: name of the degree of freedom in the error.
     pub(crate) fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
         for &(index, weight) in &self.0 {
             finite("weight of a degree of freedom", weight)?;

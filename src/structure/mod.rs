@@ -61,138 +61,151 @@ use crate::error::Result;
 
 /// A structure as the integrator sees it: implement this for your own model.
 ///
-/// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up, rotations
-/// counter-clockwise), measured from the unloaded state. Its matrices are written for **absolute**
-/// ones. Since no translation strains it, f is evaluated, and a step committed, at displacements less
-/// the mean translation of the base (of each connected part), with the static ones added. It obeys
+/// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up,
+/// rotations counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute**
+/// displacements. A translation strains nothing. The force f is therefore evaluated, and a step committed, at
+/// displacements from which the mean translation of the base (of each connected part) is subtracted; static
+/// displacements are included. The structure obeys
 ///
 /// ```text
 /// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces
 /// ```
 ///
-/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
-/// does not act on the translation with the ground) and f the optional [`NonlinearForce`]. Four methods
-/// are needed: [`dofs`](Structure::dofs), [`contact_nodes`](Structure::contact_nodes),
-/// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness).
+/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act
+/// on the translation with the ground) and f the optional [`NonlinearForce`]. Four methods are needed:
+/// [`dofs`](Structure::dofs), [`contact_nodes`](Structure::contact_nodes), [`mass`](Structure::mass) and
+/// [`stiffness`](Structure::stiffness).
 ///
-/// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
-/// may resist a rigid translation to the right or upwards. Structures with stiffness to a fixed point are
-/// an error when a simulation is built ([`Error::Restrained`](crate::Error::Restrained)), and so are
-/// those with a part that has mass or stiffness, but is not connected by stiffness to the degrees of freedom of a
-/// contact node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to the base,
-/// which a stiffness of their own holds and the mass couples with the rest, are no such part.
+/// No support is fixed; the ground holds the structure up. Neither K nor the tangent of f at rest may resist
+/// a rigid translation to the right or upwards. Building a simulation returns
+/// [`Error::Restrained`](crate::Error::Restrained) for stiffness to a fixed point. It returns
+/// [`Error::Detached`](crate::Error::Detached) for a part that has mass or stiffness but is not connected by
+/// stiffness to the degrees of freedom of a contact node. Modal and other base-relative coordinates are
+/// allowed: their own stiffness holds them, and mass couples them to the base.
 ///
-/// All forces are per metre of thickness, but for a structure in plan ([`contact_faces`](Structure::contact_faces)),
-/// which moves in three directions: x to the right, y away from the reader, z up. Matrices and loads may fail, with
-/// [`Error::part`](crate::Error::part) for a reason of your own: it ends the build, or the step with
-/// nothing of it committed.
+/// All forces are per metre of thickness, except for a structure in plan
+/// ([`contact_faces`](Structure::contact_faces)), which moves in three directions: x to the right, y away
+/// from the reader, z up. Matrices and loads may return an error, for a reason of your own by
+/// [`Error::part`](crate::Error::part). The error ends the build, or the step with nothing of it committed.
 ///
-/// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads
-/// back to your own type, and what its internal variables have become.
+/// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads back to
+/// your own type and its current internal variables.
 #[auto_impl::auto_impl(Box)]
 pub trait Structure: Any + Send {
     /// Number of degrees of freedom n.
     fn dofs(&self) -> usize;
 
-    /// Points of the base that touch the ground, from left to right; between neighbours the base
-    /// is straight. A rigid base needs two.
+    /// Points of the base that touch the ground, from left to right.
+    ///
+    /// Between neighbours the base is straight. A rigid base needs two.
     fn contact_nodes(&self) -> Vec<ContactNode>;
 
-    /// Contact nodes that are the last of a foundation, the structure's last one excepted: between
-    /// such a node and the next there is no base. Default: none, one foundation. In plan the faces decide.
+    /// The last contact node of each foundation, except of the last foundation.
+    ///
+    /// Between such a node and the next there is no base. Default: none, one foundation. In plan the faces
+    /// decide.
     fn foundation_ends(&self) -> Vec<usize> {
         Vec::new()
     }
 
-    /// Faces of a base in plan, for a ground of three directions: triangles or other convex polygons, each by its
-    /// corners in either order, flat and at one height, not overlapping. Over a triangle the base is flat, over a
-    /// quadrilateral bilinear; one of more corners is made of triangles from its first one. A rigid base needs one
-    /// face, its outline. Faces that share a corner, or have one on the other's edge, are of one foundation, others of
-    /// foundations of their own. Default: none, a line of [`contact_nodes`](Structure::contact_nodes) in the plane; a
-    /// structure with faces has none of those.
+    /// Faces of a base in plan, for a ground of three directions.
+    ///
+    /// Faces are triangles or other convex polygons, each given by its corners in either order, flat and at
+    /// one height, not overlapping. The base is flat over a triangle and bilinear over a quadrilateral; a
+    /// polygon of more corners is divided into triangles from its first corner. A rigid base needs one face,
+    /// its outline. Faces that share a corner, or have a corner on the other's edge, belong to one
+    /// foundation; other faces are foundations of their own. Default: none, a line of
+    /// [`contact_nodes`](Structure::contact_nodes) in the plane. A structure with faces has no contact nodes.
     fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
         Vec::new()
     }
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`. Symmetric, positive semi-definite.
     ///
-    /// Degrees of freedom without mass are allowed. Rounding passes: entries on the diagonal down to −10⁻¹² of
-    /// the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
-    /// diagonal of one. With more than that no simulation is built
-    /// ([`Error::Indefinite`](crate::Error::Indefinite)).
+    /// Degrees of freedom without mass are allowed. Rounding is accepted: entries on the diagonal down to
+    /// −10⁻¹² of the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
+    /// diagonal of one. Beyond that `build` returns [`Error::Indefinite`](crate::Error::Indefinite).
     ///
     /// # Errors
-    /// Any: it is what `build` returns.
+    /// Any: `build` returns it.
     fn mass(&self, matrix: &mut Triplets) -> Result<()>;
 
     /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
     ///
-    /// Symmetric, or no simulation is built ([`Error::Unsymmetric`](crate::Error::Unsymmetric));
-    /// [`has_active_stiffness`](Structure::has_active_stiffness) lifts that.
-    /// Of a linear structure it must be positive semi-definite with the base held, up to rounding (10⁻¹² of its largest entry on the diagonal), or no simulation is
-    /// built ([`Error::Indefinite`](crate::Error::Indefinite)). Lagrange multipliers are excepted:
-    /// a degree of freedom with exactly zero on the diagonal, no mass and no damping, but coefficients cⱼ in
-    /// its row and column, is the force that keeps Σ cⱼ uⱼ = 0, and the rest must be positive
-    /// semi-definite for the displacements that this leaves.
+    /// Symmetric, unless [`has_active_stiffness`](Structure::has_active_stiffness) returns `true`; otherwise
+    /// `build` returns [`Error::Unsymmetric`](crate::Error::Unsymmetric). The stiffness of a linear structure
+    /// must be positive semi-definite with the base held, up to rounding (10⁻¹² of its largest entry on the
+    /// diagonal); otherwise `build` returns [`Error::Indefinite`](crate::Error::Indefinite). Lagrange
+    /// multipliers are excepted: a degree of freedom with exactly zero on the diagonal, no mass and no
+    /// damping, but coefficients cⱼ in its row and column, is the force that keeps Σ cⱼ uⱼ = 0. The rest must
+    /// be positive semi-definite for the displacements that this constraint leaves.
     ///
     /// # Errors
-    /// Any: it is what `build` returns.
+    /// Any: `build` returns it.
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
 
     /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
     ///
-    /// Symmetric and positive semi-definite, up to rounding as for the mass, or no simulation is
-    /// built ([`Error::Unsymmetric`](crate::Error::Unsymmetric), [`Error::Indefinite`](crate::Error::Indefinite));
-    /// [`has_active_damping`](Structure::has_active_damping) lifts that.
+    /// Symmetric and positive semi-definite, up to rounding as for the mass; otherwise `build` returns
+    /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) or [`Error::Indefinite`](crate::Error::Indefinite).
+    /// A structure whose [`has_active_damping`](Structure::has_active_damping) returns `true` is not checked.
     ///
     /// # Errors
-    /// Any: it is what `build` returns.
+    /// Any: `build` returns it.
     fn damping(&self, _matrix: &mut Triplets) -> Result<()> {
         Ok(())
     }
 
-    /// Whether the damping matrix is meant to be unsymmetric or to feed energy in, as gyroscopes and
-    /// active dampers do: then it is taken as it is. Default: no.
+    /// Whether the damping matrix may be unsymmetric or feed energy in. Default: no.
+    ///
+    /// Gyroscopes and active dampers have such a matrix. It is then not checked.
     fn has_active_damping(&self) -> bool {
         false
     }
 
-    /// Whether the stiffness matrix is meant to be unsymmetric, as the stiffness of follower forces is: then it is taken
-    /// as it is. Its work is not in the energy balance, which stays open by it. Default: no.
+    /// Whether the stiffness matrix may be unsymmetric. Default: no.
+    ///
+    /// Follower forces have such a stiffness. It is then not checked. Its work is not in the energy balance,
+    /// which stays open by that amount.
     fn has_active_stiffness(&self) -> bool {
         false
     }
 
-    /// Largest height of a storey (m): a run warns of one above 100 m, which is one in another unit. Default: `None`.
+    /// Largest height of a storey, m. Default: `None`.
+    ///
+    /// A run warns of a height above 100 m, which is probably in another unit.
     fn tallest_storey(&self) -> Option<f64> {
         None
     }
 
-    /// Name of these degrees of freedom in errors, for a person who knows the structure by its nodes or storeys.
-    /// Default: `None`, and errors give their numbers.
+    /// Name of these degrees of freedom for errors, by nodes or storeys.
+    ///
+    /// Default: `None`; errors then give their numbers.
     fn describe(&self, _dofs: &[usize]) -> Option<String> {
         None
     }
 
-    /// Adds the external load at `time` (n, N/m), weight excepted, to `load`. Default: none.
+    /// Adds the external load at `time` (n, N/m), without the weight, to `load`. Default: none.
     ///
     /// # Errors
-    /// Any: at t = 0 it is what `build` returns, later the source of
+    /// Any: at t = 0 `build` returns it; later it is the source of
     /// [`StepError::Structure`](crate::StepError::Structure).
     fn load(&self, _time: f64, _load: &mut [f64]) -> Result<()> {
         Ok(())
     }
 
-    /// The nonlinear force f(u); `None`, the default, for a linear structure. A structure that
-    /// implements [`NonlinearForce`] itself says `Some(self)`, here and in
+    /// The nonlinear force f(u). Default: `None`, for a linear structure.
+    ///
+    /// A structure that implements [`NonlinearForce`] itself returns `Some(self)`, here and in
     /// [`nonlinear_mut`](Structure::nonlinear_mut).
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
         None
     }
 
-    /// Nonlinear force of the structure, to commit a step or restore a state. No simulation takes a structure that
-    /// gives it here and not in [`nonlinear`](Structure::nonlinear), or the other way round
-    /// ([`Error::Scene`](crate::Error::Scene)).
+    /// Nonlinear force of the structure, to commit a step or restore a state.
+    ///
+    /// If only one of this method and [`nonlinear`](Structure::nonlinear) returns a force, `build` returns
+    /// [`Error::Scene`](crate::Error::Scene).
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
         None
     }

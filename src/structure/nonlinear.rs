@@ -8,7 +8,7 @@ use crate::linalg::mixed;
 /// Energy of internal forces, J per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InternalEnergy {
-    /// Energy that unloading gives back.
+    /// Energy that unloading recovers.
     pub stored: f64,
     /// Energy turned into heat since the structure was new; it never decreases.
     pub dissipated: f64,
@@ -22,14 +22,14 @@ impl std::ops::Add for InternalEnergy {
     }
 }
 
-/// The nonlinear force f(u) of a structure, beyond K u: implement this for materials that yield,
-/// geometry that changes, parts that collide.
+/// The nonlinear force f(u) of a structure, beyond K u.
 ///
-/// A [`Structure`] hands it out by [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force,
-/// tangent and energy belong to a trial `displacement` reached from the last **committed** one, and
-/// change nothing; [`commit`](NonlinearForce::commit) accepts the end of a step. Force and tangent are
-/// asked where the time scheme writes its equations (the midpoint rule: halfway through the step), at
-/// every iterate of Newton's method.
+/// Implement this for materials that yield, geometry that changes, parts that collide. A [`Structure`]
+/// returns it by [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force, tangent and energy belong
+/// to a trial `displacement` reached from the last **committed** displacement, and change nothing;
+/// [`commit`](NonlinearForce::commit) accepts the end of a step. Force and tangent are evaluated where the
+/// time scheme writes its equations (the midpoint rule: halfway through the step), at every iterate of
+/// Newton's method.
 ///
 /// ```
 /// use basemat::structure::{ContactNode, NonlinearForce, RigidBlock, Structure, Triplets};
@@ -88,33 +88,38 @@ pub trait NonlinearForce {
     /// Adds f(u) (n, N per metre of thickness) to `force`.
     ///
     /// # Errors
-    /// Any error, [`Error::part`](crate::Error::part) for one of your own, ends the step with
-    /// [`StepError::Structure`](crate::StepError::Structure), and nothing of it is committed. So does
-    /// one at an iterate that Newton's method would have left again: a limit that the structure should
-    /// only be reported to have passed belongs into the observer of
-    /// [`Simulation::run`](crate::Simulation::run), whose error ends the run after the step.
+    /// Any error, [`Error::part`](crate::Error::part) for a reason of your own, ends the step with
+    /// [`StepError::Structure`](crate::StepError::Structure), and nothing of the step is committed. An error
+    /// at an iterate ends the step even if Newton's method would have left that iterate again. To report that
+    /// the structure has passed a limit, return an error from the observer of
+    /// [`Simulation::run`](crate::Simulation::run): it ends the run after the step.
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()>;
 
-    /// Adds the tangent ∂f/∂u (n × n) to `matrix`, with the same sparsity at every call or less.
+    /// Adds the tangent ∂f/∂u (n × n) to `matrix`.
+    ///
+    /// Its entries are at the same places at every call, or at fewer.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
 
-    /// Energies of f at `displacement`, where they are known: stored energy then counts as strain
-    /// energy of the energy balance, dissipated energy as
-    /// [`hysteresis`](crate::coupled::EnergyBalance::hysteresis). Default: unknown, and all work of f counts
-    /// as strain energy.
+    /// Energies of f at `displacement`, where they are known. Default: unknown.
+    ///
+    /// Stored energy counts as strain energy of the energy balance, dissipated energy as
+    /// [`hysteresis`](crate::coupled::EnergyBalance::hysteresis). If the energies are unknown, all work of f
+    /// counts as strain energy.
     fn energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
         None
     }
 
-    /// Accepts a step that ended with `displacement`: internal variables may change here only. Called
-    /// for the static state and an initial motion, too. Default: there are none.
+    /// Accepts a step that ended with `displacement`. Default: does nothing.
+    ///
+    /// Internal variables may change here only. Also called for the static state and an initial motion.
     fn commit(&mut self, _displacement: &[f64]) {}
 
-    /// The internal variables that [`commit`](NonlinearForce::commit) changes, for a checkpoint. A
-    /// force without any says `Ok(Vec::new())`.
+    /// The internal variables that [`commit`](NonlinearForce::commit) changes, for a checkpoint.
+    ///
+    /// A force without internal variables returns `Ok(Vec::new())`.
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`] unless implemented.
@@ -122,12 +127,13 @@ pub trait NonlinearForce {
         Err(CheckpointError::Unsupported { part: "structure" }.into())
     }
 
-    /// Takes back what [`save`](NonlinearForce::save) returned; all values are finite. Unchanged on
-    /// an error.
+    /// Restores the variables that [`save`](NonlinearForce::save) returned.
+    ///
+    /// All values are finite. On an error the force stays unchanged.
     ///
     /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that cannot be such, or
-    /// [`Error::part`](crate::Error::part) with more to say. The default takes none.
+    /// [`CheckpointError::Corrupt`] for impossible values, or [`Error::part`](crate::Error::part) with a more
+    /// precise reason. The default returns an error for any value.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         no_variables(values)
     }
@@ -138,7 +144,7 @@ pub(crate) fn save_variables(structure: &dyn Structure) -> Result<Vec<f64>> {
     structure.nonlinear().map_or_else(|| Ok(Vec::new()), NonlinearForce::save)
 }
 
-/// Takes back internal variables; unchanged on an error.
+/// Restores internal variables; on an error the structure stays unchanged.
 pub(crate) fn restore_variables(structure: &mut dyn Structure, values: &[f64]) -> Result<()> {
     match structure.nonlinear_mut() {
         Some(force) => force.restore(values),
@@ -157,8 +163,7 @@ fn no_variables(values: &[f64]) -> Result<()> {
 /// Whether a structure has a nonlinear force.
 ///
 /// # Errors
-/// [`Error::Scene`] if it shows one by only one of [`Structure::nonlinear`] and
-/// [`Structure::nonlinear_mut`].
+/// [`Error::Scene`] if only one of [`Structure::nonlinear`] and [`Structure::nonlinear_mut`] returns a force.
 pub(crate) fn is_nonlinear(structure: &mut dyn Structure) -> Result<bool> {
     let shown = structure.nonlinear().is_some();
     if structure.nonlinear_mut().is_some() == shown {
@@ -169,7 +174,7 @@ pub(crate) fn is_nonlinear(structure: &mut dyn Structure) -> Result<bool> {
     Err(Error::Scene { quantity, needed })
 }
 
-/// f and its energies at a displacement; zero and unknown for a linear structure.
+/// f and its energies at a displacement; zero and `None` for a linear structure.
 pub(crate) fn nonlinear_state(
     structure: &dyn Structure,
     displacement: &[f64],
@@ -198,7 +203,7 @@ impl Tangent {
         Ok(tangent)
     }
 
-    /// Goes to the tangent at a displacement; allocates only for entries at new places.
+    /// Computes the tangent at a displacement; allocates only for entries at new places.
     pub(crate) fn refill(&mut self, structure: &dyn Structure, displacement: &[f64]) -> Result<()> {
         const NAME: &str = "tangent of the nonlinear force";
         self.entries.clear();

@@ -4,11 +4,12 @@ use crate::error::{Error, Result};
 use crate::structure::{DofCombination, SectionRows};
 use crate::text::column::column;
 
-/// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
+/// A quantity recorded at every step: a weighted sum of displacements, velocities, accelerations.
 ///
-/// Displacements are changes against the static state, relative to the translation of the free field (under the
-/// connected part they belong to); [`Probe::absolute_displacement`] includes it, [`DofCombination::relative_to_base`]
-/// and [`DofCombination::total_drift`] take the motion of the base out as well. Velocities and accelerations are total.
+/// Displacements are changes from the static state, relative to the translation of the free field under the
+/// connected part. [`Probe::absolute_displacement`] includes that translation;
+/// [`DofCombination::relative_to_base`] and [`DofCombination::total_drift`] also subtract the motion of the
+/// base. Velocities and accelerations are total.
 ///
 /// ```
 /// use basemat::coupled::Probe;
@@ -33,10 +34,9 @@ use crate::text::column::column;
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Probe {
-    /// Name, for tables; no two probes of a simulation have the same.
+    /// Name, for tables; different for each probe of a simulation.
     pub name: String,
-    /// Unit, for tables; empty for none. Values are what the weights make of SI units, whatever it
-    /// says.
+    /// Unit, for tables; may be empty. It is a label: values are weighted sums in SI units.
     pub unit: String,
     /// Sum of displacements (changes against the static state).
     pub displacement: DofCombination,
@@ -59,12 +59,12 @@ impl Probe {
         Self { absolute: true, ..Self::displacement(name, row) }
     }
 
-    /// Velocity (m/s): a degree of freedom's, or a weighted sum of some.
+    /// Velocity (m/s) of a degree of freedom, or a weighted sum of velocities.
     pub fn velocity(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { velocity: row.into(), ..Self::new(name, "m/s") }
     }
 
-    /// Acceleration (m/s²): a degree of freedom's, or a weighted sum of some.
+    /// Acceleration (m/s²) of a degree of freedom, or a weighted sum of accelerations.
     pub fn acceleration(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { acceleration: row.into(), ..Self::new(name, "m/s²") }
     }
@@ -81,8 +81,8 @@ impl Probe {
 
     /// Replaces the label of the probe's unit, for a rotation for example; values stay.
     ///
-    /// Printed tables and pictures turn the labels "m", "rad", "N/m" and "N·m/m" into mm, mrad, kN/m
-    /// and kN·m/m, and leave others as they are; files are in the probe's unit.
+    /// Printed tables and pictures convert the labels "m", "rad", "N/m" and "N·m/m" to mm, mrad, kN/m and
+    /// kN·m/m. They leave other labels as they are. Files use the probe's unit.
     #[must_use]
     pub fn in_unit(self, unit: impl Into<String>) -> Self {
         Self { unit: unit.into(), ..self }
@@ -117,7 +117,7 @@ impl Probe {
     }
 }
 
-/// Refuses probes of degrees of freedom that there are not, and two of the same name.
+/// Error for probes of degrees of freedom that do not exist, and for two probes of one name.
 pub(crate) fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {

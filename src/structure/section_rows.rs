@@ -11,7 +11,7 @@ pub struct SectionRows {
     pub displacement: DofCombination,
     /// Weights of the velocities: dashpots and stiffness-proportional damping.
     pub velocity: DofCombination,
-    /// Weights of the accelerations: the fraction of the mass above that sits on the cut's nodes.
+    /// Weights of the accelerations: the part of the mass above that acts on the cut's nodes.
     pub acceleration: DofCombination,
 }
 
@@ -28,7 +28,9 @@ impl Default for SectionRows {
 }
 
 impl SectionRows {
-    /// The resultant's value; slices of all degrees of freedom, indices beyond their ends count as zero.
+    /// The resultant's value.
+    ///
+    /// The slices hold all degrees of freedom; indices beyond their ends count as zero.
     pub fn value(&self, displacement: &[f64], velocity: &[f64], acceleration: &[f64]) -> f64 {
         self.displacement.value(displacement)
             + self.velocity.value(velocity)

@@ -11,8 +11,9 @@ use crate::structure::InternalEnergy;
 /// F = α k d + (1 − α) F_y z,      ż = (1 − (β sgn(ḋ z) + γ)|z|ⁿ) ḋ/d_y,      β + γ = 1,  d_y = F_y/k
 /// ```
 ///
-/// Steps follow this equation exactly on straight paths, however long they are. With β ≥ ½ it
-/// only takes energy (Erlicher & Point 2004); the stored part counted is ½ α k d² + ½ (1−α) F_y d_y z².
+/// Steps follow this equation exactly on straight paths, however long they are. With β ≥ ½ the spring never
+/// releases more energy than it has stored (Erlicher & Point 2004). Stored energy is ½ α k d² + ½ (1−α) F_y d_y
+/// z².
 ///
 /// ```
 /// use basemat::structure::{BoucWen, Hysteresis};
@@ -34,9 +35,10 @@ pub struct BoucWen {
 }
 
 impl BoucWen {
-    /// Spring with first `stiffness` k (N/m), `yield_force` F_y (N) and ratio `hardening` α of the
-    /// last slope to the first, per metre of thickness. Exponent n = 2 and β = ½ unless set
-    /// otherwise.
+    /// Spring with first stiffness k, yield force F_y and hardening α.
+    ///
+    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the last slope to the first. All per metre of
+    /// thickness. The exponent n is 2 and β is ½ unless set otherwise.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
@@ -50,8 +52,10 @@ impl BoucWen {
         Ok(Self { stiffness, yield_force, hardening, curve, deformation, z, dissipated })
     }
 
-    /// Sets the exponent n (the larger, the sharper the spring yields) and β: with ½ it unloads straight, above ½ along
-    /// a curve that bulges.
+    /// Sets the exponent n and β.
+    ///
+    /// The larger n, the sharper the spring yields. With β = ½ it unloads straight, above ½ along a curve that
+    /// bulges.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 1 ≤ n ≤ 10 and ½ ≤ β ≤ 1.
@@ -66,8 +70,9 @@ impl BoucWen {
         Ok(self)
     }
 
-    /// z at a deformation, dz/d(d/d_y) there, and what the way has dissipated, in units of
-    /// (1 − α) F_y d_y.
+    /// z at a deformation, dz/d(d/d_y) there, and the energy dissipated on the path to it.
+    ///
+    /// Energy in units of (1 − α) F_y d_y.
     fn follow(&self, deformation: f64) -> (f64, f64, f64) {
         let change = deformation - self.deformation;
         let side = if change == 0.0 { -self.z.signum() } else { change.signum() };
@@ -127,7 +132,7 @@ impl Hysteresis for BoucWen {
     }
 }
 
-/// Exponent and shape, with the integrals up to ½.
+/// Exponent and shape of z, with the integrals of its equation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
     exponent: f64,
@@ -135,7 +140,7 @@ pub(super) struct Curve {
     unloading: f64,
 }
 
-/// Newton's iterations; they converge from one side, quadratically at last.
+/// Limit of Newton's iterations, which converge from one side and finally quadratically.
 const ITERATIONS: usize = 60;
 
 impl Curve {
@@ -149,7 +154,7 @@ impl Curve {
         if y > 0.0 { 1.0 - power } else { 1.0 + self.unloading * power }
     }
 
-    /// y after a way ξ ≥ 0 from y₀, and ∫ y (1 − dy/dξ) dξ, what the way dissipates.
+    /// y after a path ξ ≥ 0 from y₀, and the energy ∫ y (1 − dy/dξ) dξ dissipated on it.
     pub(super) fn advance(&self, start: f64, way: f64) -> (f64, f64) {
         if !(start.abs() <= 1.0 && way.is_finite()) {
             return (f64::NAN, f64::NAN);
@@ -240,7 +245,7 @@ impl Curve {
                 break;
             }
         }
-        // The last digit must not turn back.
+        // Rounding must not reverse the direction.
         (-f64::exp_m1(-v)).clamp(start, 1.0)
     }
 
@@ -267,13 +272,13 @@ fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     half * points.map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>()
 }
 
-// Lead–rubber bearing.
+// Lead–rubber bearing by its engineering parameters.
 
-/// Lead–rubber bearing, bilinear by its engineering parameters.
+/// Lead–rubber bearing: a bilinear spring from engineering parameters.
 ///
-/// The rubber gives the stiffness after yield K₂ = G A/t, the lead core the characteristic strength
-/// Q = τ_y A_lead (the force at zero displacement of a wide loop), and together they start with
-/// K₁ = r K₂ (Skinner, Robinson & McVerry 1993; Naeim & Kelly 1999: r ≈ 10, τ_y ≈ 10 MPa).
+/// The rubber has the stiffness after yield K₂ = G A/t, the lead core the characteristic strength Q = τ_y A_lead
+/// (the force at zero displacement of a wide loop). The initial stiffness of both is K₁ = r K₂ (Skinner, Robinson
+/// & McVerry 1993; Naeim & Kelly 1999: r ≈ 10, τ_y ≈ 10 MPa).
 ///
 /// ```
 /// use basemat::structure::{Hysteresis, LeadRubber};
@@ -291,13 +296,15 @@ pub struct LeadRubber {
 }
 
 impl LeadRubber {
-    /// Shear stress at which lead yields unless set otherwise, Pa.
+    /// Shear stress at which lead yields by default, Pa.
     pub(crate) const LEAD_YIELD_STRESS: f64 = 10.0e6;
-    /// Ratio of the first stiffness to that after yield unless set otherwise.
+    /// Default ratio of the first stiffness to the stiffness after yield.
     pub const STIFFNESS_RATIO: f64 = 10.0;
 
-    /// Bearings with rubber of `shear_modulus` G (Pa), `rubber_area` A (m²) and total
-    /// `rubber_thickness` t (m), and cores of `lead_area` (m²); areas per metre of thickness.
+    /// Bearings of rubber with lead cores.
+    ///
+    /// `shear_modulus` G of the rubber: Pa. `rubber_area` A: m². `rubber_thickness` t: total, m. `lead_area` of
+    /// the cores: m². Areas are per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless all are positive.
@@ -315,8 +322,9 @@ impl LeadRubber {
         Self::from_strength(rubber, lead_area * Self::LEAD_YIELD_STRESS)
     }
 
-    /// Bearings with stiffness after yield K₂ (N/m) and characteristic strength Q (N), per metre
-    /// of thickness.
+    /// Bearings with stiffness after yield K₂ (N/m) and characteristic strength Q (N).
+    ///
+    /// Both per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both are positive.
@@ -328,7 +336,7 @@ impl LeadRubber {
         Ok(Self { slider: Slider::new(stiffness, series, strength) })
     }
 
-    /// Sets the ratio of the initial stiffness to that after yield.
+    /// Sets the ratio of the initial stiffness to the stiffness after yield.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and above 1.

@@ -19,11 +19,11 @@ pub struct SpringResponse {
     pub tangent: f64,
 }
 
-/// A spring whose force depends on where it has been: implement this for a law of your own.
+/// A spring whose force depends on its past deformation: implement this for your own law.
 ///
-/// The spring keeps the deformation of the last **committed** step and its internal variables
-/// there. From there it is led straight to any trial deformation as often as Newton's method
-/// wants, without keeping it; [`commit`](Hysteresis::commit) accepts one.
+/// The spring stores the deformation of the last **committed** step and its internal variables there. From there
+/// Newton's method evaluates trial deformations, on a straight path and any number of times, without changing the
+/// spring. [`commit`](Hysteresis::commit) accepts a deformation.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, Hysteresis};
@@ -43,24 +43,26 @@ pub trait Hysteresis: Send {
     /// Force and tangent at `deformation` (m), reached straight from the last committed one.
     fn response(&self, deformation: f64) -> SpringResponse;
 
-    /// Energies at `deformation`, reached in the same way: stored plus dissipated energy is the
-    /// work of the force along the path.
+    /// Stored and dissipated energy at `deformation`, on a straight path to it.
+    ///
+    /// Their sum is the work of the force along the path.
     fn energy(&self, deformation: f64) -> InternalEnergy;
 
     /// Accepts a step that ended with `deformation`.
     fn commit(&mut self, deformation: f64);
 
-    /// The internal variables that [`commit`](Hysteresis::commit) changes, always as many.
+    /// The internal variables that [`commit`](Hysteresis::commit) changes; their number is constant.
     fn save(&self) -> Vec<f64>;
 
-    /// Takes back what [`save`](Hysteresis::save) returned; all values are finite. Unchanged on an
-    /// error.
+    /// Restores the variables that [`save`](Hysteresis::save) returned.
+    ///
+    /// All values are finite. On an error the spring stays unchanged.
     ///
     /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that cannot be such.
+    /// [`CheckpointError::Corrupt`] for impossible values.
     fn restore(&mut self, values: &[f64]) -> Result<()>;
 
-    /// A copy with its internal variables, as a rule `Box::new(self.clone())`.
+    /// A copy with its internal variables: usually `Box::new(self.clone())`.
     fn clone_box(&self) -> Box<dyn Hysteresis>;
 }
 
@@ -70,14 +72,14 @@ impl Clone for Box<dyn Hysteresis> {
     }
 }
 
-/// The error for internal variables that cannot be.
+/// The error for impossible internal variables.
 fn corrupt() -> crate::Error {
     CheckpointError::Corrupt { quantity: "state of a hysteretic spring" }.into()
 }
 
-// An elastic slider beside a spring, and the laws that it makes: bilinear columns and friction pendulums.
+// An elastic slider parallel to a spring, and laws made of it: bilinear columns and friction pendulums.
 
-/// Spring `parallel` beside a spring `series` whose slider gives way at the force `limit`.
+/// Spring `parallel` beside a spring `series` with a slider that yields at the force `limit`.
 ///
 /// The return mapping is exact for straight paths: the force is kinematically hardening bilinear.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,7 +97,7 @@ impl Slider {
         Self { parallel, series, limit, slip: 0.0, dissipated: 0.0 }
     }
 
-    /// Force of the slider and where it is.
+    /// Force of the slider and its slip.
     fn slide(&self, deformation: f64) -> (f64, f64) {
         let trial = self.series * (deformation - self.slip);
         if trial.abs() <= self.limit {
@@ -144,7 +146,7 @@ impl Slider {
     }
 }
 
-/// Implements [`Hysteresis`](Hysteresis) for a type that is its field `slider`.
+/// Implements [`Hysteresis`](Hysteresis) for a type by its field `slider`.
 macro_rules! slider_law {
     ($law:ty) => {
         impl crate::structure::Hysteresis for $law {
@@ -178,16 +180,18 @@ use slider_law;
 
 /// Bilinear force with kinematic hardening: yielding columns, braces, dampers of mild steel.
 ///
-/// Elastic with stiffness k up to the yield force F_y, then with α k; after a reversal it is
-/// elastic over 2 F_y. What the hardening stores counts as recoverable.
+/// Elastic with stiffness k up to the yield force F_y, then with α k; after a reversal it is elastic over 2 F_y.
+/// Energy stored by hardening counts as recoverable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bilinear {
     slider: Slider,
 }
 
 impl Bilinear {
-    /// Spring with `stiffness` k (N/m), `yield_force` F_y (N) and `hardening` α, the ratio of the
-    /// slope after yield to k; all per metre of thickness.
+    /// Spring with stiffness k, yield force F_y and hardening α.
+    ///
+    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the slope after yield to k. All per metre of
+    /// thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
@@ -214,9 +218,9 @@ slider_law!(Bilinear);
 
 /// Friction pendulum: a slider on a concave dish, F = W d/R + friction · W · sgn(ḋ).
 ///
-/// The weight W that it carries and its coefficient of friction are constant. Before it slides, the
-/// bearing is elastic up to a small displacement, which makes the tangent finite (Zayas, Low &
-/// Mahin 1990; Mokha, Constantinou & Reinhorn 1991 use 0.1 to 0.5 mm).
+/// The weight W on the bearing and its coefficient of friction are constant. Before it slides, the bearing is
+/// elastic up to a small displacement, which makes the tangent finite (Zayas, Low & Mahin 1990; Mokha,
+/// Constantinou & Reinhorn 1991 use 0.1 to 0.5 mm).
 ///
 /// ```
 /// use basemat::structure::{FrictionPendulum, Hysteresis};
@@ -236,11 +240,13 @@ pub struct FrictionPendulum {
 }
 
 impl FrictionPendulum {
-    /// Displacement at which sliding begins unless set otherwise, m.
+    /// Displacement at which sliding begins by default, m.
     pub const YIELD_DISPLACEMENT: f64 = 0.5e-3;
 
-    /// Bearings that carry `weight` W (N per metre of thickness), of effective `radius` of
-    /// curvature R (m) and coefficient of friction `friction`.
+    /// Bearings with the weight W on them, a dish of radius R, and friction.
+    ///
+    /// `weight`: N per metre of thickness. `radius`: effective radius of curvature, m. `friction`: coefficient of
+    /// friction.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless all are positive.
@@ -265,7 +271,7 @@ impl FrictionPendulum {
         Ok(self)
     }
 
-    /// Period 2π √(R/g) of what slides on the dish without friction, s.
+    /// Period 2π √(R/g) of free sliding on the dish without friction, s.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is positive.

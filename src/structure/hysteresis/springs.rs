@@ -5,7 +5,7 @@ use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets};
 
-/// A spring and the deformation l·u that it sees.
+/// A spring and the row l of its deformation l·u.
 #[derive(Clone)]
 struct Spring {
     row: DofCombination,
@@ -108,7 +108,7 @@ impl NonlinearForce for Springs {
         Ok(self.state())
     }
 
-    /// Restores the variables of all springs, or of none.
+    /// Restores the variables of all springs; on an error all stay unchanged.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         let before = self.state();
         if values.len() != before.len() {
@@ -124,15 +124,15 @@ impl NonlinearForce for Springs {
 
 /// Any structure with hysteretic springs between its degrees of freedom.
 ///
-/// Each spring sees a deformation, a weighted sum of degrees of freedom, and responds with the force of its
-/// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that is to
-/// have the spring alone must have no stiffness of its own there. Damping is that of the structure by
-/// itself: what is proportional to its stiffness does not include the springs. For storeys of a shear
-/// building there is [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
+/// The deformation of each spring is a weighted sum of degrees of freedom; its force follows its [`Hysteresis`]
+/// law. The force adds to the forces of the structure: a storey or a bearing that is to have the spring alone must
+/// have no stiffness of its own there. The structure's damping stays as it is; stiffness-proportional damping does
+/// not include the springs. For storeys of a shear building use
+/// [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
 ///
-/// Degrees of freedom are absolute: a spring on one alone would hold the structure to a point in space, not
-/// to the ground that moves, and no simulation takes it. A deformation must be zero when all
-/// degrees of freedom translate together.
+/// Degrees of freedom are absolute. A spring on a single one would hold the structure to a point in space instead
+/// of the moving ground, and `build` returns an error. A deformation must be zero when all degrees of freedom
+/// translate together.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, NonlinearForce, ShearBuilding, Storey, WithSprings};
@@ -163,7 +163,7 @@ impl WithSprings {
         Self { structure: Box::new(structure), springs: Springs::default() }
     }
 
-    /// Adds a spring, whose deformation is `row`.
+    /// Adds a spring with the deformation `row`.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have,
@@ -199,7 +199,7 @@ impl Structure for WithSprings {
     }
 }
 
-/// The springs and, where it has one, the structure's own force.
+/// The springs, and the structure's own nonlinear force if it has one.
 impl NonlinearForce for WithSprings {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
         if let Some(own) = self.structure.nonlinear() {

@@ -7,13 +7,13 @@ use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, 
 
 /// Finite-element structure on a flat base.
 ///
-/// Degrees of freedom run node by node, within a node x, y, rotation, as far as some element there has them; ask
-/// [`row`](FemModel::row) for one. Mass consistent, no Rayleigh damping, unless set otherwise.
+/// Degrees of freedom are numbered node by node, within a node x, y, rotation, as far as an element there has
+/// them; [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh
+/// damping.
 ///
-/// Elements act on each other through common nodes. A part that has none in common with what stands
-/// on the ground must be tied to it by rigid links or [springs](crate::structure::WithSprings), or no
-/// simulation is built: [`Error::Detached`] names the nodes, and those at the same place that were not
-/// merged.
+/// Elements act on each other through common nodes. A part without a node in common with the part on the ground
+/// must be tied to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
+/// [`Error::Detached`], which names the nodes, and nodes at the same place that were not merged.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -35,16 +35,16 @@ pub struct FemModel {
     pub(super) mesh: Mesh,
     pub(super) numbering: Numbering,
     pub(super) links: Option<RigidLinks>,
-    /// Nodes of the mesh that touch the ground, and how they do.
+    /// Nodes of the mesh that touch the ground; `contact` has their motion.
     feet: Vec<usize>,
     contact: Vec<ContactNode>,
-    /// Contact nodes that are the last of their foundation, all but the last foundation's.
+    /// The last contact node of each foundation except the last foundation.
     ends: Vec<usize>,
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
     active_damping: bool,
     active_stiffness: bool,
-    /// Acceleration of gravity of the weight whose axial forces make P–Δ.
+    /// Acceleration of gravity for the axial forces of P–Δ.
     pub(super) p_delta: Option<f64>,
 }
 
@@ -52,9 +52,9 @@ impl FemModel {
     /// Structure that touches the ground with the nodes `contact`, from left to right.
     ///
     /// # Errors
-    /// [`Error::Size`] for fewer than two contact nodes, [`Error::Index`] for one that does not
-    /// exist, [`Error::Input`] when they do not run to the right at one height, [`Error::Scene`]
-    /// when one belongs to no element that displaces it.
+    /// [`Error::Size`] for fewer than two contact nodes, [`Error::Index`] for a node that does not exist,
+    /// [`Error::Input`] when the nodes do not run to the right at one height, [`Error::Scene`] when no element
+    /// displaces one of them.
     pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
         at_least("contact nodes", contact.len(), 2)?;
         let numbering = Numbering::new(&mesh);
@@ -91,8 +91,10 @@ impl FemModel {
         })
     }
 
-    /// Structure on separate foundations, each of which touches the ground with the nodes of one
-    /// line, from left to right: between two lines there is no base.
+    /// Structure on separate foundations.
+    ///
+    /// Each foundation touches the ground with the nodes of one line, from left to right. Between two lines there
+    /// is no base.
     ///
     /// ```
     /// use basemat::fem::{Beam, Mesh};
@@ -119,8 +121,7 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// As for [`FemModel::new`], of every line and all of them in a row; [`Error::Size`] without
-    /// lines.
+    /// As for [`FemModel::new`], for each line and for all lines in a row; [`Error::Size`] without lines.
     pub fn on_foundations(mesh: Mesh, lines: &[Vec<usize>]) -> Result<Self> {
         let (mut ends, mut nodes) = (Vec::new(), 0);
         for line in lines {
@@ -147,34 +148,38 @@ impl FemModel {
         Self { mass_kind, ..self }
     }
 
-    /// Replaces the Rayleigh damping, which acts beside that of its elements. The geometric
-    /// stiffness of P–Δ has no part in it.
+    /// Replaces the Rayleigh damping, which adds to the elements' own damping.
+    ///
+    /// The geometric stiffness of P–Δ does not contribute to it.
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
     }
 
     /// Allows elements whose damping matrices are unsymmetric or feed energy in
-    /// ([`Structure::has_active_damping`]); no simulation takes such a one otherwise.
+    /// ([`Structure::has_active_damping`]).
+    ///
+    /// Otherwise `build` returns an error for such an element.
     #[must_use]
     pub fn with_active_damping(self) -> Self {
         Self { active_damping: true, ..self }
     }
 
-    /// Allows elements whose stiffness matrices are unsymmetric ([`Structure::has_active_stiffness`]); no simulation
-    /// takes such a one otherwise.
+    /// Allows elements whose stiffness matrices are unsymmetric ([`Structure::has_active_stiffness`]).
+    ///
+    /// Otherwise `build` returns an error for such an element.
     #[must_use]
     pub fn with_active_stiffness(self) -> Self {
         Self { active_stiffness: true, ..self }
     }
 
-    /// Connects the nodes `followers` with `leader` so that they move as one rigid body: stiff
-    /// joints, offsets of beams, a rigid slab or basemat.
+    /// Connects the nodes `followers` with `leader` so that they move as one rigid body.
     ///
-    /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their degrees of freedom,
-    /// and the structure's are numbered anew, node by node:
-    /// [`dof`](FemModel::dof) gives `None` for them and [`row`](FemModel::row) what
-    /// they do. Their masses and stiffnesses stay where they are. Contact nodes may follow.
+    /// For stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and
+    /// the remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
+    /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses of followers
+    /// stay where they are. Contact nodes may follow. The axial forces of [`with_p_delta`](FemModel::with_p_delta)
+    /// are computed anew.
     ///
     /// ```
     /// use basemat::fem::{Beam, Direction, Mesh};
@@ -197,9 +202,9 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of
-    /// the three degrees of freedom or follows another node, or a follower leads or follows one already; those
-    /// of [`with_p_delta`](FemModel::with_p_delta) after it.
+    /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of the three
+    /// degrees of freedom or follows another node, or a follower leads or follows already; after
+    /// [`with_p_delta`](FemModel::with_p_delta) also its errors.
     pub fn with_rigid_link(mut self, leader: usize, followers: &[usize]) -> Result<Self> {
         let links = self.links.take();
         let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
@@ -222,19 +227,22 @@ impl FemModel {
         &self.mesh
     }
 
-    /// Index of the degree of freedom of `node` in `direction`, if it has one of its own: a follower of a rigid
-    /// link has none. What a probe or a spring needs is its [`row`](FemModel::row).
+    /// Index of the degree of freedom of `node` in `direction`.
+    ///
+    /// `None` for a node without its own, such as a follower of a rigid link. Probes and springs take the node's
+    /// [`row`](FemModel::row).
     pub fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
         let dof = self.numbering.dof(node, direction)?;
         self.links.as_ref().map_or(Some(dof), |links| links.remaining(node, dof))
     }
 
-    /// Motion of `node` in `direction` as a weighted sum of degrees of freedom: the degree of freedom itself, or what
-    /// the rigid link of a follower makes of its leader's.
+    /// Motion of `node` in `direction` as a weighted sum of degrees of freedom.
+    ///
+    /// The degree of freedom itself, or for a follower of a rigid link a sum of its leader's degrees of freedom.
     ///
     /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::NoDof`] for one that no element
-    /// moves in this direction.
+    /// [`Error::Index`] for a node that does not exist, [`Error::NoDof`] for a node that no element moves in this
+    /// direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
         in_bounds("node", node, self.mesh.nodes().len())?;
         let dof = self.numbering.dof(node, direction);
@@ -243,14 +251,16 @@ impl FemModel {
         Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
     }
 
-    /// Degrees of freedom of a unit rigid motion: 1 m in x or y, or a small rotation of 1 rad about `point`.
+    /// Values of all degrees of freedom in a unit rigid motion.
+    ///
+    /// A displacement of 1 m in x or y, or a small rotation of 1 rad about `point`.
     pub fn rigid_motion(&self, direction: Direction, point: [f64; 2]) -> Vec<f64> {
         let mut motion = vec![0.0; self.dofs()];
         self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.dof(node, own));
         motion
     }
 
-    /// Writes a rigid motion of the mesh by any numbering.
+    /// Writes a rigid motion of the mesh, in any numbering of its degrees of freedom.
     pub(super) fn fill_rigid_motion(
         &self,
         direction: Direction,
@@ -272,7 +282,7 @@ impl FemModel {
         }
     }
 
-    /// Adds matrices of all elements, each times its factor, in the degrees of freedom that remain.
+    /// Adds matrices of all elements, each times its factor, for the remaining degrees of freedom.
     pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
         let fill = |matrix: &mut Triplets| {
             for &(quantity, factor) in parts {
@@ -313,7 +323,7 @@ impl Structure for FemModel {
         Ok(())
     }
 
-    /// Nodes with their places, and whether one of the rest lies where one of them does.
+    /// Nodes with their places, and a node at the same place that is not merged with one of them.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         describe(self.mesh(), &|node, direction| self.dof(node, direction), dofs)
     }

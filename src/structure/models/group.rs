@@ -12,19 +12,19 @@ use crate::structure::{
 /// A structure of the group and where it stands.
 struct Member {
     structure: Box<dyn Structure>,
-    /// Added to the coordinates x of its contact nodes, m.
+    /// Shift of the coordinates x of its contact nodes, m.
     shift: f64,
     first_dof: usize,
     dofs: usize,
-    /// Number of its contact nodes in the plane; none of a structure in plan.
+    /// Number of its contact nodes in the plane; zero for a structure in plan.
     nodes: usize,
 }
 
-/// Structures side by side, each on foundations of its own, that feel each other through the soil.
+/// Several structures on foundations of their own, coupled through the soil.
 ///
-/// To the simulation they are one structure with several foundations; the ground needs a strip
-/// under each, or in plan a mat. [`State::foundations`](crate::coupled::State::foundations) has forces and motions of
-/// each by itself.
+/// The simulation treats them as one structure with several foundations; the ground needs a strip under each, or
+/// in plan a mat. [`State::foundations`](crate::coupled::State::foundations) has forces and motions of each
+/// foundation.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -78,14 +78,16 @@ impl StructureGroup {
         Self::default()
     }
 
-    /// Adds `structure`, moved to the right by `shift` (m): in the plane to the right of all members so far, in plan
-    /// anywhere beside them (its place along y is its own, see
-    /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at)).
+    /// Adds `structure`, moved to the right by `shift` (m).
+    ///
+    /// In the plane its base must lie to the right of all members so far. In plan it may stand anywhere beside
+    /// them; its place along y is set by the structure, see
+    /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at).
     ///
     /// # Errors
-    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the one before ends;
-    /// [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a structure in plan among
-    /// those of the plane, or one among those in plan, and for a base that touches another in plan.
+    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of the end of the
+    /// previous base; [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a
+    /// mixture of structures in the plane and in plan, and for a base that touches another in plan.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
         let (nodes, faces) = (structure.contact_nodes(), structure.contact_faces());
@@ -131,11 +133,13 @@ impl StructureGroup {
         self.members.len()
     }
 
-    /// A weighted sum of the degrees of freedom of structure `member` (0: the leftmost) in those of the group.
+    /// Expresses a weighted sum of degrees of freedom of structure `member` in the group's.
+    ///
+    /// Members count from 0, the first one added.
     ///
     /// # Errors
-    /// [`Error::Index`] for a structure that is not there, or a degree of freedom that it does not have;
-    /// [`Error::Input`] for a weight that is not finite.
+    /// [`Error::Index`] for a structure or a degree of freedom that does not exist; [`Error::Input`] for a weight
+    /// that is not finite.
     pub fn row(&self, member: usize, row: impl Into<DofCombination>) -> Result<DofCombination> {
         let row = row.into();
         let own = &self.members[in_bounds("structure of the group", member, self.len())?];
@@ -143,8 +147,9 @@ impl StructureGroup {
         Ok(row.map_dofs(|index| own.first_dof.saturating_add(index)))
     }
 
-    /// A probe of structure `member` as one of the group, with its name and unit; section resultants
-    /// too.
+    /// Converts a probe of structure `member` to a probe of the group.
+    ///
+    /// Name and unit stay. Section resultants are converted too.
     ///
     /// # Errors
     /// [`Error::Probe`] with the reason of [`StructureGroup::row`].
@@ -164,7 +169,7 @@ impl StructureGroup {
         })
     }
 
-    /// The nonlinear forces, each with its member.
+    /// The nonlinear forces of the members that have one, each with its member.
     fn forces(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
         self.members.iter().filter_map(|member| Some((member, member.structure.nonlinear()?)))
     }
@@ -175,8 +180,10 @@ impl Member {
         self.first_dof..self.first_dof.saturating_add(self.dofs)
     }
 
-    /// A row of the member in degrees of freedom of the group. An index that is no degree of freedom of the member must
-    /// not be one of the group.
+    /// A row of the member in degrees of freedom of the group.
+    ///
+    /// An index that is not a degree of freedom of the member becomes an index beyond all degrees of freedom of the
+    /// group.
     fn moved(&self, row: &DofCombination) -> DofCombination {
         let own = |index: usize| index < self.dofs;
         row.map_dofs(|k| if own(k) { k.saturating_add(self.first_dof) } else { usize::MAX })
@@ -193,7 +200,9 @@ impl Member {
     }
 }
 
-/// Whether there is a gap between two convex polygons: a direction in which one ends before the other begins.
+/// Whether there is a gap between two convex polygons.
+///
+/// There is one if in the direction of some edge's normal one polygon ends before the other begins.
 fn are_apart(one: &[FaceNode], other: &[FaceNode]) -> bool {
     let [one, other] =
         [one, other].map(|face| face.iter().map(FaceNode::place).collect::<Vec<_>>());
@@ -229,7 +238,7 @@ impl Structure for StructureGroup {
 
     fn foundation_ends(&self) -> Vec<usize> {
         let (mut ends, mut nodes) = (Vec::new(), 0);
-        // In plan foundations are identified by their faces.
+        // In plan the faces define the foundations.
         for member in self.members.iter().filter(|member| member.nodes > 0) {
             let own = member.structure.foundation_ends();
             ends.extend(own.iter().map(|end| end.saturating_add(nodes)));
@@ -252,7 +261,9 @@ impl Structure for StructureGroup {
         self.write(matrix, Structure::damping)
     }
 
-    /// Descriptions by the members; degrees of freedom that a member does not describe have their numbers in the group.
+    /// Descriptions by the members.
+    ///
+    /// Degrees of freedom that a member does not describe appear with their numbers in the group.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let mut texts = Vec::new();
         for (k, member) in self.members.iter().enumerate() {
@@ -296,7 +307,7 @@ impl Structure for StructureGroup {
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
         let shown = self.nonlinear().is_some();
-        // A member that shows its force by one of the two methods only: so does the group.
+        // If a member returns its force by only one of the two methods, so does the group.
         let consistent =
             self.members.iter_mut().all(|m| is_nonlinear(m.structure.as_mut()).is_ok());
         (shown == consistent).then_some(self)
@@ -323,7 +334,7 @@ impl NonlinearForce for StructureGroup {
         Ok(())
     }
 
-    /// Energies of all members, known if all nonlinear members return theirs.
+    /// Energies of all members; `None` unless all nonlinear members return theirs.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         self.forces().try_fold(InternalEnergy::default(), |sum, (member, own)| {
             Some(sum + own.energy(displacement.get(member.range())?)?)

@@ -11,17 +11,17 @@ const DAMPING: &str = "damping matrix";
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
-/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure is
-/// **free**, without supports: the ground holds it up, so a rigid translation must give no elastic force beyond
-/// rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness,
-/// but for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
+/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order. The structure is
+/// **free**, without supports, since the ground holds it up: a rigid translation must give no elastic force beyond
+/// rounding (entries with ten digits may leave too much, entries with twelve do not). Matrices are per metre of
+/// thickness, except for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
-/// ([`Triplets::from_csr`]); large models march faster after a [`CraigBampton`](crate::structure::CraigBampton)
+/// ([`Triplets::from_csr`]). Large models run faster after a [`CraigBampton`](crate::structure::CraigBampton)
 /// reduction.
 ///
-/// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
-/// checked here; the stiffness matrix must be symmetric, and positive semi-definite where the base is held, Lagrange
-/// multipliers excepted (see [`Structure::stiffness`]), which is checked when a simulation is built.
+/// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is checked here.
+/// The stiffness matrix must be symmetric, and positive semi-definite with the base held, Lagrange multipliers
+/// excepted (see [`Structure::stiffness`]). This is checked when a simulation is built.
 ///
 /// ```
 /// use basemat::structure::{ContactNode, MatrixModel, Structure, Triplets};
@@ -43,22 +43,23 @@ pub struct MatrixModel {
     stiffness: Triplets,
     contact: Vec<ContactNode>,
     faces: Vec<Vec<FaceNode>>,
-    /// Whether the damping may feed energy in, and is not checked.
+    /// Whether the damping may feed energy in; it is then not checked.
     active: bool,
     /// Whether the stiffness may be unsymmetric.
     active_stiffness: bool,
 }
 
 impl MatrixModel {
-    /// Structure with mass (kg/m) and stiffness (N/m per metre), which touches the ground with the
-    /// nodes `contact`, from left to right. No damping.
+    /// Structure with mass (kg/m) and stiffness (N/m per metre), without damping.
+    ///
+    /// It touches the ground with the nodes `contact`, from left to right.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for fewer than two
     /// contact nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
-    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a mass matrix that
-    /// is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for one with a negative mass, more than
-    /// rounding.
+    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a
+    /// mass matrix that is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for a negative mass
+    /// beyond rounding.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
         let damping = Triplets::new(mass.order());
         let faces = Vec::new();
@@ -66,8 +67,9 @@ impl MatrixModel {
             .checked()
     }
 
-    /// Structure with mass (kg) and stiffness (N/m) that touches a ground in plan with `faces`, as
-    /// [`Structure::contact_faces`] has them. No damping; its forces are those of the whole body.
+    /// Structure in plan with mass (kg) and stiffness (N/m), without damping.
+    ///
+    /// It touches the ground with `faces`, see [`Structure::contact_faces`]. Forces act on the whole body, N.
     ///
     /// ```
     /// use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
@@ -85,8 +87,8 @@ impl MatrixModel {
     /// ```
     ///
     /// # Errors
-    /// As for [`MatrixModel::new`], of the faces' corners. Whether faces are flat, convex and apart is checked when a
-    /// simulation is built.
+    /// As for [`MatrixModel::new`], for the faces' corners. Whether faces are flat, convex and apart is checked
+    /// when a simulation is built.
     pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<FaceNode>>) -> Result<Self> {
         let damping = Triplets::new(mass.order());
         let contact = Vec::new();
@@ -94,7 +96,7 @@ impl MatrixModel {
             .checked()
     }
 
-    /// The model, if its matrices and the points of its base are those of a structure.
+    /// The model, or an error for invalid matrices or points of its base.
     fn checked(self) -> Result<Self> {
         let order = self.mass.order();
         at_least("mass matrix", order, 1)?;
@@ -110,14 +112,15 @@ impl MatrixModel {
     /// [`Error::Size`](crate::Error::Size) for another order, [`Error::Index`](crate::Error::Index) and
     /// [`Error::Input`](crate::Error::Input) for entries out of range or not finite,
     /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a matrix that is not symmetric,
-    /// [`Error::Indefinite`](crate::Error::Indefinite) for one with negative damping, more than rounding.
+    /// [`Error::Indefinite`](crate::Error::Indefinite) for negative damping beyond rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
         check_damping(&check(DAMPING, &damping, self.mass.order())?)?;
         Ok(Self { damping, active: false, ..self })
     }
 
-    /// Replaces the damping by a matrix (N s/m per metre) that need be neither symmetric nor positive semi-definite:
-    /// that of gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
+    /// Replaces the damping by a matrix (N s/m per metre) without a check of symmetry and sign.
+    ///
+    /// For gyroscopes, or dampers that feed energy in. Energy fed in appears as negative
     /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
     ///
     /// # Errors
@@ -128,8 +131,9 @@ impl MatrixModel {
         Ok(Self { damping, active: true, ..self })
     }
 
-    /// Allows a stiffness matrix that is not symmetric ([`Structure::has_active_stiffness`]); no simulation takes it
-    /// otherwise.
+    /// Allows a stiffness matrix that is not symmetric ([`Structure::has_active_stiffness`]).
+    ///
+    /// Otherwise `build` returns an error for such a matrix.
     #[must_use]
     pub fn with_active_stiffness(self) -> Self {
         Self { active_stiffness: true, ..self }

@@ -1,4 +1,4 @@
-//! P–Δ of finite-element models: axial forces from the weight, and when they buckle the structure.
+//! P–Δ of finite-element models: axial forces from the weight, and the buckling factor.
 
 use crate::error::{Error, Result, not_negative};
 use crate::fem::{Direction, MatrixKind, set_static_state};
@@ -7,30 +7,30 @@ use crate::structure::detached::restricted;
 use crate::structure::{FemModel, Structure, Triplets};
 
 const HELD: &str = "stiffness matrix with the contact nodes held";
-/// Forces left over by a solve, relative to the weight: more are those of a mechanism.
+/// Residual forces of a solution, relative to the weight, above which the structure is a mechanism.
 const EQUILIBRIUM: f64 = 1e-6;
-/// Multiple of the axial forces up to which buckling is searched for.
+/// Largest multiple of the axial forces in the search for buckling.
 const MOST: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
 const ACCURACY: f64 = 1e-9;
 
 impl FemModel {
-    /// Adds the P–Δ effect of the structure's own weight: beams and trusses get the
-    /// geometric stiffness of the axial forces that they carry at rest.
+    /// Adds the P–Δ effect of the structure's own weight.
     ///
-    /// The forces are those of first-order statics under `gravity` (m/s², downwards) with the
-    /// contact nodes held, and do not change in the shaking. In a beam the force grows with its own
-    /// weight on the way down, in a truss the mean counts.
-    /// Held is every degree of freedom that moves a contact node: a rigid basemat is clamped, a column that
+    /// Beams and trusses get the geometric stiffness of the axial forces that they carry at rest. The forces
+    /// follow from first-order statics under `gravity` (m/s², downwards) with the contact nodes held, and do not
+    /// change in the shaking. In a beam the force grows downwards with the beam's own weight; a truss has the
+    /// mean. Every degree of freedom that moves a contact node is held: a rigid basemat is clamped, a column that
     /// ends on a contact node is hinged there, as on the ground. A force given by
     /// [`Beam::with_compression`](crate::fem::Beam::with_compression) stays;
-    /// [`Element::compression`](crate::fem::Element::compression) returns what was found. Solids have no
-    /// geometric stiffness. The mass is that of the moment: call
-    /// [`with_mass`](FemModel::with_mass) before. Rigid links may come later, and the forces are then
-    /// found anew.
+    /// [`Element::compression`](crate::fem::Element::compression) returns the force. Solids have no geometric
+    /// stiffness.
     ///
-    /// A translation still meets no force, so the structure translates freely; a rigid rotation meets the
-    /// overturning moment of the weight on bars above the base.
+    /// The present kind of mass matrix counts: call [`with_mass`](FemModel::with_mass) before. Rigid links may
+    /// follow; the forces are then computed anew.
+    ///
+    /// A translation meets no force, so the structure still translates freely. In a rigid rotation the weight on
+    /// bars above the base exerts its overturning moment.
     ///
     /// ```
     /// use basemat::fem::{Beam, LumpedMass, Mesh};
@@ -56,9 +56,9 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the
-    /// contact nodes do not hold the structure, [`Error::Buckling`] when it buckles on them, forces
-    /// given by hand included; and what is wrong with its matrices.
+    /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the contact nodes do
+    /// not hold the structure, [`Error::Buckling`] when it buckles on them, under forces given by hand too; and
+    /// errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
         let displacement = self.under_weight(gravity)?;
@@ -76,11 +76,11 @@ impl FemModel {
         }
     }
 
-    /// Factor on the axial forces of its elements ([`with_p_delta`](FemModel::with_p_delta) or given
-    /// by hand) at which the structure buckles, held at its contact nodes; infinite where a million
-    /// times as much does not buckle it.
+    /// Factor on the axial forces of the elements at which the structure buckles.
     ///
-    /// To nine digits that of the finite elements; takes some forty sparse factorisations.
+    /// The structure is held at its contact nodes; the forces come from [`with_p_delta`](FemModel::with_p_delta)
+    /// or were given by hand. Infinite if a million times the forces does not buckle it. For the given mesh the
+    /// factor has nine digits; it takes some forty sparse factorisations.
     ///
     /// # Errors
     /// [`Error::Singular`] when the contact nodes do not hold the structure.
@@ -116,15 +116,16 @@ impl FemModel {
 
 /// A structure whose contact nodes are held.
 struct HeldStructure {
-    /// The degrees of freedom that are left.
+    /// The degrees of freedom that are not held.
     free: Vec<usize>,
-    /// Stiffness without and of the axial forces, in these.
+    /// Stiffness without axial forces, and the geometric stiffness of the axial forces, in the free degrees of
+    /// freedom.
     elastic: SparseMatrix,
     geometric: SparseMatrix,
 }
 
 impl HeldStructure {
-    /// An error if its base does not hold it.
+    /// Assembles both stiffnesses; returns an error for invalid entries.
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
         let mut is_held = vec![false; n];
@@ -165,7 +166,7 @@ impl HeldStructure {
         }
     }
 
-    /// Whether the structure stands under `factor` times its axial forces, with a positive definite stiffness.
+    /// Whether the structure stands under `factor` times its axial forces: its stiffness is positive definite.
     fn stands(&self, factor: f64) -> Result<bool> {
         if self.free.is_empty() {
             return Ok(true);
@@ -177,8 +178,9 @@ impl HeldStructure {
         Ok(SparseFactor::positive_definite(HELD, &matrix).is_ok())
     }
 
-    /// Factor on the axial forces at which it buckles, by bisection: it does not stand under `high`
-    /// of them, and under none it must.
+    /// Factor on the axial forces at which the structure buckles, by bisection.
+    ///
+    /// The structure must not stand under `high` times the forces; an error unless it stands without axial forces.
     fn buckling_factor(&self, mut high: f64) -> Result<f64> {
         if !self.stands(0.0)? {
             return Err(Error::Singular { matrix: HELD, order: self.free.len() });

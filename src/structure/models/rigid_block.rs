@@ -3,10 +3,12 @@
 use crate::error::{Result, finite, not_negative, positive};
 use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 
-/// Rigid body with a flat base: degrees of freedom `[u_x, u_y, θ]` at the middle of the base.
+/// Rigid body on a flat base, with three degrees of freedom `[u_x, u_y, θ]`.
 ///
-/// A point at height z above the base and x beside its middle moves by `u_x − z θ` and `u_y + x θ`
-/// (small rotations). The centre of gravity lies above the middle of the base.
+/// They belong to the middle of the base.
+///
+/// A point at height z above the base, x to the right of its middle, moves by `u_x − z θ` and `u_y + x θ` (small
+/// rotations). The centre of gravity lies above the middle of the base.
 ///
 /// ```
 /// use basemat::structure::{RigidBlock, Structure, Triplets};

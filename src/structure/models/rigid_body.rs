@@ -5,16 +5,16 @@ use std::f64::consts::TAU;
 use crate::error::{Result, at_least, finite, not_negative, positive, require};
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets};
 
-/// Corners of the polygon that stands for a circular base, of the same area.
+/// Number of corners of the polygon that replaces a circular base; it has the same area.
 const CORNERS: usize = 32;
-/// Relative difference of mirrored entries of a mass tensor that is rounding.
+/// Relative difference up to which mirrored entries of an inertia tensor count as equal.
 const SYMMETRIC: f64 = 1e-9;
 
-/// Rigid body with a flat base in three directions: degrees of freedom `[u_x, u_y, u_z, r_x, r_y, r_z]` at the middle
-/// of the base.
+/// Rigid body on a flat base in plan, with six degrees of freedom.
 ///
-/// x points to the right, y away from the reader, z up; rotations follow the right-hand rule. A point at (x, y, z) from
-/// the middle of the base moves by u + r × (x, y, z) (small rotations), so that r_y lowers what lies to the right.
+/// `[u_x, u_y, u_z, r_x, r_y, r_z]` belong to the middle of the base. x points to the right, y away from the
+/// reader, z up; rotations follow the right-hand rule. A point at (x, y, z) from the middle of the base moves by u
+/// + r × (x, y, z) (small rotations), so that r_y lowers points to the right of the middle.
 ///
 /// ```
 /// use basemat::structure::{RigidBody, Structure};
@@ -59,8 +59,9 @@ impl RigidBody {
         Self::from_mass(outline, mass, inertia, [0.0, 0.0, 0.5 * height])
     }
 
-    /// Homogeneous cylinder that stands on its base: radius and height (m) and density (kg/m³). The base is a polygon
-    /// of the same area.
+    /// Homogeneous cylinder that stands on its base.
+    ///
+    /// `radius` and `height` in m, `density` in kg/m³. The base is a polygon of the same area.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless all are positive.
@@ -82,14 +83,16 @@ impl RigidBody {
         Self::from_mass(outline, mass, inertia, [0.0, 0.0, 0.5 * height])
     }
 
-    /// Any rigid body: corners of its convex base (m) from the point of the degrees of freedom, mass (kg), tensor of
-    /// inertia about the centre of gravity (kg m²: moments of inertia on the diagonal, minus the products of inertia
-    /// beside it), and the centre of gravity (m) from the same point.
+    /// Any rigid body, given by its convex base, mass, inertia and centre of gravity.
+    ///
+    /// `outline`: corners of the base from the point of the degrees of freedom, m. `mass`: kg. `inertia`: tensor
+    /// about the centre of gravity, kg m², with moments of inertia on the diagonal and minus the products of
+    /// inertia beside it. `gravity_center`: from the same point, m.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for numbers that are not finite, a mass that is not positive, a tensor
     /// that is not symmetric and positive definite, and a centre of gravity below the base;
-    /// [`Error::Size`](crate::Error::Size) for less than three corners. Whether they are those of a convex face is
+    /// [`Error::Size`](crate::Error::Size) for less than three corners. Whether the corners form a convex face is
     /// checked when a simulation is built.
     pub fn from_mass(
         outline: Vec<[f64; 2]>,
@@ -140,8 +143,9 @@ impl RigidBody {
         self.mass
     }
 
-    /// Displacements along x, y and z of a point of the body, given from the middle of its base (m), as weighted sums
-    /// of degrees of freedom.
+    /// Displacements of a point along x, y and z as weighted sums of degrees of freedom.
+    ///
+    /// The point is given from the middle of the base, m.
     pub fn displacement_at(&self, [x, y, z]: [f64; 3]) -> [DofCombination; 3] {
         let rows =
             [[(0, 1.0), (4, z), (5, -y)], [(1, 1.0), (5, x), (3, -z)], [(2, 1.0), (3, y), (4, -x)]];
@@ -165,7 +169,7 @@ fn diagonal([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
     [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
 }
 
-/// Refuses a tensor of inertia that is not symmetric and positive definite.
+/// Error unless a tensor of inertia is symmetric and positive definite.
 fn check_tensor(t: &[[f64; 3]; 3]) -> Result<()> {
     const NAME: &str = "tensor of inertia of the body";
     let mut largest = 0.0_f64;
@@ -201,7 +205,7 @@ impl Structure for RigidBody {
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         let inertia = self.base_inertia();
-        // The centre of gravity moves by u + r × c: three rows of the mass, and what turns about it.
+        // The centre of gravity moves by u + r × c: three rows of the mass, then the rotary inertia about it.
         let moving = self.displacement_at(self.gravity_center);
         for i in 0..3 {
             matrix.add(i, i, self.mass);
@@ -210,7 +214,7 @@ impl Structure for RigidBody {
                 matrix.add(j, i, self.mass * weight);
             }
             for j in 0..3 {
-                // To the last bit symmetric.
+                // The mean is symmetric to the last bit.
                 let value = 0.5 * (inertia[i][j] + inertia[j][i]);
                 if value != 0.0 {
                     matrix.add(3 + i, 3 + j, value);

@@ -1,4 +1,4 @@
-//! Nodes: rigid links, by which some follow another one like a rigid body, and the names of their degrees of freedom.
+//! Rigid links, by which nodes follow another node like a rigid body, and names of degrees of freedom by nodes.
 
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ pub(super) struct RigidLinks {
 }
 
 impl RigidLinks {
-    /// Links without any nodes so far.
+    /// No links yet.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
         let (nodes, dofs) = (mesh.nodes().len(), numbering.dofs());
         let rows = (0..dofs).map(|dof| vec![(dof, 1.0)]).collect();
@@ -61,7 +61,7 @@ impl RigidLinks {
         Ok(())
     }
 
-    /// Numbers what remains, node by node, and expresses the followers by it.
+    /// Numbers the remaining degrees of freedom, node by node, and expresses the followers by them.
     fn renumber(&mut self, mesh: &Mesh, numbering: &Numbering) {
         let nodes = mesh.nodes();
         let mut next = 0;
@@ -97,13 +97,13 @@ impl RigidLinks {
         self.dofs
     }
 
-    /// The number of a mesh's degree of freedom that remains as it is.
+    /// The new number of a mesh's degree of freedom; `None` for a follower's.
     pub(super) fn remaining(&self, node: usize, dof: usize) -> Option<usize> {
         let free = self.leader.get(node)?.is_none();
         self.rows.get(dof)?.first().filter(|_| free).map(|&(index, _)| index)
     }
 
-    /// A weighted sum of the mesh's degrees of freedom by those that remain.
+    /// A weighted sum of the mesh's degrees of freedom by the remaining ones.
     pub(super) fn row(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let mut sums: Vec<(usize, f64)> = Vec::new();
         for &(dof, weight) in terms {
@@ -117,16 +117,16 @@ impl RigidLinks {
         sums
     }
 
-    /// The mesh's degrees of freedom from those that remain.
+    /// Values of the mesh's degrees of freedom from the remaining ones.
     pub(super) fn all(&self, remaining: &[f64]) -> Vec<f64> {
         let sum = |row: &Vec<(usize, f64)>| row.iter().map(|&(j, w)| w * remaining[j]).sum();
         self.rows.iter().map(sum).collect()
     }
 
-    /// Adds Lᵀ A L, where u = L (what remains).
+    /// Adds Lᵀ A L, where u = L q and q are the remaining degrees of freedom.
     pub(super) fn add_condensed(&self, mesh_matrix: &Triplets, matrix: &mut Triplets) {
         for &(row, column, value) in mesh_matrix.entries() {
-            // Indices of a foreign element may be out of range: the matrix reports them.
+            // A user's element may have indices out of range: the matrix reports them.
             let (Some(rows), Some(columns)) = (self.rows.get(row), self.rows.get(column)) else {
                 matrix.add(row, column, value);
                 continue;
@@ -140,10 +140,12 @@ impl RigidLinks {
     }
 }
 
-// Names of a finite-element model's degrees of freedom in errors: its nodes.
+// Names of a finite-element model's degrees of freedom for errors, by nodes.
 
-/// Nodes of these degrees of freedom with their places, and whether one of the rest lies where one of them
-/// does; `number` numbers the degrees of freedom. `None` without degrees of freedom of nodes.
+/// Nodes of these degrees of freedom with their places, for an error.
+///
+/// The text also names a node at the same place that is not merged with one of them. `number` numbers the degrees
+/// of freedom. `None` if no node has these degrees of freedom.
 pub(super) fn describe(
     mesh: &Mesh,
     number: &dyn Fn(usize, Direction) -> Option<usize>,

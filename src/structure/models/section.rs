@@ -1,20 +1,19 @@
-//! Forces that pass through a horizontal cut, and those of a finite-element model.
+//! Forces across a horizontal cut of a finite-element model, and rows for loads along a line of nodes.
 
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive, require_part};
 use crate::fem::{Direction, MatrixKind, assemble};
 use crate::structure::{DofCombination, FemModel, SectionRows, Triplets};
 
-/// Resultant of what the part above a horizontal cut exerts on the part below, per metre.
+/// Forces that the part above a horizontal cut exerts on the part below, per metre.
 ///
-/// It holds the elastic forces, the damping forces except mass-proportional ones, and the inertia
-/// of the elements above as far as it sits on the nodes of the cut. To count the weight of the
-/// elements above too, add the acceleration of gravity to the vertical accelerations.
+/// They contain the elastic forces, the damping forces except mass-proportional ones, and the inertia that the
+/// elements above have at the nodes of the cut. To include the weight of the elements above, add the acceleration
+/// of gravity to the vertical accelerations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// Height of the cut, m.
     pub height: f64,
-    /// Horizontal force on the part below, N, positive to the right: the base shear when the cut
-    /// is the base.
+    /// Horizontal force on the part below, N, positive to the right: at the base the base shear.
     pub shear: SectionRows,
     /// Vertical force on the part below, N, positive downwards (compression).
     pub compression: SectionRows,
@@ -23,15 +22,16 @@ pub struct Section {
 }
 
 impl FemModel {
-    /// Forces that the part above `height` (m) exerts on the part below, moments about
-    /// (`reference`, `height`).
+    /// Forces that the part above `height` (m) exerts on the part below.
+    ///
+    /// Moments refer to the point (`reference`, `height`).
     ///
     /// The nodes at this height are the cut; elements that lie in it count as below. The rows are
     /// −K, −C and −M of the elements above, summed over the nodes of the cut.
     ///
     /// # Errors
-    /// [`Error::Input`] when a number is not finite, no node lies at `height`, no element above
-    /// it, or an element crosses it.
+    /// [`Error::Input`] when a number is not finite, when no node lies at `height`, when no element lies above it,
+    /// or when an element crosses it.
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
         finite("height of the section", height)?;
         finite("reference point of the section", reference)?;
@@ -93,7 +93,7 @@ impl FemModel {
     }
 }
 
-/// wᵀ A for the sum A of `matrices`, zeros left out.
+/// wᵀ A for the sum A of `matrices`, without zeros.
 fn weighted_rows(weights: &[f64], matrices: &[Triplets]) -> Vec<(usize, f64)> {
     let mut sums = vec![0.0; weights.len()];
     for &(row, column, value) in matrices.iter().flat_map(Triplets::entries) {
@@ -107,11 +107,12 @@ fn weighted_rows(weights: &[f64], matrices: &[Triplets]) -> Vec<(usize, f64)> {
 // Rows for loads along a line of nodes: pressures, tractions, resultants.
 
 impl FemModel {
-    /// A pressure of 1 Pa along the line through `nodes`, for a [`Load`](crate::coupled::Load) in Pa: it
-    /// pushes to the left of the way from the first to the last (into a body whose boundary is walked
-    /// counter-clockwise).
+    /// Row of nodal forces for a pressure of 1 Pa along the line through `nodes`.
     ///
-    /// Forces do the work of the pressure on the elements' edges: halves at the ends of a segment,
+    /// For a [`Load`](crate::coupled::Load) in Pa. The pressure pushes to the left of the direction from the first
+    /// to the last node, which is into a body whose boundary is followed counter-clockwise.
+    ///
+    /// The forces do the same work as the pressure on the elements' edges: halves at the ends of a segment,
     /// Simpson's weights along the edge of an eight-node element whose middle node is in the list.
     ///
     /// ```
@@ -136,9 +137,9 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for one that does not exist,
-    /// [`Error::Input`] for two in a row at one place, [`Error::NoDof`] for one that no element
-    /// moves in a direction that is pushed.
+    /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for a node that does not exist, [`Error::Input`]
+    /// for two successive nodes at one place, [`Error::NoDof`] for a node that no element moves in a direction of
+    /// the pressure.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
         let mut row = DofCombination::default();
         for (node, [x, y]) in self.line_weights(nodes)? {
@@ -152,8 +153,9 @@ impl FemModel {
         Ok(row)
     }
 
-    /// A force of 1 N per metre of thickness in `direction`, spread evenly along the line through
-    /// `nodes`, for a [`Load`](crate::coupled::Load) in N/m.
+    /// Row of nodal forces for a force of 1 N per metre of thickness in `direction`.
+    ///
+    /// It is spread evenly along the line through `nodes`, for a [`Load`](crate::coupled::Load) in N/m.
     ///
     /// # Errors
     /// As for [`FemModel::pressure_row`]; [`Error::Scene`] for [`Direction::Rotation`].
@@ -170,7 +172,7 @@ impl FemModel {
         Ok(row)
     }
 
-    /// The nodes of a line with their fractions of its way, `[x, y]` in m; one may come more than once.
+    /// The nodes of a line with their parts of its length, `[x, y]` in m; a node may occur more than once.
     fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 2])>> {
         at_least("nodes of a loaded line", nodes.len(), 2)?;
         let all = self.mesh().nodes();
@@ -193,7 +195,7 @@ impl FemModel {
         Ok(weights)
     }
 
-    /// Whether three nodes are an edge of an eight-node element, its middle node between the others.
+    /// Whether three nodes are an edge of an eight-node element, with the middle node second.
     fn is_quadratic_edge(&self, edge: &[usize]) -> bool {
         self.mesh().elements().any(|element| {
             let own = element.nodes();

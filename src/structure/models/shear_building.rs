@@ -18,7 +18,7 @@ pub struct Storey {
     pub height: f64,
     /// Mass of the floor on top, kg.
     pub mass: f64,
-    /// Rotary inertia of that floor about its centre, kg m².
+    /// Rotary inertia of the floor about its centre, kg m².
     #[cfg_attr(feature = "serde", serde(default))]
     pub rotary_inertia: f64,
     /// Sway stiffness of the columns, N/m.
@@ -37,10 +37,10 @@ impl Storey {
 
 /// Shear building: rigid floors on flexible columns on a rigid base.
 ///
-/// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each
-/// floor, from below. The columns neither shorten nor bend out of the building's frame: all floors
-/// move up and turn with the base, and a storey's drift is what remains of the floors' relative
-/// displacement after the turn, `d_j = u_j − u_(j−1) + h_j θ`.
+/// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each floor,
+/// from below. The columns neither shorten nor bend out of the building's frame: all floors rise and rotate with
+/// the base. A storey's drift is the relative displacement of its floors without the part caused by the rotation,
+/// `d_j = u_j − u_(j−1) + h_j θ`.
 ///
 /// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law
 /// ([`with_law`](ShearBuilding::with_law)), and the building may stand on isolators
@@ -62,9 +62,9 @@ pub struct ShearBuilding {
     base_mass: f64,
     base_inertia: f64,
     pub(super) storeys: Vec<Storey>,
-    /// First tangent of the law that takes the place of a storey's stiffness.
+    /// First tangent of the law that replaces a storey's stiffness.
     pub(super) tangents: Vec<Option<f64>>,
-    /// The laws, on the drifts of their storeys.
+    /// The laws, as springs that deform by the drifts of their storeys.
     pub(super) springs: Springs,
     /// Whether storey 0 is a level of isolators: see [`ShearBuilding::add_p_delta`].
     pub(super) isolated: bool,
@@ -76,13 +76,15 @@ pub struct ShearBuilding {
 short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.len() }
 
 impl ShearBuilding {
-    // Degrees of freedom of the base; those of the floors follow.
+    // Degrees of freedom of the base; the floors follow.
     const HORIZONTAL: usize = 0;
     const VERTICAL: usize = 1;
     const ROTATION: usize = 2;
 
-    /// Building on a rigid base of `width` (m), mass (kg/m) and rotary inertia about the middle of
-    /// its underside (kg m²/m); storeys from below, the first one's columns stand at height 0.
+    /// Building on a rigid base, with storeys listed from below.
+    ///
+    /// The base has `width` (m), mass (kg/m) and rotary inertia about the middle of its underside (kg m²/m). The
+    /// columns of the first storey stand at height 0.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) without storeys; [`Error::Input`](crate::Error::Input) unless width, base
@@ -130,12 +132,12 @@ impl ShearBuilding {
         Ok(Self { center: finite("middle of the base", center)?, ..self })
     }
 
-    /// Adds stiffness-proportional damping, beside the storeys' dashpots, of
-    /// this ratio in the first mode on a fixed base.
+    /// Adds stiffness-proportional damping with this ratio in the first fixed-base mode.
     ///
-    /// In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`. Five equal storeys with
-    /// 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which damps the upper
-    /// floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) gives every mode its own.
+    /// It adds to the storeys' dashpots. In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`.
+    /// Five equal storeys with 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which damps the
+    /// upper floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) sets the ratio of
+    /// each mode.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `ratio` is from 0 to below 1.
@@ -148,14 +150,15 @@ impl ShearBuilding {
         Ok(Self { stiffness_damping, ..self })
     }
 
-    /// Adds the P–Δ effect of the floors' weight: inextensible columns lower
-    /// what they carry by `(u_j − u_(j−1))²/(2 h_j)`, and so take W/h off the stiffness of a storey
-    /// that carries the weight W.
+    /// Adds the P–Δ effect of the floors' weight.
+    ///
+    /// Columns do not shorten, so they lower the weight above by `(u_j − u_(j−1))²/(2 h_j)`. This reduces the
+    /// stiffness of a storey that carries the weight W by W/h.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative and every storey
-    /// stands: its columns' height is above W/k, at which they would buckle, with the first tangent k of the law that
-    /// it may follow.
+    /// stands: the height of its columns must be above W/k, at which they would buckle. k is the storey's
+    /// stiffness, or the first tangent of its law.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
         (0..building.storeys.len()).try_for_each(|storey| building.carries_its_weight(storey))?;
@@ -173,7 +176,9 @@ impl ShearBuilding {
         self.base_mass + self.storeys.iter().map(|storey| storey.mass).sum::<f64>()
     }
 
-    /// Index of the horizontal displacement on top of `storey` (0: the first floor).
+    /// Index of the horizontal displacement of the floor on top of `storey`.
+    ///
+    /// Storeys count from 0, the lowest.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -195,8 +200,9 @@ impl ShearBuilding {
         Ok(self.drift_terms(storey).into())
     }
 
-    /// Displacement of the floor on top of `storey` (0: the first floor) less the rigid motion of the
-    /// base there, `u_j − u_x + H_j θ` with the height `H_j` of that floor: the sum of the drifts below.
+    /// Displacement of the floor on top of `storey` minus the rigid motion of the base there.
+    ///
+    /// `u_j − u_x + H_j θ` with the height `H_j` of the floor: the sum of the drifts below. Storeys count from 0.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -206,13 +212,13 @@ impl ShearBuilding {
         Ok([(floor, 1.0), (Self::HORIZONTAL, -1.0), (Self::ROTATION, height)].into())
     }
 
-    /// Horizontal force that the floor on top of `storey` exerts through its columns (or isolators) on
-    /// what is below, N, positive to the right: the base shear for storey 0.
+    /// Horizontal force of the floor on top of `storey` on the part below, N.
     ///
-    /// With P–Δ it is the horizontal part of the columns' force, −P/h of the floors' relative displacement included.
-    /// The force of a law is no weighted sum of displacements: of a storey that follows one it is taken from the
-    /// inertia of the floors above, exact for whatever is in the storey; with the midpoint rule it is then the mean
-    /// over the step.
+    /// Positive to the right: the base shear for storey 0. It acts through the columns or isolators. With P–Δ it
+    /// is the horizontal part of the columns' force, including −P/h times the floors' relative displacement. The
+    /// force of a law is not a weighted sum of displacements. In a storey that follows a law, the force is therefore
+    /// computed from the inertia of the floors above, which is exact for any law; with the midpoint rule it is
+    /// then the mean over the step.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -241,8 +247,8 @@ impl ShearBuilding {
     pub fn fixed_base_frequency(&self) -> f64 {
         let mut shape = vec![1.0; self.storeys.len()];
         let mut square = 0.0;
-        // Inverse iteration: the shape under the inertia forces of the last shape. The cap only
-        // matters for nearly equal frequencies, where the quotient is accurate long before.
+        // Inverse iteration: the shape under the inertia forces of the last shape. The limit only matters for
+        // nearly equal frequencies, where the quotient is accurate long before.
         for _ in 0..10_000 {
             let mut shear: f64 = self.inertia_forces(&shape).sum();
             let mut sway = 0.0;
@@ -269,7 +275,7 @@ impl ShearBuilding {
         self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
     }
 
-    /// `u_j − u_(j−1)`, the turn of the base left in.
+    /// `u_j − u_(j−1)`, including the part caused by the base's rotation.
     fn sway_row(storey: usize) -> [(usize, f64); 2] {
         let below = if storey == 0 { Self::HORIZONTAL } else { storey + 2 };
         [(storey + 3, 1.0), (below, -1.0)]
@@ -286,8 +292,9 @@ impl ShearBuilding {
         self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
     }
 
-    /// Error unless the columns of a storey carry the weight above: on a fixed base K is a chain of storeys, positive
-    /// definite if every link of it, k − W/h, is positive.
+    /// Error unless the columns of a storey carry the weight above.
+    ///
+    /// On a fixed base K is a chain of storeys, positive definite if every link k − W/h is positive.
     pub(super) fn carries_its_weight(&self, storey: usize) -> Result<()> {
         let Storey { height, stiffness, .. } = self.storeys[storey];
         let stiffness = self.tangents[storey].unwrap_or(stiffness);
@@ -300,10 +307,10 @@ impl ShearBuilding {
 
     /// Adds the curvature of the weight's potential.
     ///
-    /// Columns lower the weight by half the square of the floors' relative displacement over their height. A level of
-    /// isolators has no columns: a slider moves along the plane of the turned base, which lifts the weight W by d θ − h
-    /// θ²/2 for a drift d at the height h. What d² does to it is in the isolators' law: W/R of a pendulum, and the
-    /// stiffness of a rubber bearing as measured under its load.
+    /// Columns lower the weight by half the square of the floors' relative displacement over their height. A level
+    /// of isolators has no columns: a slider moves along the plane of the rotated base, which lifts the weight W
+    /// by d θ − h θ²/2 for a drift d at the height h. The term in d² is part of the isolators' law: W/R of a
+    /// pendulum, and the stiffness of a rubber bearing as measured under its load.
     fn add_p_delta(&self, matrix: &mut Triplets) {
         for (index, storey) in self.storeys.iter().enumerate() {
             let weight = self.weight_on(index);
@@ -312,7 +319,7 @@ impl ShearBuilding {
                     matrix.add(dof, Self::ROTATION, sign * weight);
                     matrix.add(Self::ROTATION, dof, sign * weight);
                 }
-                // d = u_1 − u_0 + h θ: of d θ comes h θ² more.
+                // d = u_1 − u_0 + h θ, so d θ contains another h θ².
                 matrix.add(Self::ROTATION, Self::ROTATION, weight * storey.height);
             } else {
                 matrix.add_outer(Self::sway_row(index), -weight / storey.height);
@@ -324,8 +331,9 @@ impl ShearBuilding {
         self.base_inertia + self.storeys.iter().map(|storey| storey.rotary_inertia).sum::<f64>()
     }
 
-    /// The storey's dashpot and its columns' part of stiffness-proportional damping, which is
-    /// that of their stiffness as it was given, whoever it is left to. Isolators are no columns.
+    /// The storey's dashpot, plus the stiffness-proportional damping of its columns.
+    ///
+    /// The latter uses the stiffness in [`Storey`], even if a law replaces it. Isolators have none.
     fn dashpot(&self, storey: usize) -> f64 {
         let Storey { stiffness, damping, .. } = self.storeys[storey];
         if self.isolated && storey == 0 {

@@ -9,8 +9,9 @@ use crate::structure::{
     ContactNode, DofCombination, FaceNode, NonlinearForce, SectionRows, Structure, Triplets,
 };
 
-/// Storey of a [`StoreyBuilding`]: the columns and walls, and the rigid floor that they carry. Places are from the
-/// middle of the mat's base.
+/// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
+///
+/// Places are from the middle of the mat's base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -19,9 +20,9 @@ pub struct PlanStorey {
     pub height: f64,
     /// Mass of the floor on top, kg.
     pub mass: f64,
-    /// Moments of inertia of that floor about axes along x, y and z through its centre of mass, kg m².
+    /// Moments of inertia of the floor about axes along x, y and z through its centre of mass, kg m².
     pub inertia: [f64; 3],
-    /// Centre of mass of that floor, `[x, y]` in m.
+    /// Centre of mass of the floor, `[x, y]` in m.
     #[cfg_attr(feature = "serde", serde(default))]
     pub mass_center: [f64; 2],
     /// Sway stiffness along x and y (N/m), and stiffness against twist (N m) about the centre of stiffness.
@@ -29,14 +30,15 @@ pub struct PlanStorey {
     /// Centre of stiffness, `[x, y]` in m: a shear force through it does not twist the storey.
     #[cfg_attr(feature = "serde", serde(default))]
     pub stiffness_center: [f64; 2],
-    /// Dashpots beside the three stiffnesses, N s/m and N m s.
+    /// Dashpots parallel to the three stiffnesses, N s/m and N m s.
     #[cfg_attr(feature = "serde", serde(default))]
     pub damping: [f64; 3],
 }
 
 impl PlanStorey {
-    /// Storey with a homogeneous rectangular floor (sides along x and y, m) above the middle of the mat, without
-    /// eccentricities and dashpots.
+    /// Storey with a homogeneous rectangular floor above the middle of the mat.
+    ///
+    /// Sides of the floor along x and y, m. Without eccentricities and dashpots.
     pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
         let [along, across] = [length, width].map(|side| mass * side * side / 12.0);
         Self {
@@ -53,13 +55,13 @@ impl PlanStorey {
 
 /// Rigid floors on flexible columns and walls, on a rigid mat in plan.
 ///
-/// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from below,
-/// the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not shorten: all
-/// floors rise and tilt with the mat, and a storey deforms by what remains of the motion of one floor relative to the
-/// other after the tilt. Along one axis and without eccentricities it is a
+/// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from
+/// below, the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not
+/// shorten: all floors rise and tilt with the mat. A storey deforms by the relative motion of its floors without
+/// the part caused by the tilt. Along one axis and without eccentricities it is a
 /// [`ShearBuilding`](crate::structure::ShearBuilding).
 ///
-/// Modal damping is that of [`ModalDamping`](crate::structure::ModalDamping); single walls and dampers anywhere in plan
+/// [`ModalDamping`](crate::structure::ModalDamping) gives modal damping. Single walls and dampers anywhere in plan
 /// are [`WithSprings`](crate::structure::WithSprings) on a [`drift_at`](StoreyBuilding::drift_at).
 ///
 /// ```
@@ -80,7 +82,7 @@ impl PlanStorey {
 pub struct StoreyBuilding {
     mat: RigidBody,
     storeys: Vec<PlanStorey>,
-    /// Whether a law takes the place of a storey's stiffness, by direction.
+    /// Whether a law replaces a storey's stiffness, by direction.
     has_law: Vec<[bool; 3]>,
     springs: Springs,
     gravity: f64,
@@ -96,7 +98,9 @@ impl StoreyBuilding {
     /// Twist about the vertical.
     pub const TWIST: usize = 2;
 
-    /// Building on a mat, with its place and P–Δ; storeys from below, the first one's columns stand at height 0.
+    /// Building on a mat, with storeys listed from below.
+    ///
+    /// The mat brings its place and its P–Δ. The columns of the first storey stand at height 0.
     ///
     /// # Errors
     /// [`Error::Size`] without storeys; [`Error::Input`] unless each storey's height, mass, inertia about the vertical
@@ -124,9 +128,11 @@ impl StoreyBuilding {
         Ok(building)
     }
 
-    /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`:
-    /// [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or [`TWIST`](StoreyBuilding::TWIST). The
-    /// law sees the storey's [`drift`](StoreyBuilding::drift) in that direction.
+    /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`.
+    ///
+    /// Directions: [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or
+    /// [`TWIST`](StoreyBuilding::TWIST). The deformation of the law is the storey's
+    /// [`drift`](StoreyBuilding::drift) in that direction.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
@@ -145,9 +151,10 @@ impl StoreyBuilding {
         Ok(self)
     }
 
-    /// Adds the P–Δ effect of the floors' weight: inextensible columns lower what they carry by
-    /// δ²/(2 h), δ the relative displacement of a storey's ends at the floor's mass centre. Columns that buckle are an
-    /// error when a simulation is built.
+    /// Adds the P–Δ effect of the floors' weight.
+    ///
+    /// Columns do not shorten, so they lower the weight above by δ²/(2 h), with δ the relative displacement of a
+    /// storey's ends at the floor's mass centre. Columns that buckle cause an error when a simulation is built.
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.
@@ -172,8 +179,9 @@ impl StoreyBuilding {
         self.mat.total_mass() + self.storeys.iter().map(|storey| storey.mass).sum::<f64>()
     }
 
-    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the
-    /// mat's base), as weighted sums of degrees of freedom.
+    /// Displacements along x and y, and twist, of the floor on top of `storey`.
+    ///
+    /// Weighted sums of degrees of freedom. `place`: m from the middle of the mat's base.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
@@ -190,7 +198,9 @@ impl StoreyBuilding {
         self.drift_at(storey, place)
     }
 
-    /// Deformation of `storey` at `place` (m from the middle of the mat's base): drifts along x and y, and twist.
+    /// Deformation of `storey` at `place`: drifts along x and y, and twist.
+    ///
+    /// `place`: m from the middle of the mat's base.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
@@ -199,8 +209,9 @@ impl StoreyBuilding {
         Ok(self.deformation([storey, storey + 1], place))
     }
 
-    /// Displacements along x and y, and twist, of the floor on top of `storey` at `place` (m from the middle of the
-    /// mat's base) less the rigid motion of the mat there: the sum of the drifts below.
+    /// Displacements of the floor on top of `storey` minus the rigid motion of the mat.
+    ///
+    /// Along x, along y, and twist, at `place` (m from the middle of the mat's base): the sum of the drifts below.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
@@ -209,7 +220,7 @@ impl StoreyBuilding {
         Ok(self.deformation([0, storey + 1], place))
     }
 
-    /// Motion of the second level less that of the first, whose tilt with the mat carries the other by r × (0, 0, h).
+    /// Displacement of level 2 relative to level 1, without the part caused by the mat's rotation.
     fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
         let height = self.storeys[levels[0]..levels[1]].iter().map(|own| own.height).sum();
         let [along, across, twist] = sway(levels, place);
@@ -217,10 +228,10 @@ impl StoreyBuilding {
         [along - tilt(ABOUT_Y), across + tilt(ABOUT_X), twist]
     }
 
-    /// Forces along x and y (N) that the floor on top of `storey` exerts on what is below, and their torque (N m) about
-    /// the centre of stiffness: of storey 0, those on the mat.
+    /// Forces along x and y (N) of the floor on top of `storey`, and their torque.
     ///
-    /// They are taken from the inertia of the floors above, exact for whatever is in the storey; with the midpoint rule
+    /// They act on the part below: for storey 0, on the mat. The torque (N m) is about the centre of stiffness.
+    /// They are computed from the inertia of the floors above, which is exact for any law; with the midpoint rule
     /// they are the mean over the step.
     ///
     /// # Errors
@@ -271,7 +282,7 @@ fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     [point(along, -y), point(across, x), twist.into()]
 }
 
-/// Motion of the second level less that of the first, the tilt of the mat left in.
+/// Displacement of level 2 relative to level 1, including the part caused by the mat's tilt.
 fn sway([lower, upper]: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
     let mut below = level(lower, place).into_iter();
     level(upper, place).map(|above| above - below.next().unwrap_or_default())

@@ -14,19 +14,19 @@ pub struct IsolationLevel {
     pub height: f64,
     /// Mass of the slab above the bearings, kg per metre of thickness.
     pub slab_mass: f64,
-    /// Rotary inertia of that slab about its centre, kg m² per metre of thickness.
+    /// Rotary inertia of the slab about its centre, kg m² per metre of thickness.
     pub slab_inertia: f64,
-    /// Viscous dampers beside the bearings, N s/m per metre of thickness.
+    /// Viscous dampers parallel to the bearings, N s/m per metre of thickness.
     pub damping: f64,
 }
 
 impl ShearBuilding {
-    /// Replaces the columns' stiffness of `storey` (0: the lowest) by `law`, which sees the storey's drift.
+    /// Replaces the columns' stiffness of `storey` (0: the lowest) by `law`.
     ///
-    /// Stiffness-proportional damping stays that of the stiffness in [`Storey`], however far the columns
-    /// yield. Where it must not act in a yielding storey, leave
-    /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping) out and give the others
-    /// dashpots ([`Storey::damping`]) of ζ k/(π f₁).
+    /// The deformation of the law is the storey's drift. Stiffness-proportional damping keeps using the stiffness
+    /// in [`Storey`], however far the columns yield. If it must not act in a yielding storey, leave
+    /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping) out and give the other storeys dashpots
+    /// ([`Storey::damping`]) of ζ k/(π f₁).
     ///
     /// ```
     /// use basemat::structure::{Bilinear, ShearBuilding, Storey, Structure};
@@ -43,9 +43,9 @@ impl ShearBuilding {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) when there is no such storey, [`Error::Scene`](crate::Error::Scene) when
-    /// it has a law already, [`Error::Input`](crate::Error::Input) when the law's first stiffness does not hold the
-    /// storey up against its P–Δ.
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey, [`Error::Scene`](crate::Error::Scene)
+    /// when it has a law already, [`Error::Input`](crate::Error::Input) when the law's first stiffness does not
+    /// carry the weight above with P–Δ.
     pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
         let drift = self.drift(storey)?;
         let is_first = self.tangents[storey].replace(law.response(0.0).tangent).is_none();
@@ -56,23 +56,24 @@ impl ShearBuilding {
         Ok(self)
     }
 
-    /// Puts the lowest columns on a slab that rests on isolators of this `law`; the
-    /// isolators become storey 0, and the building's storeys count from 1. To be called before
-    /// [`with_law`](ShearBuilding::with_law).
+    /// Puts the building on isolators that follow `law`.
     ///
-    /// The building's damping ratio, set before, stays that of its storeys; the isolators have the damping
-    /// of their law and of [`IsolationLevel::damping`], and none in proportion to their stiffness.
+    /// The lowest columns then stand on a slab on the isolators. The isolators become storey 0, and the building's
+    /// storeys count from 1. Call this before [`with_law`](ShearBuilding::with_law).
     ///
-    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators pushes them down
-    /// the slope of a base that turns, with W θ, and turns it with W d by its drift d. The softening
-    /// −W/h of columns is not theirs: a slider's weight is in its law already (W/R of a
-    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings is
-    /// to be given as it is under their load.
+    /// A damping ratio of the building, set before, still applies to its storeys only. The isolators have the
+    /// damping of their law and of [`IsolationLevel::damping`], but no stiffness-proportional damping.
+    ///
+    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators pushes them down the slope
+    /// of a rotating base with W θ, and rotates the base with W d by its drift d. The softening −W/h of columns
+    /// does not apply: the law of a slider contains its weight already (W/R of a
+    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings must be
+    /// given as measured under their load.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's first stiffness are
-    /// positive, its inertia and damping not negative; [`Error::Scene`](crate::Error::Scene) when a storey has a law
-    /// already.
+    /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's first stiffness
+    /// are positive and its inertia and damping are not negative; [`Error::Scene`](crate::Error::Scene) when a
+    /// storey has a law already.
     pub fn isolated(
         mut self,
         level: IsolationLevel,

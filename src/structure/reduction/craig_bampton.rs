@@ -18,12 +18,12 @@ use crate::structure::detached::{MASSLESS, check_attached, check_mirrored, numbe
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 
-/// Craig & Bampton's reduction (1968): the contact nodes and any degrees of freedom that are to be kept, and a
-/// number of modes of the rest with these held.
+/// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
-/// Rigid motions, weight and slow loads at the kept degrees of freedom pass exactly; what moves faster than the
-/// highest mode kept ([`ReducedModel::frequencies`]) is cut off. A usual choice is modes up to twice
-/// the highest frequency of interest.
+/// The modes belong to the other degrees of freedom with the kept ones held. Rigid motions, weight and slow loads
+/// at the kept degrees of freedom pass exactly. Motion faster than the highest mode
+/// ([`ReducedModel::frequencies`]) is cut off. A usual choice is modes up to twice the highest frequency of
+/// interest.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -51,7 +51,7 @@ pub struct CraigBampton {
 /// A structure after [`CraigBampton::reduce`].
 ///
 /// Its degrees of freedom are the kept ones, in ascending order, then the coordinates of the modes.
-/// [`recovery`](ReducedModel::recovery) leads back to those of the full model.
+/// [`recovery`](ReducedModel::recovery) computes the degrees of freedom of the full model.
 pub struct ReducedModel {
     basis: Arc<Basis>,
     contact: Vec<ContactNode>,
@@ -61,14 +61,14 @@ pub struct ReducedModel {
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
-    /// Whether `damping` is that of a structure that may feed energy in.
+    /// Whether `damping` may feed energy in.
     active: bool,
     /// Circular frequencies of the modes, rad/s.
     frequencies: Vec<f64>,
     load: Mutex<FullLoad>,
 }
 
-/// Full model, which gives its loads, and scratch for them.
+/// Full model, which computes its loads, and scratch for them.
 struct FullLoad {
     structure: Box<dyn Structure>,
     values: Vec<f64>,
@@ -79,13 +79,14 @@ short_debug! {
 }
 
 impl CraigBampton {
-    /// Reduction to the contact nodes and the lowest `modes` modes of the rest.
+    /// Reduction to the contact nodes and the lowest `modes` modes of the other degrees of freedom.
     pub fn new(modes: usize) -> Self {
         Self { modes, kept: Vec::new() }
     }
 
-    /// Adds these `dofs` to those that the reduction keeps as they are, for springs on them for
-    /// example ([`WithSprings`](crate::structure::WithSprings)).
+    /// Keeps these `dofs` as they are, too.
+    ///
+    /// Springs on the reduced model need them, for example ([`WithSprings`](crate::structure::WithSprings)).
     #[must_use]
     pub fn keep(mut self, dofs: &[usize]) -> Self {
         self.kept.extend_from_slice(dofs);
@@ -94,16 +95,16 @@ impl CraigBampton {
 
     /// Reduces a linear structure.
     ///
-    /// Damping is reduced as it is; see [`ReducedModel::with_damping_ratio`] for another. Takes one
-    /// sparse factorisation and about two solves for each kept degree of freedom and mode, and keeps a number
-    /// for each of them and each degree of freedom of the full model.
+    /// Damping is reduced as it is; [`ReducedModel::with_damping_ratio`] replaces it. The reduction takes one
+    /// sparse factorisation and about two solves for each kept degree of freedom and mode. For each of them it
+    /// stores a number per degree of freedom of the full model.
     ///
     /// # Errors
     /// [`Error::Scene`] for a nonlinear structure, [`Error::Unsymmetric`] for matrices that are not symmetric,
     /// [`Error::Detached`] for a part that no stiffness joins to a kept degree of freedom, [`Error::Index`] for a
-    /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than
-    /// degrees of freedom are left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or its
-    /// stiffness is not positive.
+    /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than degrees of freedom are
+    /// left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or the stiffness of the
+    /// rest is not positive.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.dofs();
         let needed = "must be linear: put springs on the reduced model";
@@ -146,7 +147,7 @@ impl CraigBampton {
             load: Mutex::new(FullLoad { values: vec![0.0; n], structure: Box::new(structure) }),
             basis: Arc::new(basis),
         };
-        // Modes and static responses are K-orthogonal: what is left there is rounding.
+        // Modes and static responses are K-orthogonal: entries between them are rounding.
         for (k, square) in squares.iter().enumerate() {
             for j in 0..order {
                 model.stiffness[(kept + k) * order + j] = 0.0;
@@ -158,7 +159,7 @@ impl CraigBampton {
     }
 }
 
-/// Degrees of freedom that are kept, and the interior ones.
+/// Kept and interior degrees of freedom.
 struct Parts {
     kept: Vec<usize>,
     interior: Vec<usize>,
@@ -245,20 +246,24 @@ impl Parts {
 }
 
 impl ReducedModel {
-    /// Frequencies of the modes with the kept degrees of freedom held, Hz, ascending. There are fewer than
-    /// asked for only where fewer degrees of freedom have mass.
+    /// Frequencies of the modes with the kept degrees of freedom held, Hz, ascending.
+    ///
+    /// There are fewer modes than given to [`CraigBampton::new`] only if fewer degrees of freedom have mass.
     pub fn frequencies(&self) -> Vec<f64> {
         self.frequencies.iter().map(|frequency| frequency / std::f64::consts::TAU).collect()
     }
 
-    /// Recovery of the degrees of freedom of the full model. It can be cloned, and kept when the model
-    /// has gone into a simulation.
+    /// Recovery of the full model's degrees of freedom.
+    ///
+    /// It can be cloned, and kept when a simulation owns the model.
     pub fn recovery(&self) -> Recovery {
         Recovery::new(Arc::clone(&self.basis))
     }
 
-    /// Replaces the damping by this damping ratio in every mode with the kept degrees of freedom held.
-    /// Motions of the kept degrees of freedom alone are not damped.
+    /// Replaces the damping by this damping ratio in every mode.
+    ///
+    /// The kept degrees of freedom are held in the modes. Motions of the kept degrees of freedom alone are not
+    /// damped.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is from 0 to below 1.
@@ -275,8 +280,10 @@ impl ReducedModel {
     }
 }
 
-/// The reduced damping matrix with zeros for motions that nothing damps, rigid ones as a rule: what cancellation leaves
-/// of them has no sign, and may be large beside the damping of modes, whose unit is another.
+/// The reduced damping matrix with exact zeros for motions that nothing damps.
+///
+/// Such motions are usually rigid. Cancellation leaves entries of either sign, which may be large beside the
+/// damping of modes, since modes have another unit.
 fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -> Vec<f64> {
     let order = basis.order();
     for (i, motion) in basis.rows().enumerate() {
@@ -291,7 +298,7 @@ fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -
     reduced
 }
 
-/// Adds a dense row-major matrix, zeros left out.
+/// Adds the nonzero entries of a dense row-major matrix.
 fn add(values: &[f64], order: usize, matrix: &mut Triplets) {
     for (place, &value) in values.iter().enumerate() {
         if value != 0.0 {
@@ -346,7 +353,7 @@ impl Structure for ReducedModel {
         full.structure.tallest_storey()
     }
 
-    /// Kept degrees of freedom as the full model describes them, and modes.
+    /// Kept degrees of freedom as the full model describes them, and modes by number.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = self.basis.kept();
@@ -362,7 +369,7 @@ impl Structure for ReducedModel {
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// The load of the full model, as it works on the reduced degrees of freedom.
+    /// The load of the full model on the reduced degrees of freedom.
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         let mut full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let FullLoad { structure, values } = &mut *full;

@@ -11,9 +11,9 @@ use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
 use crate::structure::DofCombination;
 use crate::structure::probe::Probe;
 
-// From a reduced model back to the degrees of freedom of the full one.
+// Recovery of the full model's degrees of freedom from a reduced model.
 
-/// Columns of A T held at a time.
+/// Columns of A T computed at a time.
 const BLOCK: usize = 16;
 
 /// The basis T of a reduction, u = T q.
@@ -21,7 +21,7 @@ const BLOCK: usize = 16;
 pub(super) struct Basis {
     /// Degrees of freedom of the full model that are among q.
     kept: Vec<usize>,
-    /// Tᵀ, row-major: a row of the full model's degrees of freedom for each reduced one.
+    /// Tᵀ, row-major: for each reduced degree of freedom a row over the full model's.
     transposed: Vec<f64>,
     full: usize,
 }
@@ -31,7 +31,7 @@ impl Basis {
         Self { kept, transposed, full }
     }
 
-    /// Degrees of freedom of the full model that are among those of the reduced one.
+    /// Degrees of freedom of the full model that the reduced model keeps.
     pub(super) fn kept(&self) -> &[usize] {
         &self.kept
     }
@@ -73,7 +73,7 @@ impl Basis {
     }
 }
 
-/// Recovery of the degrees of freedom of the full model from those of a [`ReducedModel`](ReducedModel).
+/// Recovers the full model's degrees of freedom from a [`ReducedModel`](ReducedModel).
 #[derive(Debug, Clone)]
 pub struct Recovery {
     basis: Arc<Basis>,
@@ -89,13 +89,14 @@ impl Recovery {
         self.basis.full
     }
 
-    /// Degrees of freedom of the full model that the reduced one kept: its first ones, in this order.
+    /// The kept degrees of freedom of the full model: the first ones of the reduced model, in this order.
     pub fn kept(&self) -> &[usize] {
         &self.basis.kept
     }
 
-    /// A weighted sum of the full model's degrees of freedom as one of the reduced model's, for a spring or a
-    /// deformed shape.
+    /// Converts a weighted sum of the full model's degrees of freedom to one of the reduced model's.
+    ///
+    /// For a spring or a deformed shape.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have,
@@ -109,8 +110,9 @@ impl Recovery {
         Ok(self.basis.rows().map(|values| full.value(values)).enumerate().collect())
     }
 
-    /// A probe of the full model as one of the reduced model, with its name and unit; section
-    /// resultants too.
+    /// Converts a probe of the full model to a probe of the reduced model.
+    ///
+    /// Name and unit stay. Section resultants are converted too.
     ///
     /// # Errors
     /// [`Error::Probe`](crate::Error::Probe) with the reason of [`Recovery::row`].
@@ -118,8 +120,9 @@ impl Recovery {
         probe.try_map_rows(|row| self.row(row))
     }
 
-    /// The full model's degrees of freedom, from the reduced model's: displacements, velocities or
-    /// accelerations.
+    /// Values of the full model's degrees of freedom from the reduced model's.
+    ///
+    /// `reduced`: displacements, velocities or accelerations.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced degree of freedom.
