@@ -15,11 +15,10 @@ use crate::text::column::finite;
 
 /// The text files of the Turkish network (AFAD), with the components of a station side by side.
 ///
-/// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line
-/// with the names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`]
-/// returns all components. A file whose samples or peaks (`RAW PGA VALUES (gal)`) are others than its
-/// header states is an error. Newer files of AFAD (`.asc`) are in the layout of
-/// [`EsmFormat`](super::EsmFormat).
+/// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line with the
+/// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`] returns all components.
+/// An error if samples or peaks (`RAW PGA VALUES (gal)`) differ from the header. Newer files of AFAD (`.asc`) have
+/// the layout of [`EsmFormat`](super::EsmFormat).
 ///
 /// ```
 /// use basemat::motion::{AfadFormat, Record};
@@ -57,7 +56,7 @@ impl RecordFormat for AfadFormat {
     }
 }
 
-/// Entries of the header that matter.
+/// Entries of the header that are used.
 #[derive(Default)]
 struct Header {
     interval: Option<f64>,

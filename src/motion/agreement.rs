@@ -2,16 +2,18 @@
 
 use crate::error::RecordError;
 
-/// Departure of a stated duration from the samples' that is rounding, relative to the duration.
+/// Difference of a stated and the samples' duration that counts as rounding, relative to the duration.
 const DURATION: f64 = 0.03;
-/// Factor between a stated peak and the samples' that a change of the baseline may make. The nearest unit is 2.54
-/// times another one.
+/// Largest factor between a stated and the samples' peak that a change of the baseline explains.
+///
+/// The closest two units differ by a factor of 2.54.
 const PEAK: f64 = 2.0;
-/// Departure of the stated extreme from a sample that is rounding, relative to the extreme.
+/// Relative difference of a stated extreme and a sample that counts as rounding.
 const NEAR: f64 = 1e-3;
 
-/// Error unless `points` samples every `step` (s) last as long as the file states (s), which is
-/// rounded to `rounding` (s).
+/// Error unless `points` samples every `step` (s) last as long as the file states.
+///
+/// `stated` (s) is rounded to `rounding` (s).
 pub(super) fn duration(
     points: usize,
     step: f64,
@@ -25,18 +27,19 @@ pub(super) fn duration(
     if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
 }
 
-/// Error unless two places state the same number, but for its last printed digit.
+/// Error unless two places state the same number, up to its last printed digit.
 pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<(), RecordError> {
     let agrees = (found - stated).abs() <= 1e-3 * found.abs();
     if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
 }
 
-/// Error if the peak that a file states is another one than that of the samples, as by another unit; both in m/s².
-/// A peak of zero states nothing.
+/// Error if the peak that a file states differs from the samples' peak, for example by its unit.
+///
+/// Both in m/s². A stated peak of zero is not checked.
 pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), RecordError> {
     let largest = |mean: f64| samples.iter().fold(0.0_f64, |most, a| most.max((a - mean).abs()));
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
-    // The stated peak is that before or after the mean was removed.
+    // The stated peak may refer to the samples before or after removal of the mean.
     let near = |found: f64| {
         let ratio = found / stated.abs();
         ratio == 0.0 || (1.0 / PEAK..=PEAK).contains(&ratio)
@@ -48,8 +51,7 @@ pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), RecordError> {
     Err(contradiction("peak acceleration (m/s²)", found, stated))
 }
 
-/// Error unless an extreme that a file states (m/s², at a time in s) is that of the samples, by its time as well as
-/// by its size.
+/// Error unless the samples have the extreme that a file states (m/s², at a time in s), in time and size.
 pub(super) fn extreme(
     samples: &[f64],
     step: f64,

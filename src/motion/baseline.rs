@@ -2,13 +2,12 @@
 
 use crate::error::{Error, Result, require};
 
-/// Baseline correction: a polynomial is subtracted from a record so that it ends at, or near, rest.
+/// Baseline correction, so that a record ends at, or near, rest.
 ///
-/// Every treatment subtracts a polynomial in time, evaluated at the samples, from the
-/// acceleration, so that the treated record is again linear between samples, and the conditions
-/// named below hold for its exact integrals to rounding. Every record starts from u = v = 0. T is the
-/// duration. Choose with care: displacements depend strongly on the choice, motions relative to
-/// the ground hardly.
+/// Every treatment subtracts a polynomial in time from the acceleration at the samples. The treated record is
+/// linear between samples, as before, and its exact integrals meet the conditions named below to rounding. Every
+/// record starts from u = v = 0. T is the duration. Choose with care: displacements depend strongly on the choice,
+/// motions relative to the ground hardly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -19,13 +18,14 @@ pub enum Baseline {
     None,
     /// The time mean of the acceleration, which makes v(T) = 0.
     RemoveMean,
-    /// Parabola in acceleration that makes ∫ v² dt least; nothing is enforced at the end.
+    /// Parabola in acceleration that minimises ∫ v² dt; nothing is enforced at the end.
     ///
     /// Newmark, Blume & Kapur, "Seismic design spectra for nuclear power plants", J. Power
     /// Division ASCE 99 (1973), 287–303; also *Abaqus Theory Manual*, 6.1.2, with one interval.
     NewmarkParabola,
-    /// Polynomial of the `degree` (1 to 8) in velocity, zero at t = 0, that makes ∫ v² dt least
-    /// under the condition v(T) = 0.
+    /// Polynomial of the `degree` (1 to 8) in velocity that minimises ∫ v² dt with v(T) = 0.
+    ///
+    /// The polynomial is zero at t = 0.
     ///
     /// Its derivative is subtracted from the acceleration, as in Chiu, "Stable baseline
     /// correction of digital strong-motion data", Bull. Seism. Soc. Am. 87 (1997), 932–944, and
@@ -36,8 +36,9 @@ pub enum Baseline {
         /// Degree of the polynomial in velocity.
         degree: usize,
     },
-    /// Polynomial of the `degree` (2 to 8) in displacement, without its constant and linear terms,
-    /// that makes ∫ u² dt least; nothing is enforced at the end.
+    /// Polynomial of the `degree` (2 to 8) in displacement that minimises ∫ u² dt.
+    ///
+    /// It has no constant and linear terms; nothing is enforced at the end.
     ///
     /// Its second derivative is subtracted from the acceleration; degree 6 is the practice of
     /// Ancheta et al., *PEER NGA-West2 Database*, report PEER 2013/03, ch. 2.
@@ -45,11 +46,12 @@ pub enum Baseline {
         /// Degree of the polynomial in displacement.
         degree: usize,
     },
-    /// Polynomial of the `degree` (3 to 8) in velocity, without its constant and linear terms, that
-    /// makes ∫ v² dt least under the conditions v(T) = 0 and u(T) = 0.
+    /// Polynomial of the `degree` (3 to 8) in velocity that makes v(T) = u(T) = 0.
     ///
-    /// The correction of the acceleration starts from zero as well, so that a record which starts
-    /// without a jump still does; it ends at rest where it began. The least-squares fit of
+    /// It has no constant and linear terms, and minimises ∫ v² dt under these conditions.
+    ///
+    /// The correction of the acceleration starts from zero, so that a record without a jump at the start keeps
+    /// none; the record ends at rest where it began. This is the least-squares fit of
     /// [`VelocityPolynomial`](Self::VelocityPolynomial) with two more conditions.
     RestToRest {
         /// Degree of the polynomial in velocity.
@@ -58,7 +60,7 @@ pub enum Baseline {
 }
 
 words_with_numbers! {
-    /// One of its words, or an [`Error::Word`]. Degrees are checked where a treatment is applied.
+    /// Parses one of its words, or returns [`Error::Word`]. The degree is checked when a treatment is applied.
     ///
     /// ```
     /// use basemat::motion::Baseline;
@@ -79,7 +81,7 @@ words_with_numbers! {
 struct Fit {
     /// Number of coefficients.
     terms: usize,
-    /// The polynomial has the factor t.
+    /// Whether the polynomial has the factor t.
     starts_from_zero: bool,
     /// Quantity that is minimised.
     least: Integral,
@@ -130,12 +132,11 @@ fn check_degree(degree: usize, least: usize, needed: &'static str) -> Result<()>
 }
 
 impl Fit {
-    /// Samples less the fitted polynomial.
+    /// Samples minus the fitted polynomial.
     ///
-    /// With the basis functions φ, their exact integrals V and U (as of a record) and those v, u
-    /// of the samples, the coefficients c minimise ∫ (v − Σ c V)² under the conditions
-    /// Σ c V(T) = v(T), Σ c U(T) = u(T): a symmetric system with Lagrange multipliers. Time runs
-    /// from 0 to 1, which changes no coefficient.
+    /// V and U are the exact integrals of the basis functions φ (as of a record), v and u the integrals of the
+    /// samples. The coefficients c minimise ∫ (v − Σ c V)² under the conditions Σ c V(T) = v(T), Σ c U(T) = u(T):
+    /// a symmetric system with Lagrange multipliers. Time runs from 0 to 1, which changes no coefficient.
     fn subtract(&self, samples: &[f64]) -> Result<Vec<f64>> {
         let quantity = "number of samples under a baseline fit";
         let needed = "above the number of coefficients by two at least";
@@ -157,8 +158,9 @@ impl Fit {
         Ok(samples.iter().enumerate().map(|(i, a)| a - scale * correction(i)).collect())
     }
 
-    /// Legendre polynomial on [0, 1] at the samples, times t where asked: powers would leave the
-    /// system ill-conditioned.
+    /// Legendre polynomial on [0, 1] at the samples, times t if `starts_from_zero`.
+    ///
+    /// Powers of t would leave the system ill-conditioned.
     fn basis(&self, term: usize, count: usize) -> Vec<f64> {
         let value = |index: usize| {
             let time = index as f64 / (count - 1) as f64;
@@ -173,7 +175,7 @@ impl Fit {
         (0..count).map(value).collect()
     }
 
-    /// Coefficients; the last of `motions` is the target.
+    /// Coefficients; the last of `motions` is the target of the fit.
     fn solve(&self, motions: &[Integrals]) -> Result<Vec<f64>> {
         let terms = self.terms;
         let order = terms + self.zero_at_end.len();
@@ -197,7 +199,7 @@ impl Fit {
     }
 }
 
-/// Integrals of an acceleration, as the fit needs them.
+/// Integrals of an acceleration for the fit.
 struct Integrals {
     /// The fitted quantity at the Gauss points of each interval, times the root of the weight.
     values: Vec<f64>,
@@ -251,8 +253,9 @@ impl Integrals {
     }
 }
 
-/// Solution of a small dense system by elimination with row pivoting; the last column is the
-/// right-hand side. None if a pivot vanishes or is not finite.
+/// Solution of a small dense system by elimination with row pivoting.
+///
+/// The last column is the right-hand side. `None` if a pivot vanishes or is not finite.
 fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let order = rows.len();
     for k in 0..order {

@@ -1,4 +1,4 @@
-//! A block of numbers under a title that says what they are, as COSMOS and CSMIP have it.
+//! A block of numbers under a title that describes them, in COSMOS and CSMIP files.
 
 use super::AccelerationUnit;
 use super::agreement;
@@ -8,7 +8,7 @@ use super::unit::unclear;
 use crate::error::RecordError;
 use crate::text::column::finite;
 
-/// What a title says of the numbers below it.
+/// Description of a block of numbers by its title.
 pub(super) struct Block {
     pub(super) points: usize,
     /// s.
@@ -33,7 +33,7 @@ impl Block {
     }
 }
 
-/// The number that a title begins with.
+/// The number at the beginning of a title.
 pub(super) fn points(title: &str, quantity: &'static str) -> Result<usize, RecordError> {
     let first = title.split_whitespace().next();
     first.and_then(|field| count(finite(field)?)).ok_or(RecordError::Missing { quantity })
@@ -45,7 +45,7 @@ pub(super) fn step(value: Option<f64>) -> Result<f64, RecordError> {
     value.filter(|&step| step > 0.0).ok_or(missing)
 }
 
-/// Columns of the format in a title, whose text after the unit must say nothing else.
+/// Columns of the format in a title; an error if the text after the unit contains more than a format.
 pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, RecordError> {
     if !FixedColumns::is_all_of(rest) {
         return Err(unclear("unit or format", rest.trim()));
@@ -53,7 +53,9 @@ pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, R
     Ok(FixedColumns::find(title))
 }
 
-/// The unit that `text`, the part of a title from the unit's name on, begins with, and the text behind it.
+/// The unit at the beginning of `text`, and the text behind it.
+///
+/// `text`: the part of a title from the unit's name on.
 pub(super) fn unit<'a>(
     title: &str,
     text: &'a str,
@@ -84,7 +86,7 @@ pub(super) fn of_code(code: i64) -> Option<AccelerationUnit> {
     }
 }
 
-/// Unit of a title without one: the one that is known otherwise, unless another stands in the title.
+/// Unit for a title without one: the known unit, unless the title contains another one.
 pub(super) fn unnamed(
     title: &str,
     known: Option<AccelerationUnit>,
@@ -98,7 +100,7 @@ pub(super) fn unnamed(
 /// Kind of data in counts.
 const RAW: &str = "raw counts of a recorder";
 
-/// Whether a unit is that of numbers before a recorder's sensitivity is applied.
+/// Whether a unit belongs to numbers without a recorder's sensitivity.
 fn is_raw(name: &str) -> bool {
     matches!(name, "count" | "counts" | "cnt" | "cnts" | "volt" | "volts" | "mvolts" | "mv" | "v")
 }

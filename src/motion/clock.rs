@@ -5,21 +5,21 @@ use crate::text::column::finite;
 /// Minutes in a day.
 const DAY: i64 = 1440;
 
-/// Seconds since the first time of a column, whose times are numbers of seconds or times of day.
+/// Seconds since the first time of a column of seconds or times of day.
 #[derive(Default)]
 pub(super) struct Clock {
-    /// Minute of the day of the first time, and of the one before.
+    /// Minute of the day of the first time, and of the previous time.
     first: Option<i64>,
     before: i64,
-    /// Minutes of the days that ended since the first.
+    /// Minutes of the days that have ended since the first time.
     days: i64,
-    /// Most decimals of a second so far; none if a time has an exponent.
+    /// Largest number of decimals of a second so far.
     decimals: usize,
     exponent: bool,
 }
 
 impl Clock {
-    /// The time (s) in a field: `12.5`, `12:00:15.01`, or the latter behind a date.
+    /// The time (s) in a field: `12.5`, `12:00:15.01`, or a date and a time of day.
     pub(super) fn read(&mut self, field: &str) -> Option<f64> {
         let time = finite(field).or_else(|| self.time_of_day(field))?;
         self.exponent |= field.contains(['e', 'E', 'd', 'D']);

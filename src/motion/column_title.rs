@@ -4,7 +4,7 @@ use super::AccelerationUnit;
 use crate::error::RecordError;
 use crate::text::column::excerpt;
 
-/// Units other than those of acceleration, in brackets of a title.
+/// Units in brackets of a title that are no units of acceleration.
 const OTHERS: [&str; 30] = [
     "s", "sec", "secs", "second", "seconds", "ms", "msec", "min", "h", "hz", "m", "cm", "mm", "in",
     "ft", "m/s", "cm/s", "mm/s", "in/s", "ft/s", "cm/sec", "m/sec", "mg", "mgal", "milli-g", "%g",
@@ -30,7 +30,7 @@ pub(super) fn titles(fields: &[&str]) -> Vec<String> {
     titles
 }
 
-/// Error if the title of a column of times names another unit than the second.
+/// Error if the title of a column of times names a unit other than the second.
 pub(super) fn check_time(title: &str) -> Result<(), RecordError> {
     let fault = || Err(RecordError::TitleUnit { text: excerpt(title), unit: "s".into() });
     match bracketed(title).or_else(|| appended(title).filter(|unit| unit.len() > 1)) {
@@ -40,7 +40,7 @@ pub(super) fn check_time(title: &str) -> Result<(), RecordError> {
     }
 }
 
-/// Error if the title of a column of accelerations names another unit than `expected`, or times.
+/// Error if the title of a column of accelerations names a unit other than `expected`, or times.
 pub(super) fn check_acceleration(
     title: &str,
     expected: AccelerationUnit,
@@ -51,7 +51,7 @@ pub(super) fn check_acceleration(
         return Err(RecordError::TitleUnit { text: excerpt(title), unit });
     }
     let known = |unit: String| AccelerationUnit::named(&unit).is_some();
-    // Behind a name without brackets `s` may be the South.
+    // After a name without brackets `s` may mean South.
     let unit = bracketed(title).or_else(|| appended(title).filter(|unit| known(unit.clone())));
     match unit {
         Some(unit) if AccelerationUnit::named(&unit) == Some(expected) => Ok(()),
@@ -62,7 +62,7 @@ pub(super) fn check_acceleration(
     }
 }
 
-/// Whether a text is a unit of acceleration or another one; a letter alone only in lower case.
+/// Whether a text is a unit of acceleration or another unit; a single letter only in lower case.
 fn is_unit(text: &str) -> bool {
     let lower = text.to_ascii_lowercase();
     let other = OTHERS.contains(&lower.as_str()) && (text.len() > 1 || lower == text);

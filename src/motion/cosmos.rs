@@ -1,4 +1,4 @@
-//! Records of CESMD: the COSMOS format, and its reader with that of CSMIP.
+//! Records of CESMD: the COSMOS format, and a reader for COSMOS and CSMIP files.
 //!
 //! Layout: *COSMOS Strong Motion Data Format, Version 1.20*, Consortium of Organizations for Strong-Motion Observation
 //! Systems, 15 August 2001, table of the real header and table 2 (units). The 34th real value is the interval of the
@@ -17,30 +17,30 @@ use crate::text::column::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
 ///
-/// Two layouts are understood; in both, a line says what the block of numbers under it is:
+/// The reader accepts two layouts; in both, a line describes the block of numbers under it:
 ///
-/// * COSMOS 1.20: `12091 acceleration pts, approx 120 secs, units=cm/s^2 (4), Format=(8F10.5)`,
-///   with the sampling interval of the data (ms) as 62nd of the 100 real header values; if it is
-///   unknown there (−999), the interval of the recorder (s), the 34th, counts;
+/// * COSMOS 1.20: `12091 acceleration pts, approx 120 secs, units=cm/s^2 (4), Format=(8F10.5)`, with the sampling
+///   interval of the data (ms) as 62nd of the 100 real header values; if it is unknown there (−999), the 34th is
+///   used, the interval of the recorder (s);
 /// * CSMIP (California Geological Survey):
 ///   `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`, in the 1980s
 ///   `(UNITS: CM/SEC/SEC)`, and volume 1,
 ///   `13200 Accelerogram points at 200 pts/sec in units of g .  Format: (8f9.6)`.
 ///
-/// Header and title state interval, number of points, duration, unit and peak more than once. A
-/// file in which they disagree is an error, and so are more numbers than announced, raw counts
-/// (`.V0`) and uncorrected data in unequal steps.
+/// Header and title state interval, number of points, duration, unit and peak more than once. An error if they
+/// disagree, if the block has more numbers than announced, and for raw counts (`.V0`) and uncorrected data in
+/// unequal steps.
 ///
-/// Numbers are read in the columns of the format that the line names, in which they may touch, and
-/// free where a line does not keep to it or none is named. In its column, a number without a
-/// decimal point has the decimals of the format, as in Fortran: `12345` under `8F10.3` is 12.345. A
-/// format that is not one repeated item is an error. The unit is a whole word, such as
-/// `cm/s^2`, `cm/sec/sec`, `gal` or `g`; anything else (counts, `mgal`) is an error, and so is a file
+/// Numbers are read in the columns of the format that the line names, in which they may touch. They are read
+/// without columns where a line does not match the format or none is named. In its column, a number without a
+/// decimal point has the decimals of the format, as in Fortran: `12345` under `8F10.3` is 12.345. A format that is
+/// not one repeated item is an error. The unit is a whole word, such as `cm/s^2`, `cm/sec/sec`, `gal` or `g`;
+/// anything else (counts, `mgal`) is an error, and so is a file that does not name its unit, unless
+/// [`CosmosFormat::unit`] does.
 /// that does not name its unit, unless [`CosmosFormat::unit`] does.
 ///
-/// A file may hold several channels one after the other, and blocks of velocity and displacement,
-/// which are passed over: [`channel`](Self::channel) counts acceleration blocks. [`Record::read_all`]
-/// returns all channels.
+/// A file may hold several channels one after the other. Blocks of velocity and displacement are skipped:
+/// [`channel`](Self::channel) counts acceleration blocks. [`Record::read_all`] returns all channels.
 ///
 /// ```
 /// use basemat::motion::{CosmosFormat, Record};
@@ -60,8 +60,10 @@ use crate::text::column::finite;
 pub struct CosmosFormat {
     /// Number of the acceleration block, counted from 1 in the order of the file.
     pub channel: usize,
-    /// Unit of files that do not name one: those of the 1970s and 1980s end with `EQUALLY SPACED AT .010 SEC.`, and are
-    /// in cm/s². What a file says goes before this.
+    /// Unit for files that do not name one; a unit in the file has priority.
+    ///
+    /// Titles of the 1970s and 1980s end with `EQUALLY SPACED AT .010 SEC.`, without a unit; their numbers are in
+    /// cm/s².
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, CosmosFormat, Record};
@@ -94,7 +96,7 @@ impl RecordFormat for CosmosFormat {
     }
 }
 
-/// The channel `wanted` alone, or all of them.
+/// Only the channel `wanted`, or all channels.
 fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reason<Vec<Series>> {
     let (mut found, mut channels) = (0, Vec::new());
     let (mut header, mut notes) = (Header::default(), csmip::Notes::default());
@@ -146,8 +148,9 @@ fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reas
     }
 }
 
-/// Whether a line in lower case is the title of a block of acceleration: `7000  acceleration pts,`,
-/// `42000 raw accel.   pts,`.
+/// Whether a line in lower case is the title of a block of acceleration.
+///
+/// Examples: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
 fn is_title(line: &str) -> bool {
     let mut words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
     let mut before = "";
@@ -158,13 +161,14 @@ fn is_title(line: &str) -> bool {
     })
 }
 
-/// Places among the real header values, from 0, of the recorder's interval (s), the interval of the data (ms), their
-/// duration (s) and their peak.
+/// Indices from 0 in the real header values.
+///
+/// Interval of the recorder (s), interval of the data (ms), their duration (s) and their peak.
 const RECORDER: usize = 33;
 const INTERVAL: usize = 61;
 const DURATION: usize = 62;
 const PEAK: usize = 63;
-/// Value of what is not known.
+/// Header value that means unknown.
 const UNKNOWN: f64 = -999.0;
 
 /// Statements of the header of a channel.
@@ -178,13 +182,13 @@ struct Header {
 }
 
 impl Header {
-    /// Reads a line of the header, with the numbers under it; `false` if it says nothing here.
+    /// Reads a line of the header, with the numbers under it; `false` for any other line.
     fn read(&mut self, lines: &mut Lines, line: &str, lower: &str) -> Reason<bool> {
         if lower.contains("real-header values follow") {
             self.reals = reals(lines, lower)?;
         } else if lower.contains("integer-header values follow") {
             let Some(line) = lines.next_columns()? else { return Ok(true) };
-            // Of ten values the first is the stage of processing, the third the unit.
+            // The first of ten values is the stage of processing, the third the unit.
             let third = line.split_whitespace().nth(2).and_then(|field| field.parse().ok());
             self.code = third.filter(|&code| code > 0);
         } else if let Some(name) = channel_name(line) {
@@ -195,12 +199,12 @@ impl Header {
         Ok(true)
     }
 
-    /// A real header value, if it is known.
+    /// A real header value; `None` if it is unknown.
     fn real(&self, index: usize) -> Option<f64> {
         self.reals.get(index).copied().filter(|&value| value != UNKNOWN)
     }
 
-    /// The block under a title; `unnamed` is the unit if it names none.
+    /// The block under a title; `unnamed` is the unit if the title names none.
     fn block(
         &self,
         line: &str,
@@ -252,7 +256,7 @@ fn channel_name(line: &str) -> Option<String> {
     let begin = text.get(..4)?.to_ascii_lowercase();
     let named = begin == "chan" && text.contains(':') || begin == "comp" && text.contains(' ');
     let text = text.split(['(', '=']).next()?;
-    // Digits behind `COMP S58W` are of the card.
+    // Digits after `COMP S58W` belong to the punched card.
     let most = if begin == "comp" { 2 } else { usize::MAX };
     let words: Vec<&str> = text.split_whitespace().take(most).collect();
     named.then(|| words.join(" "))

@@ -1,4 +1,4 @@
-//! Blocks of the CSMIP format, volumes 1 and 2, and what their headers state a second time.
+//! Blocks of the CSMIP format, volumes 1 and 2, and quantities that their headers repeat.
 //!
 //! Layout: A. F. Shakal and M. J. Huang, *Standard Tape Format for CSMIP Strong-Motion Data Tapes*, California
 //! Division of Mines and Geology, Report OSMS 85-03 (1985), which follows the "blue books" of Caltech; the titles
@@ -27,7 +27,7 @@ fn volume_1(title: &str) -> Option<&str> {
     Some(title.split_once("accelerogram points at")?.1)
 }
 
-/// Lines of a header that say what the title of the block says, too.
+/// Quantities in the header that the title of the block states too.
 #[derive(Default)]
 pub(super) struct Notes {
     points: Option<f64>,
@@ -38,7 +38,7 @@ pub(super) struct Notes {
 }
 
 impl Notes {
-    /// Notes what a line in lower case states.
+    /// Stores the quantities of a line in lower case.
     pub(super) fn read(&mut self, line: &str) {
         let value = |text: &str| text.split_whitespace().next().and_then(finite);
         if line.contains("baseline") && line.contains("corrected") {
@@ -48,7 +48,7 @@ impl Notes {
         } else if let Some((_, text)) = line.split_once("peak acceleration =") {
             self.peak = peak(text);
         } else if let Some((_, text)) = line.split_once("no. of points =") {
-            // Of volume 1: `No. of Points = 13200  Record Length = 66.000 sec   at 200 Samples/sec`.
+            // From volume 1: `No. of Points = 13200  Record Length = 66.000 sec   at 200 Samples/sec`.
             self.points = value(text);
             let rate =
                 text.split_once("samples/sec").and_then(|(text, _)| text.rsplit_once(" at "));
@@ -86,7 +86,7 @@ impl Notes {
         Ok(Block { points, step, unit, columns, peak })
     }
 
-    /// Error unless the header states the number of points and the interval of the title.
+    /// Error if the header states another number of points or another interval than the title.
     fn agree(&self, points: usize, step: f64) -> Result<(), RecordError> {
         if let Some(stated) = self.points {
             agreement::number("number of points of the title", points as f64, stated)?;
@@ -127,7 +127,9 @@ fn time_end(text: &str) -> usize {
     first.min(clause_end(text))
 }
 
-/// The unit in a title, from its first letter on: `units=g`, `(UNITS: CM/SEC/SEC)`, `in units of g`, `in cm/sec2.`
+/// The text of a title from its unit on.
+///
+/// Examples: `units=g`, `(UNITS: CM/SEC/SEC)`, `in units of g`, `in cm/sec2.`
 fn unit_text(title: &str) -> Option<&str> {
     if let Some((_, text)) = title.split_once("units") {
         let text = text.trim_start_matches([' ', '=', ':']);

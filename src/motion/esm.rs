@@ -15,9 +15,9 @@ use crate::text::column::finite;
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
 ///
-/// A header of lines `KEY: value`, among them `SAMPLING_INTERVAL_S`, `NDATA` and `UNITS`, then the
-/// samples. A file whose samples, duration (`DURATION_S`) or peak (`PGA_CM/S^2`) are others than its
-/// header states is an error, and so is one of velocity or displacement (`DATA_TYPE`).
+/// A header of lines `KEY: value`, among them `SAMPLING_INTERVAL_S`, `NDATA` and `UNITS`, then the samples. An
+/// error if samples, duration (`DURATION_S`) or peak (`PGA_CM/S^2`) differ from the header, and for velocity or
+/// displacement (`DATA_TYPE`).
 ///
 /// ```
 /// use basemat::motion::{EsmFormat, Record};
@@ -42,7 +42,7 @@ impl RecordFormat for EsmFormat {
     }
 }
 
-/// Entries of the header that matter.
+/// Entries of the header that are used.
 #[derive(Default)]
 struct Header {
     interval: Option<f64>,

@@ -10,19 +10,20 @@ use realfft::num_complex::Complex;
 
 /// Highest order of a filter.
 const HIGHEST_ORDER: u32 = 8;
-/// Quiet time on either side of a filtered record, times order over corner frequency.
+/// Quiet time on either side of a filtered record: this times order over corner frequency.
 const PADS: f64 = 1.5;
 
 impl Record {
-    /// Record without what is slower than the `corner` frequency (Hz): a Butterworth filter of
-    /// `order` (1 to 8) forwards and backwards, gain 1/(1 + (corner/f)^(2 order)), no phase.
+    /// Removes motion slower than the `corner` frequency (Hz).
     ///
-    /// The record gets longer: a filter without phase reaches back in time, and needs quiet time
-    /// of 1.5 order/corner on either side (Converse & Brady, *BAP: basic strong-motion
-    /// accelerogram processing software*, USGS Open-File Report 92-296A, 1992). Keep it: without
-    /// it, velocity and displacement do not return to zero (Boore, "On pads and filters: processing
-    /// strong-motion data", Bull. Seism. Soc. Am. 95 (2005), 745–750). Taper a record that does not
-    /// begin or end near zero with [`Record::tapered`] before.
+    /// A Butterworth filter of `order` (1 to 8) forwards and backwards: gain 1/(1 + (corner/f)^(2 order)), no
+    /// phase.
+    ///
+    /// The record gets longer. A filter without phase extends the motion to earlier times, and needs quiet time of
+    /// 1.5 order/corner on either side (Converse & Brady, *BAP: basic strong-motion accelerogram processing
+    /// software*, USGS Open-File Report 92-296A, 1992). Keep it: without it, velocity and displacement do not
+    /// return to zero (Boore, "On pads and filters: processing strong-motion data", Bull. Seism. Soc. Am. 95
+    /// (2005), 745–750). If a record does not begin or end near zero, taper it with [`Record::tapered`] before.
     ///
     /// ```
     /// use basemat::motion::el_centro_1940;
@@ -36,18 +37,18 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless `corner` is above zero and below the highest frequency of the
-    /// samples, and `order` is from 1 to 8; [`Error::Memory`] for more quiet time than would fit.
+    /// [`Error::Input`] unless `corner` is above zero and below the highest frequency of the samples, and `order`
+    /// is from 1 to 8; [`Error::Memory`] for more quiet time than fits into memory.
     pub fn high_pass(&self, corner: f64, order: u32) -> Result<Self> {
         // At zero the ratio is infinite, and the gain zero.
         self.filtered(corner, order, |frequency| corner / frequency)
     }
 
-    /// Record without what is faster than the `corner` frequency (Hz): a Butterworth filter of `order` (1 to 8)
-    /// forwards and backwards, gain 1/(1 + (f/corner)^(2 order)), no phase.
+    /// Removes motion faster than the `corner` frequency (Hz).
     ///
-    /// Deconvolution through soft soil needs it: the way down amplifies noise at high frequencies. The record gets
-    /// longer by quiet time of 1.5 order/corner on either side, as by [`Record::high_pass`].
+    /// A Butterworth filter of `order` (1 to 8) forwards and backwards: gain 1/(1 + (f/corner)^(2 order)), no
+    /// phase. Deconvolution through soft soil needs it, since it amplifies noise at high frequencies. The record
+    /// gets longer by quiet time of 1.5 order/corner on either side, as by [`Record::high_pass`].
     ///
     /// ```
     /// use basemat::motion::el_centro_1940;
@@ -67,7 +68,7 @@ impl Record {
         self.filtered(corner, order, |frequency| frequency / corner)
     }
 
-    /// Record with quiet time, filtered by the gain 1/(1 + `ratio`^(2 order)) of a frequency.
+    /// Record with quiet time, filtered by the gain 1/(1 + `ratio`^(2 order)) at each frequency.
     fn filtered(&self, corner: f64, order: u32, ratio: impl Fn(f64) -> f64) -> Result<Self> {
         positive("corner frequency", corner)?;
         let needed = "below half the sampling frequency";
@@ -77,7 +78,7 @@ impl Record {
         require(quantity, f64::from(order), (1..=HIGHEST_ORDER).contains(&order), needed)?;
         let quiet = PADS * f64::from(order) / corner;
         let padded = self.padded(quiet, quiet)?;
-        // The transform is circular: only the quiet pads are carried round.
+        // The transform is circular: only the quiet pads wrap around.
         let length = padded.len().next_power_of_two();
         let step = 1.0 / (length as f64 * self.time_step());
         let exponent = f64::from(2 * order);
@@ -90,8 +91,9 @@ impl Record {
         Self::new(self.time_step(), filtered)
     }
 
-    /// Record whose first `beginning` and last `end` seconds rise from and fall to zero along half
-    /// a period of a cosine.
+    /// Tapers the first `beginning` and the last `end` seconds.
+    ///
+    /// The acceleration rises from zero and falls to zero along half a period of a cosine.
     ///
     /// ```
     /// use basemat::motion::Record;
@@ -135,7 +137,7 @@ fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
     Ok(spectrum)
 }
 
-/// The real signal of this length that has these coefficients.
+/// The real signal of this length with these coefficients.
 fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
     let inverse = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
     let mut signal = inverse.make_output_vec();
@@ -163,16 +165,15 @@ fn untransformed(length: usize) -> Error {
 //
 // (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
 //
-// exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform",
-// Proc. IEEE 58 (1970), 585–586). A linear convolution: by Fourier transforms of at least the
-// length at which nothing comes round the circle.
+// exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58
+// (1970), 585–586). A linear convolution, computed by Fourier transforms long enough that nothing wraps around.
 
 impl Record {
     /// Record with zero acceleration for at least `before` and `after` (s) around it.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite and not negative, [`Error::Memory`] if they give more
-    /// samples than would fit.
+    /// [`Error::Input`] unless both are finite and not negative, [`Error::Memory`] for more samples than fit into
+    /// memory.
     pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
         let samples = |quantity, time: f64| -> Result<usize> {
             let count = (not_negative(quantity, time)? / self.time_step()).ceil();
@@ -189,12 +190,12 @@ impl Record {
         Self::new(self.time_step(), padded)
     }
 
-    /// Every harmonic of the acceleration a quarter of a period later: cos becomes sin.
+    /// Shifts every harmonic of the acceleration by a quarter of a period: cos becomes sin.
     ///
-    /// Exact for the band-limited function through the samples, zero outside them. The transform
-    /// begins before the record and ends after it; what is outside is lost, so give the record
-    /// quiet time with [`Record::padded`]. As every record it is integrated from rest, so its
-    /// displacement lacks what came before: [`PlaneWave::field_from_horizontal`] makes displacements.
+    /// Exact for the band-limited function through the samples, zero outside them. The transform begins before the
+    /// record and ends after it. The part outside the record is lost, so add quiet time with [`Record::padded`].
+    /// As every record it is integrated from rest, so its displacement lacks the earlier motion:
+    /// [`PlaneWave::field_from_horizontal`] computes displacements.
     ///
     /// [`PlaneWave::field_from_horizontal`]: super::PlaneWave::field_from_horizontal
     ///
@@ -205,10 +206,10 @@ impl Record {
     }
 }
 
-/// The transform at the samples, and at `around` more times on either side.
+/// The transform at the samples, and at `around` more times before and after.
 pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
     let count = samples.len() + 2 * around;
-    // The kernel is indexed by the distance of output and input, from the least on.
+    // The kernel is indexed by the distance of output and input, starting at the smallest.
     let least = around + samples.len() - 1;
     let distances = count + samples.len() - 1;
     let length = distances.next_power_of_two();
@@ -222,7 +223,7 @@ pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
         *value *= factor;
     }
     let signal = signal(product, length)?;
-    // The first outputs are those that come round.
+    // The first outputs contain the part that wraps around.
     Ok(signal[samples.len() - 1..][..count].to_vec())
 }
 
@@ -239,13 +240,13 @@ mod tests {
         let found = hilbert(&samples, 0).unwrap();
         for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
             // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
-            // The share above the highest frequency of the samples: exp(−π/step).
+            // The part above the highest frequency of the samples: exp(−π/step).
             let slack = 2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
             assert!((found - t / (1.0 + t * t)).abs() < slack, "{t}: {found}");
         }
     }
 
-    /// Against the sum itself, inside and around.
+    /// Against the sum itself, at the samples and around them.
     #[test]
     fn convolution_is_the_sum() {
         let samples: Vec<f64> = (0..37).map(|k| f64::from(k * k % 17) - 7.0).collect();

@@ -1,6 +1,6 @@
 //! Columns of fixed width, as Fortran prints numbers.
 
-/// Most numbers in a line, and widest of them, that a format may ask for.
+/// Largest number of fields in a line, and largest width of a field, in a format.
 const MOST: usize = 1000;
 
 /// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`.
@@ -8,17 +8,18 @@ const MOST: usize = 1000;
 pub(super) struct FixedColumns {
     /// Numbers in a full line.
     pub(super) repeat: usize,
-    /// Characters of each.
+    /// Characters of each number.
     pub(super) width: usize,
-    /// Decimals of a field without a point.
+    /// Decimals of a number without a point.
     pub(super) decimals: u16,
-    /// The k of `kP`: fields without an exponent are 10ᵏ times the value.
+    /// The k of `kP`: numbers without an exponent are 10ᵏ times the value.
     pub(super) scale: u16,
 }
 
 impl FixedColumns {
-    /// The last format in brackets that `text` has, or the one after `format=` without brackets;
-    /// none if it is not one repeated item.
+    /// The last format in brackets in `text`, or the one after `format=` without brackets.
+    ///
+    /// `None` if it is not one repeated item.
     pub(super) fn find(text: &str) -> Option<Self> {
         let inside = |piece: &str| Self::parse(piece.split_once(')')?.0);
         let bare = || Self::parse(text.to_ascii_lowercase().split_once("format=")?.1);
@@ -36,13 +37,13 @@ impl FixedColumns {
         let width = rest.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
         let whole_numbers = rest.starts_with(['I', 'i']);
         let (whole, decimals) = width.split_once('.').unwrap_or((width, "0"));
-        // Behind an E stand the digits of the exponent.
+        // Digits of the exponent follow an E.
         let (decimals, exponent) = decimals.split_once(['E', 'e']).unwrap_or((decimals, ""));
         if !exponent.bytes().all(|sign| sign.is_ascii_digit()) {
             return None;
         }
         let decimals = decimals.parse().ok().filter(|&decimals: &u16| decimals < 1000)?;
-        // `I8.4` asks for four digits, none of them decimals.
+        // In `I8.4` the 4 is the smallest number of digits; none of them are decimals.
         let decimals = if whole_numbers { 0 } else { decimals };
         let repeat = if repeat.is_empty() { 1 } else { repeat.parse().ok()? };
         let width = whole.parse().ok()?;
@@ -50,8 +51,9 @@ impl FixedColumns {
         known.then_some(Self { repeat, width, decimals, scale })
     }
 
-    /// Whether `text` is nothing but one format, with or without `format=` and brackets, and numbers
-    /// in brackets (codes of units); `(*)` is a format that any line keeps to.
+    /// Whether `text` is a format and nothing else, with or without `format=` and brackets.
+    ///
+    /// Numbers in brackets, codes of units, are allowed. `(*)` is a format that matches any line.
     pub(super) fn is_all_of(text: &str) -> bool {
         let mut rest = text.trim_matches([' ', '\t', '.', ',', ';']).to_ascii_lowercase();
         loop {
@@ -72,11 +74,10 @@ impl FixedColumns {
         }
     }
 
-    /// The fields of a line, as it stands in the file but for white space at its end.
+    /// The fields of a line, given as it is in the file, without white space at its end.
     ///
-    /// None if the line is not in these columns: longer than they are, not ASCII, with white space
-    /// inside a number, or with a number that goes on behind a column's end, which shows by its
-    /// decimals.
+    /// `None` if the line does not match these columns: if it is longer, not ASCII, has white space inside a
+    /// number, or has a number that continues after a column's end, which its decimals show.
     pub(super) fn fields(self, line: &str) -> Option<Vec<&str>> {
         if !line.is_ascii() || line.len() > self.repeat * self.width {
             return None;

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::Record;
 use crate::error::{Error, RecordError, Result};
 
-/// A file format that holds a record; implement it for one of your own.
+/// A file format of records; implement it for a format of your own.
 ///
 /// The crate's formats are [`ColumnFormat`](super::ColumnFormat), [`PeerFormat`](super::PeerFormat)
 /// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`, COSMOS and CSMIP),
@@ -16,14 +16,16 @@ use crate::error::{Error, RecordError, Result};
 /// [`SmcFormat`](super::SmcFormat) and [`GeoNetFormat`](super::GeoNetFormat).
 #[auto_impl::auto_impl(Box)]
 pub trait RecordFormat {
-    /// Reads the record; `name` is what errors call the file.
+    /// Reads the record; errors call the file `name`.
     ///
     /// # Errors
     /// [`Error::Record`](crate::Error::Record) with the line and the reason, or
     /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
 
-    /// Reads all components of a file with their names; by default the one of [`parse`](Self::parse), without a name.
+    /// Reads all components of a file with their names.
+    ///
+    /// Default: the record of [`parse`](Self::parse), without a name.
     ///
     /// # Errors
     /// As for [`parse`](Self::parse).
@@ -33,7 +35,9 @@ pub trait RecordFormat {
 }
 
 impl Record {
-    /// Reads a file: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,
+    /// Reads a record from a file.
+    ///
+    /// Formats: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,
     /// [`PeerFormat`](super::PeerFormat) for `.AT2`, or any other [`RecordFormat`].
     ///
     /// # Errors
@@ -43,8 +47,9 @@ impl Record {
         format.parse(&name, &mut file)
     }
 
-    /// Reads all components of a file with their names, such as `N-S`, `E-W` and `U-D`, for the formats that hold
-    /// several.
+    /// Reads all components of a file with their names, such as `N-S`, `E-W` and `U-D`.
+    ///
+    /// For formats that hold several components.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -67,7 +72,7 @@ impl Record {
         format.parse_all(&name, &mut file)
     }
 
-    /// Reads the same from any source of bytes; `name` is what errors call it.
+    /// Reads a record from any source of bytes; errors call it `name`.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -90,7 +95,7 @@ impl Record {
     }
 }
 
-/// A file, and what errors call it.
+/// A file, and its name for errors.
 fn open(path: &Path) -> Result<(String, File)> {
     let name = path.display().to_string();
     match File::open(path) {

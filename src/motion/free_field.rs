@@ -8,33 +8,40 @@ use crate::error::{Result, finite, positive, require};
 pub trait FreeField: Send {
     /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
     ///
-    /// A run starts at rest and measures each element's motion from that at t = 0: a ground that moves then starts with
-    /// a jolt.
+    /// A run starts at rest and subtracts the displacement of each element at t = 0. A ground that moves at t = 0
+    /// starts with a jump in velocity.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
-    /// Displacement `[along x, along y, up]` (m) at surface point `place` (`[x, y]`, m), for a ground in plan.
-    /// Default: [`FreeField::displacement`] at x, the same along all of y.
+    /// Displacement `[along x, along y, up]` (m) for a ground in plan.
+    ///
+    /// `place`: surface point `[x, y]`, m. Default: [`FreeField::displacement`] at x, the same for all y.
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
         let [horizontal, vertical] = self.displacement(place[0], time);
         [horizontal, 0.0, vertical]
     }
 
-    /// Whether the motion has a component along y, which a ground in the plane leaves out with a warning. Default: no.
+    /// Whether the motion has a component along y. Default: no.
+    ///
+    /// A ground in the plane ignores that component, with a warning.
     fn moves_across(&self) -> bool {
         false
     }
 
-    /// Records that the motion is made of, whose peak, duration and time step a run states. Default: none.
+    /// Records of the motion. Default: none.
+    ///
+    /// A run states their peak, duration and time step.
     fn records(&self) -> Vec<&Record> {
         Vec::new()
     }
 
-    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations use displacements only;
-    /// `bem::full_plane::VerticalWaves` makes stresses of velocities, as a ground of your own may.
+    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`.
     ///
-    /// Default: the central difference of displacements 10 µs before and after. A motion of f Hz loses (2πf · 10 µs)²/6
-    /// of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A jump or a kink
-    /// is spread over 20 µs. Fields whose velocity is known should return it.
+    /// Simulations use displacements only. `bem::full_plane::VerticalWaves` computes stresses from velocities, and
+    /// a ground of your own may do so.
+    ///
+    /// Default: the central difference of displacements 10 µs before and after. A motion of f Hz loses (2πf · 10
+    /// µs)²/6 of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A
+    /// jump or a kink is spread over 20 µs. Implement this method if the velocity is known.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         differenced(self, x, time)
     }
@@ -42,7 +49,7 @@ pub trait FreeField: Send {
 
 /// Half the interval of the difference, s.
 const DIFFERENCE: f64 = 1e-5;
-/// Smallest that it may be relative to the time, for the time's own rounding.
+/// Smallest half interval relative to the time, which is itself rounded.
 const ROUNDING: f64 = 1e-13;
 
 /// Velocity of `field` from its displacements.
@@ -53,7 +60,7 @@ pub(super) fn differenced(field: &(impl FreeField + ?Sized), x: f64, time: f64) 
     let half = DIFFERENCE.max(ROUNDING * time);
     let (before, after) = (time - half, time + half);
     let (from, to) = (field.displacement(x, before), field.displacement(x, after));
-    // Not 2 · half: the two times are rounded.
+    // Not 2 · half, since the two times are rounded.
     [0, 1].map(|k| (to[k] - from[k]) / (after - before))
 }
 
@@ -79,10 +86,10 @@ impl FreeField for AtRest {
 
 type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
-/// Free field from a closure for the displacement, and one for the velocity if it is known.
+/// Free field from a closure for the displacement, and optionally one for the velocity.
 ///
-/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0: until then the field is
-/// zero. The displacement should start from zero: what it is just after t = 0 comes as a jump.
+/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0; at earlier times
+/// the field is zero. The displacement should start from zero: its value just after t = 0 acts as a jump.
 ///
 /// A wave that runs to the right at 1000 m/s:
 /// ```
@@ -101,8 +108,9 @@ pub struct FreeFieldFn {
 }
 
 impl FreeFieldFn {
-    /// Free field from its `displacement(x, time)`; its velocity is that of
-    /// [`FreeField::velocity`] by default, a difference.
+    /// Free field from its `displacement(x, time)`.
+    ///
+    /// Its velocity is the difference that [`FreeField::velocity`] computes by default.
     pub fn new(displacement: impl Fn(f64, f64) -> [f64; 2] + Send + 'static) -> Self {
         Self { displacement: Box::new(displacement), velocity: None }
     }
@@ -130,10 +138,10 @@ impl FreeField for FreeFieldFn {
     }
 }
 
-/// Vertically incident S and P waves: the surface moves by the records, the same at all points.
+/// Vertically incident S and P waves: all points of the surface move by the records.
 ///
-/// The records are the motion of the free *surface* (twice the incident wave), S giving the
-/// horizontal and P the vertical component. A plain [`Record`] is a horizontal free field too.
+/// The records are the motion of the free *surface* (twice the incident wave). S gives the horizontal and P the
+/// vertical component. A plain [`Record`] is a horizontal free field too.
 ///
 /// ```
 /// use basemat::motion::{FreeField, Record, VerticalIncidence};
@@ -148,7 +156,7 @@ impl FreeField for FreeFieldFn {
 pub struct VerticalIncidence {
     /// Horizontal motion of the surface, positive to the right.
     pub horizontal: Option<Record>,
-    /// Vertical motion of the surface, positive up; its time step may be another.
+    /// Vertical motion of the surface, positive up; its time step may differ.
     pub vertical: Option<Record>,
 }
 
@@ -260,8 +268,9 @@ pub struct RickerDisplacement {
 const LEAST_DELAY: f64 = 4.0;
 
 impl RickerDisplacement {
-    /// Horizontal pulse of peak `amplitude` (m, any sign), width `sigma` (s), peaking at `center`
-    /// (s).
+    /// Horizontal pulse of peak `amplitude` at the time `center`.
+    ///
+    /// `amplitude`: m, any sign. `sigma`: width, s. `center`: s.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `amplitude` is finite, `sigma` positive and
@@ -275,7 +284,7 @@ impl RickerDisplacement {
         Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
     }
 
-    /// This pulse, turned into the vertical (positive up).
+    /// This pulse as vertical motion (positive up).
     #[must_use]
     pub fn vertical(self) -> Self {
         let [horizontal, vertical] = self.amplitude;

@@ -18,10 +18,9 @@ use crate::text::column::finite;
 
 /// The `.V1A` and `.V2A` files of GeoNet (New Zealand), with the components of a station one after the other.
 ///
-/// Samples are in mm/s² times the unit of the readings (`Raw readings in units of 1.00 mm/s/s`). The
-/// header states interval, number of points and duration in words and in numbers, which must agree, and
-/// the peak of each component. [`Record::read_all`] returns all components. Velocity and displacement
-/// are passed over.
+/// Samples are in mm/s² times the unit of the readings (`Raw readings in units of 1.00 mm/s/s`). The header states
+/// interval, number of points and duration in words and in numbers, which must agree, and the peak of each
+/// component. [`Record::read_all`] returns all components. Velocity and displacement are skipped.
 ///
 /// ```no_run
 /// use basemat::motion::{GeoNetFormat, Record};
@@ -57,7 +56,7 @@ const TEXT_LINES: usize = 16;
 const INTEGERS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 0, scale: 0 };
 const REALS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 1, scale: 0 };
 
-/// Statements of the lines of text.
+/// Quantities in the lines of text.
 #[derive(Default)]
 struct Header {
     name: String,

@@ -1,7 +1,8 @@
 //! Exact integration of a piecewise linear acceleration.
 
-/// Motion of a [`Record`](super::Record): at one time ([`Record::at`](super::Record::at)), or the largest magnitudes
-/// ([`Record::peaks`](super::Record::peaks)).
+/// Motion of a [`Record`](super::Record) at one time, or its peaks.
+///
+/// See [`Record::at`](super::Record::at) and [`Record::peaks`](super::Record::peaks).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Motion {
@@ -14,7 +15,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Motion a time `elapsed` later, while the acceleration changes at the rate `jerk`.
+    /// Motion after a further time `elapsed`, with the acceleration changing at the rate `jerk`.
     pub(super) fn after(self, elapsed: f64, jerk: f64) -> Self {
         let Self { acceleration: a, velocity: v, displacement: u } = self;
         Self {
@@ -43,7 +44,7 @@ pub(super) fn integrate(step: f64, acceleration: &[f64]) -> (Vec<f64>, Vec<f64>)
 
 /// Roots of c₀ + c₁ s + c₂ s² in the open interval (0, `end`), ascending.
 ///
-/// Without cancellation: the larger root first, the other from the product of the two.
+/// Without cancellation: the larger root first, the other from their product.
 pub(crate) fn quadratic_roots_within(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
     let inside = |root: f64| (root > 0.0 && root < end).then_some(root);
     let discriminant = c1 * c1 - 4.0 * c0 * c2;

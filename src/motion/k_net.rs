@@ -14,12 +14,11 @@ use crate::text::column::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
 ///
-/// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder; the
-/// acceleration is the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of
-/// samples must be `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak `Max. Acc. (gal)`, but
-/// for the baseline. [`KNetCsvFormat`](super::KNetCsvFormat) reads the files with commas. Counts have an offset: follow with
-/// [`Record::with_baseline`], at least
-/// [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
+/// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder. The acceleration is
+/// the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of samples must be
+/// `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak `Max. Acc. (gal)`, up to the baseline.
+/// [`KNetCsvFormat`](super::KNetCsvFormat) reads the files with commas. Counts have an offset: call
+/// [`Record::with_baseline`] afterwards, at least with [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
 ///
 /// ```
 /// use basemat::motion::{KNetFormat, Record};
@@ -50,7 +49,7 @@ impl RecordFormat for KNetFormat {
 struct Header {
     frequency: Option<f64>,
     duration: Option<f64>,
-    /// Gal in a count.
+    /// Gal per count.
     scale: Option<f64>,
     /// Peak after the mean was removed, gal.
     peak: Option<f64>,
@@ -99,7 +98,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
 }
 
 impl Header {
-    /// Notes what a line of the header says, if it is one of those that are needed.
+    /// Stores the value of a header line with a needed key.
     fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
         let positive = |quantity: HeaderNumber, unit| match line.split_once(unit) {
             Some((_, text)) => Ok(quantity.read(text)?.filter(|&value| value > 0.0)),
@@ -127,7 +126,7 @@ impl Header {
     }
 }
 
-/// Gal in a count: `3920(gal)/6182761`. None if the text is not of that kind, or no scale.
+/// Gal per count: `3920(gal)/6182761`. `None` if the text has another form or is not a scale.
 fn scale(text: &str) -> std::result::Result<Option<f64>, RecordError> {
     let Some((range, counts)) = text.split_once("(gal)/") else { return Ok(None) };
     let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));

@@ -16,17 +16,17 @@ use crate::error::{RecordError, Result};
 use crate::text::column::excerpt;
 
 const GAL: AccelerationUnit = AccelerationUnit::Gal;
-/// Departure of a time from equal steps that is rounding, in units of the times' last digit: half of one for this time
-/// and for the first, but for a tie of both.
+/// Difference of a time from equal steps that counts as rounding, in units of the times' last digit.
+///
+/// Half a unit for this time and half a unit for the first time, but less than both together.
 const ROUNDING: f64 = 0.99;
 
 /// The CSV files of the Japanese networks K-NET and KiK-net, with the components of a station side by side.
 ///
-/// A header of lines `#Key,value`, among them `#Sampling Freq(Hz),100`, and one with the names of the
-/// columns, `#Time,NS,EW,UD`; then the time of day (or seconds) and the components in gal. The times must
-/// advance by the sampling interval. [`Record::read_all`] returns all components. Follow with
-/// [`Record::with_baseline`] where the samples have an offset. Files in ASCII are those of
-/// [`KNetFormat`](super::KNetFormat).
+/// A header of lines `#Key,value`, among them `#Sampling Freq(Hz),100`, and one with the names of the columns,
+/// `#Time,NS,EW,UD`; then the time of day (or seconds) and the components in gal. The times must advance by the
+/// sampling interval. [`Record::read_all`] returns all components. If the samples have an offset, call
+/// [`Record::with_baseline`] afterwards. [`KNetFormat`](super::KNetFormat) reads the ASCII files.
 ///
 /// ```
 /// use basemat::motion::{KNetCsvFormat, Record};
@@ -61,7 +61,7 @@ impl RecordFormat for KNetCsvFormat {
     }
 }
 
-/// Entries of the header that matter.
+/// Entries of the header that are used.
 #[derive(Default)]
 struct Header {
     frequency: Option<f64>,
@@ -93,7 +93,7 @@ impl Header {
 
     /// Peak of the component in a column from 1, gal; zero if there is none.
     fn peak(&self, column: usize) -> f64 {
-        // One peak alone is that of any component.
+        // A single peak may belong to any component.
         let index = column.checked_sub(1).filter(|_| self.peaks.len() + 1 == self.names.len());
         index.and_then(|index| self.peaks.get(index).copied()).unwrap_or(0.0)
     }
@@ -134,7 +134,7 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
         .map_err(|reason| lines.refuse(reason))
 }
 
-/// The components, whose header, times and samples agree.
+/// Error unless header, times and samples agree; returns the components.
 fn check(
     header: &Header,
     times: &[f64],

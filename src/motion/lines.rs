@@ -1,4 +1,4 @@
-//! Lines, fields and numbers of text files, damaged ones included.
+//! Lines, fields and numbers of text files, including damaged files.
 
 use std::io::Read;
 
@@ -8,13 +8,13 @@ use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
 use crate::text::column::{distinct, excerpt, finite, has_implied_point, in_field};
 
-/// Contents of lines, or number and fault of the one that cannot be read.
+/// Contents of lines, or the number and the fault of a line that cannot be read.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
 
 /// The lines of a text.
 pub(super) type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
-/// The refusal of a line of `file`.
+/// Converts a line's fault to an error that names `file`.
 pub(super) fn refused(file: &str) -> impl Fn((usize, RecordError)) -> Error {
     move |(line, reason)| Error::Record { file: file.to_owned(), line, reason }
 }
@@ -24,8 +24,9 @@ pub(super) fn number(field: &str) -> std::result::Result<f64, RecordError> {
     finite(field).ok_or_else(|| RecordError::NotANumber { text: excerpt(field) })
 }
 
-/// The numbers of a line, where a sign may begin a number right after another:
-/// `-0.12E-03-0.34E-03`.
+/// The numbers of a line; a sign may begin a number right after another.
+///
+/// Example: `-0.12E-03-0.34E-03`.
 fn free_fields(line: &str) -> Vec<&str> {
     let mut fields = Vec::new();
     for field in line.split_whitespace() {
@@ -55,16 +56,16 @@ pub(super) fn push_numbers(
     Ok(())
 }
 
-/// Reading of numbers without a decimal point so far.
+/// Readings of numbers without a decimal point so far.
 #[derive(Default)]
 struct Points {
-    /// Some with the point that the format implies.
+    /// Some with the decimals that the format implies.
     implied: bool,
-    /// Some as whole numbers, in lines that do not keep to the format.
+    /// Some as whole numbers, in lines that do not match the format.
     whole: bool,
 }
 
-/// Appends the numbers of a line of these columns; free ones if it does not keep to them.
+/// Appends the numbers of a line in these columns, or without columns if the line does not match them.
 fn push_columns(
     line: &str,
     columns: FixedColumns,
@@ -84,14 +85,14 @@ fn push_columns(
         push_numbers(line, &mut numbers)?;
         (free_fields(line), numbers)
     };
-    // A zero is one with and without a point.
+    // A zero is the same with and without a point.
     let pointless = |(field, value): (&&str, &f64)| has_implied_point(field) && *value != 0.0;
     if columns.decimals > 0 && fields.iter().zip(&numbers).any(pointless) {
         let seen = if kept { &mut points.implied } else { &mut points.whole };
         *seen = true;
     }
     values.extend(numbers);
-    // A scale factor holds for what keeps to the format.
+    // A scale factor applies only to lines that match the format.
     if points.implied && points.whole || columns.scale > 0 && !kept {
         return Err(RecordError::OffColumns { text: excerpt(line) });
     }
@@ -124,7 +125,7 @@ pub(super) fn read_numbers(
     Ok(values)
 }
 
-/// Refuses text after the numbers.
+/// Error for text after the numbers.
 pub(super) fn end_of_numbers(lines: &mut Lines, needed: usize) -> Reason<()> {
     while let Some(line) = lines.next()? {
         if !line.is_empty() {
@@ -134,7 +135,7 @@ pub(super) fn end_of_numbers(lines: &mut Lines, needed: usize) -> Reason<()> {
     Ok(())
 }
 
-/// The line after the numbers of a block, if there is one; more numbers than announced are an error.
+/// The line after the numbers of a block; an error for more numbers than announced.
 pub(super) fn line_after_block(lines: &mut Lines, needed: usize) -> Reason<Option<String>> {
     let of_numbers = |sign: u8| sign.is_ascii_digit() || b"+-.eEdD* \t".contains(&sign);
     while let Some(line) = lines.next()? {
@@ -149,7 +150,7 @@ pub(super) fn line_after_block(lines: &mut Lines, needed: usize) -> Reason<Optio
     Ok(None)
 }
 
-/// A number of samples: a whole number, at least two, or none.
+/// A number of samples: a whole number, at least two; otherwise `None`.
 pub(super) fn count(value: f64) -> Option<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in 2..=1e9")]
     (value.fract() == 0.0 && (2.0..=1e9).contains(&value)).then_some(value as usize)
@@ -170,16 +171,16 @@ pub(super) struct Series {
     pub(super) samples: Vec<f64>,
 }
 
-/// A component as a record, errors named after `file`.
+/// Converts a component to a record; errors name `file`.
 pub(super) fn record(file: &str, parsed: Reason<Series>) -> Result<super::Record> {
     let series = parsed.map_err(refused(file))?;
-    // Faults of the file as a whole.
+    // Faults of the whole file.
     let reason = |error| RecordError::Unusable(Box::new(error));
     super::Record::new(series.step, series.samples)
         .map_err(|error| refused(file)((0, reason(error))))
 }
 
-/// Several components as records with their names, made different from each other.
+/// Converts several components to records with unique names.
 pub(super) fn records(
     file: &str,
     parsed: Reason<Vec<Series>>,
@@ -199,7 +200,7 @@ pub(super) fn component(number: usize, parsed: Reason<Vec<Series>>) -> Reason<Se
     series.ok_or((0, RecordError::Channel { found, needed: number }))
 }
 
-/// The fields of a line: commas or else semicolons separate, and so does white space.
+/// The fields of a line, separated by commas, or else semicolons, or else white space.
 pub(super) struct Fields<'a> {
     line: &'a str,
     /// Separator of columns; `None` for white space.
@@ -207,7 +208,9 @@ pub(super) struct Fields<'a> {
     pub(super) texts: Vec<&'a str>,
 }
 
-/// White space that separates. A carriage return within a line is what is left of a lost line end.
+/// Whether a character is separating white space.
+///
+/// A carriage return within a line is the rest of a damaged line end.
 fn is_gap(sign: char) -> bool {
     sign == '\t' || sign.is_whitespace() && !sign.is_control()
 }
@@ -215,7 +218,7 @@ fn is_gap(sign: char) -> bool {
 impl<'a> Fields<'a> {
     pub(super) fn of(line: &'a str) -> Self {
         let separator = if line.contains(';') {
-            // Beside semicolons a comma would be one of decimals: left in its field, which is no number.
+            // Beside semicolons a comma would be a decimal comma: it stays in its field, which is then not a number.
             Some(';')
         } else if line.contains(',') && !has_gap_between_numbers(line) {
             Some(',')
@@ -252,7 +255,7 @@ impl<'a> Fields<'a> {
         let missing = RecordError::Column { found: self.texts.len(), needed: column };
         let index = column.checked_sub(1).filter(|&index| index < self.texts.len());
         let index = index.ok_or(missing)?;
-        // The field before it, too, may be the other part of a number.
+        // The previous field, too, may be the other part of a number.
         for first in index.saturating_sub(1)..=index {
             if let Some(text) = self.decimal_comma_after(first) {
                 return Err(RecordError::NotANumber { text: excerpt(&text) });
@@ -261,8 +264,9 @@ impl<'a> Fields<'a> {
         number(self.texts[index])
     }
 
-    /// The number whose parts are a field and the next one: `0,05`, as no whole number begins with
-    /// a zero.
+    /// The number that a field and the next one would form with a decimal comma.
+    ///
+    /// Example: `0,05`, since no whole number begins with a zero.
     fn decimal_comma_after(&self, index: usize) -> Option<String> {
         let (whole, decimals) = (self.texts.get(index)?, self.texts.get(index + 1)?);
         let digits =
@@ -277,13 +281,13 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Whether white space alone parts two numbers: then commas in the same line are those of decimals.
+/// Whether white space separates two numbers: commas in the same line are then decimal commas.
 fn has_gap_between_numbers(line: &str) -> bool {
     let mut words = line.split(is_gap).filter(|word| !word.is_empty());
     let Some(mut before) = words.next() else { return false };
     words.any(|word| {
         let ends = before.ends_with(|sign: char| sign.is_ascii_digit() || sign == '.');
-        // A time of day stands behind its date.
+        // A time of day follows its date.
         let begins = word.starts_with(|sign: char| sign.is_ascii_digit() || "+-.".contains(sign))
             && !word.contains(':');
         before = word;
@@ -291,7 +295,7 @@ fn has_gap_between_numbers(line: &str) -> bool {
     })
 }
 
-/// Whether a line is one of titles: of words, and nothing like a number that cannot be read.
+/// Whether a line is a header: it has words, and no field that looks like a number.
 pub(super) fn is_header(fields: &Fields) -> bool {
     let has_letters = |field: &&str| field.contains(char::is_alphabetic);
     fields.texts.iter().any(has_letters) && !fields.texts.iter().any(|field| is_like_number(field))
@@ -300,12 +304,12 @@ pub(super) fn is_header(fields: &Fields) -> bool {
 /// Words for a missing number, in lower case.
 const MISSING: [&str; 8] = ["nan", "inf", "infinity", "na", "n/a", "null", "none", "missing"];
 
-/// Whether a field is a number, or was meant as one.
+/// Whether a field is, or looks like, a number.
 pub(super) fn is_like_number(field: &str) -> bool {
     let field = field.rsplit('=').next().unwrap_or(field);
     let bare =
         field.trim_start_matches(['"', '\'', '(', '[', '$', '~', '<', '>', '=', '+', '-', '.']);
-    // An exponent alone: its digits were lost.
+    // An exponent alone, whose digits were lost.
     let exponent =
         bare.strip_prefix(['e', 'E', 'd', 'D']).and_then(|rest| rest.strip_prefix(['+', '-']));
     let digit = |text: &str| text.starts_with(|sign: char| sign.is_numeric());
@@ -316,8 +320,9 @@ pub(super) fn is_like_number(field: &str) -> bool {
         || is_failure(field)
 }
 
-/// Whether a line consists of numbers and what a spreadsheet writes for those that it could not
-/// compute, one of these first: no comment, though it begins like one.
+/// Whether a line consists of numbers and error values of a spreadsheet, one of these first.
+///
+/// It begins like a comment, but is not one.
 pub(super) fn is_failure(line: &str) -> bool {
     let failed = |field: &str| {
         ["#N/A", "#VALUE!", "#DIV/0!", "#NUM!", "#REF!", "#NAME?", "#NULL!"].contains(&field)

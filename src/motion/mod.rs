@@ -1,9 +1,9 @@
-//! Ground motions: records, and the free field that they stand for.
+//! Ground motions: records, and free fields made of them.
 //!
-//! A [`Record`] is read or built, its [`Baseline`] treated, and integrated exactly; a [`FreeField`] says how the
-//! surface of the ground would move without the structure. [`VerticalIncidence`] makes one of records, [`Triaxial`] one
-//! in three directions, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes closures, [`AtRest`]
-//! never moves.
+//! Read or build a [`Record`] and treat its [`Baseline`]; it is integrated exactly. A [`FreeField`] is the motion
+//! of the ground's surface without the structure: [`VerticalIncidence`] from records, [`Triaxial`] from records in
+//! three directions, [`RickerDisplacement`] a pulse in closed form, [`FreeFieldFn`] from closures, [`AtRest`]
+//! without motion.
 
 mod afad;
 mod agreement;

@@ -3,9 +3,9 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | v | velocity of the given component, zero outside the record |
-//! | V = H\[v\], W = ∫₀ᵗ V | velocity and displacement that every harmonic has a quarter of a period late |
+//! | V = H\[v\], W = ∫₀ᵗ V | velocity and displacement, every harmonic delayed by a quarter of a period |
 //! | h, y | half of the record's length and places −1 … 1 along it from its middle, in halves |
-//! | s, q = h/s | time from the record's middle, in samples, and how near that is |
+//! | s, q = h/s | time from the record's middle, in samples, and its inverse relative to h |
 //! | Mₖ | moments Σ vⱼ yⱼᵏ of the record |
 
 use std::f64::consts::PI;
@@ -15,15 +15,19 @@ use super::{FreeField, Record};
 use crate::error::{Result, require};
 use crate::linalg::Complex;
 
-/// Largest velocity at the end of a record, relative to its peak, that passes for rest.
+/// Largest velocity at the end of a record, relative to its peak, that counts as rest.
 const REST: f64 = 0.01;
 
-/// Moments of a record. W and V are sampled up to (3n − 1)/2 samples from the middle of a record of
-/// n, h = (n − 1)/2: beyond, |q| < 1/3 and what is left out is below 1.5 · 3⁻³² < 10⁻¹⁵.
+/// Number of moments of a record.
+///
+/// W and V are sampled up to (3n − 1)/2 samples from the middle of a record of n samples, h = (n − 1)/2. Beyond,
+/// |q| < 1/3, and the neglected moments contribute less than 1.5 · 3⁻³² < 10⁻¹⁵.
 const MOMENTS: usize = 32;
 
-/// Free field, the same at all points, of a record and a component that is a complex `ratio` times
-/// it: its real part in phase, its imaginary part a quarter of a period late.
+/// Free field of a record and a component out of phase with it, the same at all points.
+///
+/// The component is a complex `ratio` times the record: the real part is in phase, the imaginary part a quarter of
+/// a period late.
 pub(super) struct OutOfPhase {
     given: Record,
     given_is_vertical: bool,
@@ -36,7 +40,7 @@ impl OutOfPhase {
         Ok(Self { given: given.clone(), given_is_vertical, ratio, late: Late::new(given)? })
     }
 
-    /// Completes both components from the given one and W or V.
+    /// Both components from the given one and its delayed W or V.
     fn both(&self, given: f64, late: f64) -> [f64; 2] {
         let other = self.ratio.re * given + self.ratio.im * late;
         if self.given_is_vertical { [other, given] } else { [given, other] }
@@ -57,13 +61,15 @@ impl FreeField for OutOfPhase {
     }
 }
 
-/// W and V at any time: sampled as long before and after the record as it lasts, and beyond, where
-/// the record is far away, by its moments.
+/// W and V at any time.
+///
+/// They are sampled during the record and for its length before and after. Beyond, where the record is far away,
+/// they are computed from its moments.
 struct Late {
     step: f64,
     /// Number of samples of the record.
     count: usize,
-    /// V at the samples and at as many times before and after.
+    /// V at the samples, and at as many times before and after each.
     velocity: Vec<f64>,
     /// W at the same times.
     displacement: Vec<f64>,
@@ -84,8 +90,8 @@ impl Late {
     /// Transform of two or more samples of the record's velocity.
     fn of(step: f64, source: &[f64]) -> Result<Self> {
         let count = source.len();
-        // Velocity and displacement, not acceleration, are transformed: what the transform of an
-        // acceleration was before t = 0 would be missing from its integrals.
+        // Velocity and displacement, not acceleration, are transformed: integrals of a transformed acceleration
+        // would miss its part before t = 0.
         let velocity = hilbert(source, count)?;
         let displacement = integral(&velocity, step, count);
         let (moments, last) = (Moments::new(source), displacement.len() - 1);
@@ -115,7 +121,7 @@ impl Late {
         [displacement, v0 + x * (2.0 * b + 3.0 * x * c)]
     }
 
-    /// `[W, V]` where 1/(t − τ) hardly changes from sample to sample.
+    /// `[W, V]` at times where 1/(t − τ) hardly changes from sample to sample.
     fn far(&self, time: f64) -> [f64; 2] {
         let constant = self.constants[usize::from(time >= 0.0)];
         let [integral, velocity] = self.moments.transform(time / self.step - self.moments.half);
@@ -123,7 +129,7 @@ impl Late {
     }
 }
 
-/// Moments of a record, which make its transform far from it: sample j is s (1 − q yⱼ) away, hence
+/// Moments of a record, which give its transform far from it: sample j is s (1 − q yⱼ) away, hence
 ///
 /// V = 1/π Σ vⱼ / (s (1 − q yⱼ)) = 1/(π s) Σ Mₖ qᵏ,
 /// ∫V ds = 1/π Σ vⱼ ln |s (1 − q yⱼ)| = 1/π (M₀ ln |s| − Σ Mₖ qᵏ / k), k > 0.
@@ -162,7 +168,7 @@ impl Moments {
     }
 }
 
-/// Integral of samples from sample `zero` on, each interval under the cubic through four of them.
+/// Integral of samples from sample `zero` on; each interval under the cubic through four samples.
 fn integral(samples: &[f64], step: f64, zero: usize) -> Vec<f64> {
     let last = samples.len() - 1;
     let interval = |k: usize| {
@@ -200,12 +206,12 @@ mod tests {
         let differences =
             late.displacement.iter().zip(&direct).map(|(w, u)| w - (u - direct[count]));
         let worst = differences.fold(0.0_f64, |most, d| most.max(d.abs()));
-        // The corners of the record are above the highest frequency of its samples, and seen by the
-        // two ways differently; displacements are 0.2 m.
+        // The corners of the record are above the highest frequency of its samples, and the two methods treat them
+        // differently; displacements are 0.2 m.
         assert!(worst < 1e-4, "{worst:e}");
     }
 
-    /// The sums that the moments stand for, over all samples.
+    /// The sums over all samples that the moments replace.
     fn direct(late: &Late, source: &[f64], time: f64) -> [f64; 2] {
         let (count, last) = (source.len() as f64, late.velocity.len() - 1);
         let (edge, index) = if time < 0.0 { (-count, 0) } else { (last as f64 - count, last) };
@@ -252,7 +258,7 @@ mod tests {
                         assert!((a - b).abs() <= 1e-13 * peak, "{n} at {time}: {a} {b} of {peak}");
                     }
                 }
-                // W goes on from its last sample.
+                // W continues from its last sample.
                 let sample = late.displacement[if side < 0.0 { 0 } else { last }];
                 assert!((late.far(edge)[0] - sample).abs() <= 1e-14 * peaks[0]);
             }

@@ -13,19 +13,18 @@ use crate::error::{RecordError, Result};
 use crate::text::column::finite;
 
 const G: AccelerationUnit = AccelerationUnit::StandardGravity;
-/// Lines among which the number of points and the time step must stand.
+/// Number of first lines that must contain the number of points and the time step.
 const HEADER_LINES: usize = 12;
 
 /// The `.AT2` files of the Pacific Earthquake Engineering Research Center.
 ///
-/// A header of text, of which the last line gives the number of points and the time step, as
-/// `NPTS=  5372, DT=   .0100 SEC` or, in older files, `5372  .0100  NPTS, DT`; then the
-/// acceleration in units of g, several to a line. Numbers may touch where the second is negative.
-/// The time step is in seconds unless `MSEC` follows, and may be a fraction (`1/100 SEC`).
-/// A line of the header must say that the unit is g: `ACCELERATION TIME SERIES IN UNITS OF G`, with
-/// or without text behind it (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or
-/// `ACCELERATION TIME HISTORY (G)`, `The units are (g)`. Files that do not, files of velocity or displacement, other
-/// units, and fewer or more numbers than a file says are errors.
+/// A header of text, then the acceleration in units of g, several to a line. The last line of the header gives the
+/// number of points and the time step, as `NPTS=  5372, DT=   .0100 SEC` or, in older files,
+/// `5372  .0100  NPTS, DT`. Numbers may touch where the second is negative. The time step is in seconds unless
+/// `MSEC` follows, and may be a fraction (`1/100 SEC`). A line of the header must state the unit g:
+/// `ACCELERATION TIME SERIES IN UNITS OF G`, with or without text after it
+/// (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or `ACCELERATION TIME HISTORY (G)`, `The units are (g)`. Errors: no
+/// such line, velocity or displacement, other units, and fewer or more numbers than the header states.
 ///
 /// ```
 /// use basemat::motion::{PeerFormat, Record};
@@ -78,11 +77,12 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     Ok(Series { name: String::new(), step, samples: scaled(values, factor) })
 }
 
-/// Whether a line of the header, in upper case, says that the numbers are accelerations in g, or
-/// something else; none if it says neither.
+/// Whether a line of the header, in upper case, states accelerations in g, or another quantity.
+///
+/// `None` if it states neither.
 fn acceleration_in_g(line: &str) -> Option<bool> {
     let kind = ["ACCELERATION", "VELOCITY", "DISPLACEMENT"].map(|kind| line.contains(kind));
-    // The text before `key`, the word after it, and what follows that.
+    // The text before `key`, the word after it, and the text after that word.
     let word = |key| {
         let (before, after) = line.split_once(key)?;
         // `UNITS ARE (G)`.
@@ -102,13 +102,15 @@ fn acceleration_in_g(line: &str) -> Option<bool> {
             Some(AccelerationUnit::named(unit) == Some(G) && !times)
         }
         ([_, false, false], None) => None,
-        // A title may well speak of velocity.
+        // A title may well mention velocity.
         (_, unit) => (unit.is_some() || line.contains("TIME")).then_some(false),
     }
 }
 
-/// Whether the text behind a unit may say that numbers are a multiple of it: by a number, other than
-/// that of a filter or gravity itself in brackets, by a word, or without a separator.
+/// Whether the text behind a unit may state that numbers are a multiple of it.
+///
+/// By a number, by a word, or without a separator. Numbers of a filter, and gravity itself in brackets, do not
+/// count.
 fn has_factor(rest: &str) -> bool {
     let rest = rest.split_once("FILTER").map_or(rest, |(before, _)| before).trim();
     let gravity = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
@@ -132,7 +134,7 @@ fn is_unit(word: &str) -> bool {
     AccelerationUnit::named(word).is_some() || word.contains("/S")
 }
 
-/// Whether a text speaks of multiplication: `TIMES`, `1000 X`.
+/// Whether a text mentions multiplication: `TIMES`, `1000 X`.
 fn multiplies(text: &str) -> bool {
     let words = ["TIMES", "SCALED", "FACTOR", "MULTIPLIED", "DIVIDED"];
     let number = |word: &str| finite(word).is_some();
@@ -146,7 +148,7 @@ fn multiplies(text: &str) -> bool {
         || pairs.any(|(a, b)| (number(a) && b == "X") || (a == "X" && number(b)))
 }
 
-/// Whether `word` stands in `line` by itself.
+/// Whether `word` is a word of `line`.
 fn has_word(line: &str, word: &str) -> bool {
     line.split(|sign: char| !sign.is_alphanumeric()).any(|found| found == word)
 }
@@ -168,7 +170,7 @@ fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, RecordError> 
     Ok(points.and_then(count).zip(step))
 }
 
-/// The value of `NPTS= 4, DT= .01 SEC` for a key; `ORIGINAL DT` is another key than `DT`.
+/// The value of a key in `NPTS= 4, DT= .01 SEC`; `ORIGINAL DT` is another key than `DT`.
 fn assigned(
     line: &str,
     key: &str,
@@ -176,10 +178,10 @@ fn assigned(
 ) -> std::result::Result<Option<f64>, RecordError> {
     let mut pieces = line.split(['=', ':']).peekable();
     let mut found = None;
-    // The key that the last piece ended with.
+    // The key at the end of the previous piece.
     let mut name = pieces.next().map_or("", last_clause);
     while let Some(piece) = pieces.next() {
-        // The last piece is a value alone.
+        // The last piece contains only a value.
         let clause = clause_end(piece);
         let (value, next) = match (pieces.peek(), clause < piece.len()) {
             (None, _) => (&piece[..clause], ""),

@@ -7,8 +7,8 @@
 //! | g = b² − p² | |
 //! | R = g² + 4p²ab | Rayleigh's function |
 //!
-//! For e^{iω(px−t)} and z down, an incident wave of unit displacement and the two that the surface
-//! sends back leave it free of traction if it moves by
+//! For e^{iω(px−t)} and z down, an incident wave of unit displacement and its two reflected waves leave the
+//! surface free of traction if it moves by
 //!
 //! * SV: u_x = 2bg/(c₂R), u_up = −4pab/(c₂R)
 //! * P: u_x = 4pab c₁/(c₂²R), u_up = 2ag c₁/(c₂²R)
@@ -27,14 +27,15 @@ use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// Component below this fraction of the other cannot be prescribed: near the angles at which it
-/// vanishes, the other grows without bound.
+/// Smallest ratio of a prescribed component to the other one.
+///
+/// Near the angles at which the prescribed component vanishes, the other grows without bound.
 const SMALLEST: f64 = 0.1;
 
-/// Rayleigh's function below this, in units of 1/c₂⁴, is what rounding leaves of zero.
+/// Values of Rayleigh's function below this, in units of 1/c₂⁴, are rounding of zero.
 const VANISHING: f64 = 1e-14;
 
-/// A plane harmonic wave, and how the free surface of the half-plane moves under it.
+/// A plane harmonic wave, and the motion of the half-plane's surface under it.
 ///
 /// ```
 /// use basemat::{Soil, motion::{FreeField, PlaneWave, el_centro_1940}};
@@ -56,8 +57,10 @@ pub struct PlaneWave {
 }
 
 impl PlaneWave {
-    /// SV wave from below, its direction at `angle` (rad) from the vertical, to the right if
-    /// positive. Beyond the critical angle, sin θ = c₂/c₁, the two components are out of phase.
+    /// SV wave from below, at `angle` (rad) from the vertical.
+    ///
+    /// It runs to the right if the angle is positive. Beyond the critical angle, sin θ = c₂/c₁, the two components
+    /// are out of phase.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and at the critical angle of 45° for a soil
@@ -74,8 +77,9 @@ impl PlaneWave {
         })
     }
 
-    /// SH wave from below, as for [`PlaneWave::sv`], for a ground in plan: it moves the surface across its direction
-    /// only, in phase at all angles.
+    /// SH wave from below, as for [`PlaneWave::sv`], for a ground in plan.
+    ///
+    /// It moves the surface only across its direction, in phase at all angles.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
@@ -111,39 +115,44 @@ impl PlaneWave {
         Self { slowness, horizontal: Complex::real(1.0), vertical, across: 0.0 }
     }
 
-    /// This wave running the other way.
+    /// This wave in the opposite direction.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self { slowness: -self.slowness, vertical: self.vertical.scale(-1.0), ..self }
     }
 
-    /// Velocity (m/s) with which the wave runs along the surface, positive to the right; infinite
-    /// at vertical incidence.
+    /// Velocity (m/s) of the wave along the surface, positive to the right.
+    ///
+    /// Infinite at vertical incidence.
     pub fn apparent_velocity(&self) -> f64 {
         1.0 / self.slowness
     }
 
-    /// Surface displacement per unit displacement of the incident wave (of the horizontal component
-    /// for Rayleigh's), horizontal and up, each `[in phase, a quarter of a period late]`.
+    /// Surface displacement per unit displacement of the incident wave, horizontal and up.
+    ///
+    /// Each is `[in phase, a quarter of a period late]`. A Rayleigh wave's is per unit of its horizontal
+    /// displacement.
     pub fn amplification(&self) -> [[f64; 2]; 2] {
         [self.horizontal, self.vertical].map(|c| [c.re, c.im])
     }
 
-    /// Surface displacement across the wave's direction (along y, if it runs along x) per unit displacement of the
-    /// incident wave: 2 for SH, else 0.
+    /// Surface displacement across the wave's direction per unit of the incident wave.
+    ///
+    /// 2 for SH, else 0. The displacement is along y if the wave runs along x.
     pub fn amplification_across(&self) -> f64 {
         self.across
     }
 
-    /// The free field in which `record` is the horizontal motion at `origin` (m), the edge of the
-    /// base that the wave reaches first; the vertical motion follows.
+    /// The free field in which `record` is the horizontal motion at `origin` (m).
     ///
-    /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal one
-    /// over all time: it begins before the record does and fades after it, as 1/t (as ln t if the ground does not
-    /// come back). It is measured from t = 0, when it moves already; its velocity then, which
-    /// [`FreeField::velocity`](super::FreeField::velocity) returns, is a jolt at the start of a run. Quiet time before
-    /// the record makes the jolt small, and changes nothing else: see [`Record::padded`]. The record must end at
-    /// rest: see [`Baseline`](super::Baseline).
+    /// `origin` is the edge of the base that the wave reaches first. The vertical motion follows.
+    ///
+    /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal
+    /// one over all time. It begins before the record does and fades after it, as 1/t (as ln t if the ground does
+    /// not return). It is measured from t = 0, when it moves already. Its velocity at that time
+    /// ([`FreeField::velocity`](super::FreeField::velocity) returns it) acts as a jolt at the start of a run.
+    /// Quiet time before the record makes the jolt small and changes nothing else: see [`Record::padded`]. The
+    /// record must end at rest: see [`Baseline`](super::Baseline).
     ///
     /// ```
     /// use basemat::{Soil, motion::{Baseline, FreeField, PlaneWave, el_centro_1940}};
@@ -157,16 +166,17 @@ impl PlaneWave {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) if the horizontal component is less than a tenth of the vertical one (SV
-    /// near 45°, P near the vertical), or if it is out of phase and the record's last velocity above
-    /// 1 % of its peak.
+    /// [`Error::Input`](crate::Error::Input) if the horizontal component is less than a tenth of the vertical one
+    /// (SV near 45°, P near the vertical), or if it is out of phase and the record's last velocity is above 1 % of
+    /// its peak.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "horizontal component of the wave over the other one";
         self.field(record, origin, false, ratio(quantity, self.vertical, self.horizontal)?)
     }
 
-    /// The free field in which `record` is the vertical motion at `origin`, as for
-    /// [`PlaneWave::field_from_horizontal`].
+    /// The free field in which `record` is the vertical motion at `origin`.
+    ///
+    /// As for [`PlaneWave::field_from_horizontal`].
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) if the vertical component is less than a tenth of the horizontal one (SV
@@ -177,7 +187,7 @@ impl PlaneWave {
         self.field(record, origin, true, ratio(quantity, self.horizontal, self.vertical)?)
     }
 
-    /// The free field of a record and of the component that is `ratio` times it.
+    /// The free field of a record and of a component that is `ratio` times the record.
     fn field(
         &self,
         record: &Record,
@@ -195,8 +205,9 @@ impl PlaneWave {
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
-    /// The free field in which `record` is the motion across the direction of an SH wave, as for
-    /// [`PlaneWave::field_from_horizontal`]; [`TravellingWave::with_azimuth`] turns it.
+    /// The free field in which `record` is the motion across an SH wave's direction.
+    ///
+    /// As for [`PlaneWave::field_from_horizontal`]; [`TravellingWave::with_azimuth`] rotates it.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for waves that do not move the ground across, and an origin that is not
@@ -209,17 +220,17 @@ impl PlaneWave {
     }
 }
 
-/// `angle`, if it is one of incidence from below.
+/// `angle`, or an error unless it is an angle of incidence from below.
 fn check_angle(angle: f64) -> Result<f64> {
     let needed = "between -pi/2 and pi/2";
     require("angle of incidence", angle, angle.abs() < FRAC_PI_2, needed)
 }
 
-/// p, a, b, g and R of the file's head, for a wave of this speed.
+/// p, a, b, g and R of the table above, for a wave of this speed.
 fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Complex, f64, Complex)> {
     let p = check_angle(angle)?.sin() / speed;
     let vertical = |c: f64| {
-        // Of the wave itself without cancellation.
+        // The wave's own vertical slowness, without cancellation.
         let own = angle.cos() / speed;
         if c == speed { Complex::real(own) } else { Complex::real(c.powi(-2) - p * p).sqrt() }
     };
@@ -237,7 +248,7 @@ fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Compl
     Ok(other / given)
 }
 
-/// Error for a component of size `given` that is too small a fraction of the larger one.
+/// Error if `given` is too small a fraction of the larger component.
 pub(crate) fn check_prescribed(quantity: &'static str, given: f64, other: f64) -> Result<()> {
     let largest = other.max(given);
     let share = if largest == 0.0 { 0.0 } else { given / largest };

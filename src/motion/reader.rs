@@ -1,4 +1,4 @@
-//! Reader of text files with columns of acceleration, and mostly one of time.
+//! Reader of text files with columns of acceleration, usually with a column of time.
 //!
 //! Layout: none of an agency; comma-separated values after RFC 4180, and what spreadsheets and scripts print.
 
@@ -14,34 +14,33 @@ use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::excerpt;
 
-/// Largest departure of a sample from equal steps, relative to the step.
+/// Largest difference of a sample from equal steps, relative to the step.
 ///
 /// Wide enough for times printed with two digits of the step.
 const STEP_TOLERANCE: f64 = 0.01;
-/// Least step, in units of the last digit of the times, whose departures rounding explains.
+/// Smallest step, in units of the last digit of the times, at which rounding explains unequal steps.
 const COARSE: f64 = 3.0;
 
 /// Layout of a record in a text file: its columns and its unit.
 ///
-/// Understood are:
-/// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it
-///   is one separator; two commas enclose an empty field), the decimal point a `.`, the exponent
-///   after an `E` or a `D`. A decimal comma is an error where it shows: beside semicolons or spaces
-///   that separate, or before a zero, as in `0,05`;
-/// * empty lines and comment lines that start with `#`, anywhere (`#N/A` and the like, which
-///   spreadsheets write for a value, are errors);
-/// * one header line, before all numbers, made of words: no field is a number, or begins like one; any lines
-///   before it are passed over if their number is given as `header_lines`;
+/// The reader accepts:
+/// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it is one
+///   separator; two commas enclose an empty field), with a decimal `.` and the exponent after an `E` or a `D`. A
+///   decimal comma is an error where it can be recognised: beside separating semicolons or spaces, or before a
+///   zero, as in `0,05`;
+/// * empty lines and comment lines that start with `#`, anywhere (`#N/A` and the like, which spreadsheets write
+///   for a value, are errors);
+/// * one header line of words before all numbers: no field is a number, or begins like one. Lines before it are
+///   skipped if `header_lines` states their number;
 /// * times in seconds, or times of day, `12:00:15.01`;
 /// * line ends `\n` or `\r\n`, and a byte-order mark.
 ///
-/// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time step is their mean,
-/// rounded to twelve digits, or the second time where all are exact multiples of it, as [`Record::csv`] writes them.
-/// The first time may be any: the record counts from there. Where times are rounded too coarsely, as those of 128
-/// samples a second to 1 ms, `time_step` reads the file. A title that names another unit, such as `time (ms)` or
-/// `a (cm/s2)` in a file that is read in g, is an error. Files without a time column are read by
-/// [`equally_spaced`](Self::equally_spaced). A file cut within its last number cannot be distinguished from a whole
-/// one: give `samples` where their number is known.
+/// The time column must advance by equal steps, to 1 % of a step (for rounded print). The time step is their mean,
+/// rounded to twelve digits, or the second time where all are exact multiples of it, as [`Record::csv`] writes
+/// them. The first time may be any; the record starts there. If times are rounded too coarsely, for example 128
+/// samples a second to 1 ms, set `time_step`. A title that names another unit, such as `time (ms)` or `a (cm/s2)`
+/// in a file that is read in g, is an error. [`equally_spaced`](Self::equally_spaced) reads files without a time
+/// column. A file cut within its last number looks like a complete one: set `samples` where their number is known.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -60,15 +59,15 @@ const COARSE: f64 = 3.0;
 pub struct ColumnFormat {
     /// Unit of the accelerations.
     pub unit: AccelerationUnit,
-    /// Column of times (s), counted from 1; it does not matter where `time_step` is given.
+    /// Column of times (s), counted from 1; ignored if `time_step` is given.
     pub time_column: usize,
     /// Time step (s) of a file without times.
     pub time_step: Option<f64>,
-    /// Column of accelerations, counted from 1; `None`: there must be no other column.
+    /// Column of accelerations, counted from 1; `None` if there is no other column.
     pub acceleration_column: Option<usize>,
-    /// Number of samples that a file must have, if that is known.
+    /// Number of samples of the file, if known; another number is an error.
     pub samples: Option<usize>,
-    /// Lines at the beginning that are passed over, whatever they hold; the last one may have titles.
+    /// Number of lines at the beginning that are skipped; the last one may have titles.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -95,9 +94,10 @@ impl ColumnFormat {
         }
     }
 
-    /// A single column of acceleration in `unit` every `time_step` (s): a line with more than one
-    /// number is an error, unless `acceleration_column` says which counts. A step
-    /// that is not positive is an error when a file is read.
+    /// A single column of acceleration in `unit` every `time_step` (s).
+    ///
+    /// A line with more than one number is an error, unless `acceleration_column` selects one. A step that is not
+    /// positive is an error when a file is read.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -119,13 +119,13 @@ impl RecordFormat for ColumnFormat {
         record(name, component(1, columns))
     }
 
-    /// All columns but the one of times, whatever `acceleration_column` is.
+    /// All columns except the times, whatever `acceleration_column` is.
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
         records(name, read(&mut Lines::new(source), self, true))
     }
 }
 
-/// The columns of accelerations: all, or the one that the format names.
+/// The columns of accelerations: all, or the one of the format.
 fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Series>> {
     let table = Table::read(lines, format, all)?;
     let last_line = table.lines.last().copied().unwrap_or(0);
@@ -147,7 +147,7 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Serie
 /// Lines of numbers, column by column.
 #[derive(Default)]
 struct Table {
-    /// Numbers of the lines.
+    /// Line numbers.
     lines: Vec<usize>,
     /// s.
     times: Vec<f64>,
@@ -186,7 +186,7 @@ impl Table {
             let refuse = |why| lines.refuse(in_header(why, &fields, columns.is_none()));
             if columns.is_none() {
                 chosen = chosen_columns(format, all, found);
-                // Without times nothing else tells `Station 7` from a sample.
+                // Without times, only this check distinguishes `Station 7` from a sample.
                 if let Some(field) = first_word(&fields).filter(|_| format.time_step.is_some()) {
                     return Err(lines.refuse(RecordError::HeaderLine { text: excerpt(field) }));
                 }
@@ -211,7 +211,7 @@ impl Table {
                     names(format, &title, &chosen, found).map_err(|why| lines.refuse(why))?;
             }
             let expected = *columns.get_or_insert(found);
-            // A comma of thousands, or an empty field between tabs, has moved the columns behind it.
+            // A comma of thousands, or an empty field between tabs, has shifted the following columns.
             let moved = fields.separator == Some(',') || text.contains("\t\t") || all;
             if found != expected && moved {
                 return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
@@ -256,7 +256,7 @@ impl Table {
         Ok(decimal(mean))
     }
 
-    /// The error for times that are equally spaced but for their rounding, if these are.
+    /// The error for times that are equally spaced up to rounding; `None` if they are not.
     fn rounded(&self, mean: f64) -> Option<RecordError> {
         let resolution = self.clock.resolution()?;
         let begin = self.times[0];
@@ -284,14 +284,14 @@ fn chosen_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<usize> 
     (1..=found).filter(|&column| !is_time(column)).collect()
 }
 
-/// Names of the chosen columns, whose titles must not name other units.
+/// Names of the chosen columns; an error if a title names another unit.
 fn names(
     format: &ColumnFormat,
     titles: &[String],
     chosen: &[usize],
     found: usize,
 ) -> std::result::Result<Vec<String>, RecordError> {
-    // Words of another number are no titles.
+    // A different number of words means that they are no titles.
     let title = |column: usize| titles.get(column - 1).filter(|_| titles.len() == found);
     if format.time_step.is_none()
         && let Some(title) = title(format.time_column)
@@ -306,7 +306,7 @@ fn names(
     chosen.iter().map(name).collect()
 }
 
-/// The fault of a line before all numbers, whose first field is no number: a line of a header.
+/// Turns a line's fault into a header's fault, for a line before all numbers that starts with a word.
 fn in_header(why: RecordError, fields: &Fields, no_number_yet: bool) -> RecordError {
     let of_header = matches!(
         why,
@@ -320,7 +320,7 @@ fn in_header(why: RecordError, fields: &Fields, no_number_yet: bool) -> RecordEr
     }
 }
 
-/// The first field of a line, if it is a word.
+/// The first field of a line; `None` unless it is a word.
 fn first_word<'a>(fields: &Fields<'a>) -> Option<&'a str> {
     let first = fields.texts.first().copied();
     first.filter(|field| field.contains(char::is_alphabetic) && !is_like_number(field))

@@ -1,4 +1,4 @@
-//! Equally spaced records of ground acceleration: their parts, their integrals, and as CSV.
+//! Equally spaced records of ground acceleration: their parts, their integrals, and CSV.
 
 use super::Baseline;
 use super::integral::{Motion, integrate};
@@ -14,11 +14,10 @@ pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> 
 }
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
-///
-/// The acceleration is linear between samples, so the velocity is piecewise quadratic and the
-/// displacement piecewise cubic; both are integrated exactly from rest at t = 0 and can be asked
-/// for at any time. Before t = 0 all three are zero. After the last sample the acceleration is
-/// zero and the velocity stays what it is: it is zero there only if a [`Baseline`] made it so.
+/// The acceleration is linear between samples, so the velocity is piecewise quadratic and the displacement
+/// piecewise cubic. Both are integrated exactly from rest at t = 0; [`Record::at`] returns them at any time.
+/// Before t = 0 all three are zero. After the last sample the acceleration is zero and the velocity keeps its last
+/// value. That value is zero only if a [`Baseline`] made it so.
 ///
 /// ```
 /// use basemat::motion::Record;
@@ -51,9 +50,8 @@ impl Record {
     /// Record from its time step (s) and at least two samples of acceleration (m/s²).
     ///
     /// # Errors
-    /// [`Error::Input`] unless the time step is positive and all samples, the slopes between them and
-    /// the velocity and displacement that follow are finite; [`Error::NotFinite`] for a sample that is not;
-    /// [`Error::Record`] for fewer than two samples.
+    /// [`Error::Input`] unless the time step is positive and all slopes, velocities and displacements are finite;
+    /// [`Error::NotFinite`] for a sample that is not finite; [`Error::Record`] for fewer than two samples.
     pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
         positive("time step of the record", time_step)?;
         if acceleration.len() < 2 {
@@ -76,8 +74,9 @@ impl Record {
         Ok(Self { step: time_step, acceleration, velocity, displacement })
     }
 
-    /// Record of `duration` (s) whose acceleration (m/s²) is a function of time (s), sampled every
-    /// `time_step` (s) from 0 on.
+    /// Record of `duration` (s) from a function of time.
+    ///
+    /// The acceleration (m/s²) is sampled every `time_step` (s) from 0 on.
     ///
     /// ```
     /// use basemat::motion::Record;
@@ -89,8 +88,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// As for [`Record::new`]; [`Error::Input`] for a duration that is not positive, [`Error::Memory`]
-    /// for one of more samples than would fit.
+    /// As for [`Record::new`]; [`Error::Input`] for a duration that is not positive, [`Error::Memory`] for more
+    /// samples than fit into memory.
     pub fn from_fn(
         time_step: f64,
         duration: f64,
@@ -137,13 +136,12 @@ impl Record {
         &self.displacement
     }
 
-    /// Record with its samples every `time_step` (s), the acceleration linear between the old
-    /// ones.
+    /// Record with its samples every `time_step` (s).
     ///
-    /// The same function of time if the old step is a multiple of the new one; otherwise the old
-    /// corners are cut. Where only motion at other times is wanted, ask
-    /// [`Record::at`], which is exact at any time. The last sample is
-    /// the first one not before the end of the old record.
+    /// The acceleration is linear between the old samples. If the old step is a multiple of the new one, the
+    /// record stays the same function of time; otherwise the old corners are cut. For the motion at other times
+    /// use [`Record::at`], which is exact at any time. The last sample is the first one not before the end of the
+    /// old record.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
@@ -154,12 +152,11 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the step is positive, [`Error::Memory`] if it gives more samples than
-    /// would fit.
+    /// [`Error::Input`] unless the step is positive, [`Error::Memory`] for more samples than fit into memory.
     pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
-        // slack for a step that divides the duration but for rounding
+        // slack for a step that divides the duration up to rounding
         let intervals = (duration / time_step - 1e-9).ceil().max(1.0);
         check_samples(intervals)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
@@ -215,8 +212,10 @@ impl Record {
         Self::new(self.step, baseline.apply(&self.acceleration)?)
     }
 
-    /// Motion at any `time` (s): between samples the acceleration is linear; after the last one it is zero, the
-    /// velocity constant and the displacement linear in time. Before t = 0 all are zero.
+    /// Motion at any `time` (s).
+    ///
+    /// Between samples the acceleration is linear. After the last sample it is zero, the velocity constant and the
+    /// displacement linear in time. Before t = 0 all are zero.
     pub fn at(&self, time: f64) -> Motion {
         let last = self.len() - 1;
         if time.is_nan() || time <= 0.0 {
@@ -248,17 +247,16 @@ impl Record {
     }
 }
 
-/// Steps by which a time may miss a sample and still be that of the sample, for rounding.
+/// Distance of a time from a sample, in steps, that counts as rounding.
 const SLACK: f64 = 1e-6;
 
 impl Record {
-    /// The part between two times (s), from the last sample not after `start` to the first one not
-    /// before `end`; its first sample is at zero.
+    /// The part between two times (s).
     ///
-    /// Samples of acceleration stay as they are, to the last bit. Velocity and displacement that the record
-    /// had at `start` are lost: the part begins at rest, as every record does, so that its velocity
-    /// differs by a constant and its displacement by a ramp. Cut where the ground is nearly still, and
-    /// treat the [`Baseline`](super::Baseline) afterwards.
+    /// It runs from the last sample not after `start` to the first sample not before `end`; its first sample is at
+    /// zero. Samples of acceleration stay as they are, to the last bit. The part begins at rest, as every record
+    /// does: its velocity differs from the record's by a constant and its displacement by a ramp. Cut where the
+    /// ground is nearly still, and treat the [`Baseline`](super::Baseline) afterwards.
     ///
     /// ```
     /// use basemat::motion::Record;
@@ -288,8 +286,10 @@ impl Record {
 }
 
 impl Record {
-    /// Time and acceleration as CSV: a heading and a line for every sample, with all digits, so that
-    /// [`ColumnFormat`](super::ColumnFormat) reads the same record to the last bit.
+    /// Time and acceleration as CSV: a heading and a line for every sample.
+    ///
+    /// Numbers have all digits, so that [`ColumnFormat`](super::ColumnFormat) reads the same record to the last
+    /// bit.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};

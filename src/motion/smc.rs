@@ -16,9 +16,9 @@ use crate::error::{RecordError, Result};
 
 /// The `.smc` files of the U.S. Geological Survey, one component a file, in cm/s².
 ///
-/// Numbers may touch. The 2nd real header value is the number of samples a second, the 17th integer
-/// their number, the 29th to 32nd reals time and value of the maximum and the minimum, which the
-/// samples must have. Files in unequal steps, of velocity, displacement or spectra are errors.
+/// Numbers may touch. The 2nd real header value is the number of samples a second, the 17th integer the number of
+/// samples, the 29th to 32nd reals time and value of the maximum and the minimum, which the samples must have.
+/// Files in unequal steps, of velocity, displacement or spectra are errors.
 ///
 /// ```no_run
 /// use basemat::motion::{Record, SmcFormat};
@@ -43,7 +43,7 @@ const TEXT_LINES: usize = 11;
 const INTEGERS: FixedColumns = FixedColumns { repeat: 8, width: 10, decimals: 0, scale: 0 };
 const REALS: FixedColumns = FixedColumns { repeat: 5, width: 15, decimals: 7, scale: 0 };
 const SAMPLES: FixedColumns = FixedColumns { repeat: 8, width: 10, decimals: 4, scale: 0 };
-/// Most samples a second that a recorder takes.
+/// Upper limit of a recorder's sampling rate, samples a second.
 const FASTEST: f64 = 1e5;
 
 fn read(lines: &mut Lines) -> Reason<Series> {
@@ -63,7 +63,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     }
     let integers = read_numbers(lines, 48, Some(INTEGERS))?;
     let reals = read_numbers(lines, 50, Some(REALS))?;
-    // The first value of each kind stands for what is not known.
+    // The first value of each kind means unknown.
     let real = |index: usize| Some(reals[index]).filter(|&value| value != reals[0]);
     let Some(rate) = real(1).filter(|&rate| rate > 0.0 && rate < FASTEST) else {
         let (kind, text) = ("data in unequal steps", "no number of samples a second".to_owned());
@@ -71,7 +71,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     };
     let missing = |quantity| lines.refuse(RecordError::Missing { quantity });
     let needed = count(integers[16]).ok_or_else(|| missing("number of samples (17th integer)"))?;
-    // A whole number from 0, as a comment for each would be.
+    // A whole number from 0: the number of comments.
     let comments = (0..=10_000).find(|&number| f64::from(number) == integers[15]);
     for _ in 0..comments.unwrap_or(0) {
         lines.next()?;

@@ -5,7 +5,7 @@
 //! | ω, ζ | natural circular frequency, damping ratio |
 //! | ω_d | ω √(1−ζ²) |
 //! | u, v | displacement and velocity relative to the ground: u'' + 2ζω u' + ω² u = −a(t) |
-//! | h | substep: the record's interval divided so that a period has at least 40 of them |
+//! | h | substep: the record's interval divided so that a period has at least 40 substeps |
 
 use std::fmt;
 
@@ -13,9 +13,9 @@ use super::integral::{Motion, quadratic_roots_within};
 use super::{Record, STANDARD_GRAVITY};
 use crate::error::{Observer, Result, Watch, damping_ratio, positive, require};
 
-/// Fewest substeps in a period.
+/// Smallest number of substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
-/// Most substeps in all: shorter periods are an error.
+/// Largest number of substeps in all; shorter periods are an error.
 const MOST_SUBSTEPS: f64 = 1e9;
 
 /// Substeps between two calls of an observer.
@@ -38,14 +38,14 @@ pub struct SpectralOrdinate {
     pub acceleration: f64,
 }
 
-/// Fewest time steps of a record in a period of its spectrum.
+/// Smallest number of a record's time steps in a period of its spectrum.
 const SAMPLES_PER_PERIOD: f64 = 10.0;
 
-/// Warning that a response spectrum has periods of fewer than ten time steps of its record.
+/// Warning: a period of a response spectrum has fewer than ten time steps.
 ///
-/// The record is taken as linear between samples, which keeps (sin x/x)² of a harmonic with n samples in its period,
-/// x = π/n: 0.97 at ten samples, 0.88 at five, 0.57 at two and a half. A floor's accelerations may be means over steps,
-/// which costs sin x/x more.
+/// The record is linear between samples. This reduces a harmonic with n samples in its period by the factor (sin
+/// x/x)², x = π/n: 0.97 at ten samples, 0.88 at five, 0.57 at two and a half. A floor's accelerations may be means
+/// over steps, which reduces them by a further sin x/x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct CoarseSpectrum {
@@ -68,7 +68,7 @@ impl fmt::Display for CoarseSpectrum {
 }
 
 impl Record {
-    /// Warning for a response spectrum at these `periods` (s), if the shortest has fewer than ten of the record's steps.
+    /// Warns if the shortest of these `periods` (s) has fewer than ten time steps.
     ///
     /// ```
     /// // Samples of 0.02 s.
@@ -87,11 +87,10 @@ impl Record {
 
     /// Elastic response spectrum at `periods` (s) with the damping ratio `damping`.
     ///
-    /// The acceleration is linear between samples, for which the oscillator's motion is known
-    /// exactly (Nigam & Jennings, "Calculation of response spectra from strong-motion earthquake
-    /// records", Bull. Seism. Soc. Am. 59 (1969), 909–922). Peaks are searched for between samples
-    /// too, to 2e-6. A floor's acceleration makes a floor spectrum. [`Record::coarse_spectrum`] warns of periods that
-    /// are too short for the record's time step.
+    /// The acceleration is linear between samples, for which the oscillator's motion is known exactly (Nigam &
+    /// Jennings, "Calculation of response spectra from strong-motion earthquake records", Bull. Seism. Soc. Am. 59
+    /// (1969), 909–922). Peaks between samples are found to 2e-6. The spectrum of a floor's acceleration is a
+    /// floor spectrum. [`Record::coarse_spectrum`] warns of periods that are too short for the record's time step.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
@@ -102,8 +101,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `damping` < 1 and every period is positive, and long enough for
-    /// at most 10⁹ substeps.
+    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `damping` < 1 and every period is positive and needs at
+    /// most 10⁹ substeps.
     pub fn response_spectrum(
         &self,
         periods: &[f64],
@@ -112,7 +111,9 @@ impl Record {
         self.ordinates(periods, damping, &mut Watch::nobody())
     }
 
-    /// Response spectrum with an observer; parts are samples of the record, counted again for every period.
+    /// Response spectrum with an observer.
+    ///
+    /// Parts are samples of the record, counted again for every period.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`Record::response_spectrum`].
@@ -142,7 +143,9 @@ impl Record {
         Ok(found)
     }
 
-    /// Calls `after` with the number of samples behind it, after a block of substeps.
+    /// Response of one oscillator.
+    ///
+    /// After each block of substeps it calls `after` with the number of samples done.
     fn ordinate(
         &self,
         period: f64,
@@ -227,7 +230,7 @@ impl Oscillator {
         let Self { frequency, damping, step, cosine, sine } = *self;
         let square = frequency * frequency;
         let half_width = damping * frequency;
-        // Particular solution u = p + q t of the linear load, and what swings about it.
+        // Particular solution u = p + q t of the linear load, and the vibration about it.
         let q = -growth / step / square;
         let p = -ground / square - 2.0 * damping * q / frequency;
         let u = motion.displacement - p;
@@ -248,8 +251,9 @@ impl Oscillator {
     }
 }
 
-/// Largest magnitude over [0, 1] of the cubic with the values and slopes `[value, slope]` at its
-/// two ends.
+/// Largest magnitude of a cubic over [0, 1].
+///
+/// The cubic has the values and slopes `[value, slope]` at its two ends.
 fn largest_between(ends: [[f64; 2]; 2]) -> f64 {
     let [[f0, s0], [f1, s1]] = ends;
     let at_ends = f0.abs().max(f1.abs());
@@ -268,8 +272,9 @@ fn largest_between(ends: [[f64; 2]; 2]) -> f64 {
 // Peaks and intensities of records.
 
 impl Record {
-    /// Peak ground acceleration, velocity and displacement (PGA, PGV, PGD): the largest magnitudes during the record,
-    /// between samples too.
+    /// Peak ground acceleration, velocity and displacement (PGA, PGV, PGD).
+    ///
+    /// The largest magnitudes during the record, also between samples.
     pub fn peaks(&self) -> Motion {
         let between = |slope: fn(Motion, f64) -> [f64; 3], of: fn(Motion) -> f64| {
             (0..self.len() - 1).flat_map(move |index| {
@@ -298,10 +303,9 @@ impl Record {
 
     /// Arias intensity π/(2g) ∫ a² dt, m/s, with standard gravity.
     ///
-    /// Arias, "A measure of earthquake intensity", in Hansen (ed.), *Seismic Design for Nuclear
-    /// Power Plants*, MIT Press 1970, 438–483. Trapezoidal rule on the squared samples, as is the
-    /// custom; the square of the piecewise linear function has a smaller integral (by 4 % for El
-    /// Centro at 0.02 s).
+    /// Arias, "A measure of earthquake intensity", in Hansen (ed.), *Seismic Design for Nuclear Power Plants*, MIT
+    /// Press 1970, 438–483. Trapezoidal rule on the squared samples, as is usual; the square of the piecewise
+    /// linear function has a smaller integral (by 4 % for El Centro at 0.02 s).
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
@@ -313,9 +317,10 @@ impl Record {
         std::f64::consts::FRAC_PI_2 / STANDARD_GRAVITY * sum * self.time_step()
     }
 
-    /// Times (s) at which the Arias intensity has reached the fractions `from` and `to` of its
-    /// final value; the significant duration is their difference, for 0.05 and 0.95 as a rule. [`Record::trimmed`] cuts
-    /// the record there.
+    /// Times (s) at which the Arias intensity reaches two fractions of its final value.
+    ///
+    /// The significant duration is their difference, usually for 0.05 and 0.95. [`Record::trimmed`] cuts the
+    /// record at these times.
     ///
     /// Trifunac & Brady, "A study on the duration of strong earthquake ground motion", Bull. Seism.
     /// Soc. Am. 65 (1975), 581–626. Linear between samples.

@@ -4,7 +4,9 @@ use super::Record;
 use super::free_field::{FreeField, differenced};
 use crate::error::{Result, finite, require};
 
-/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c); in plan in any direction.
+/// A free field that runs along the surface: u(x, t) = u₀(t − (x − x₀)/c).
+///
+/// In plan it runs in any direction.
 ///
 /// ```
 /// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
@@ -28,11 +30,11 @@ short_debug! {
 }
 
 impl TravellingWave {
-    /// `field` as it is at `origin` (m), running along x with the apparent velocity c
-    /// (`apparent_velocity`, m/s): to the right if positive, everywhere at once if infinite.
+    /// Runs `field`, the motion at `origin` (m), along x with the apparent velocity c.
     ///
-    /// Points reached before `origin` would have moved before t = 0, and start with a jump: let it be
-    /// the edge of the base that the wave reaches first.
+    /// `apparent_velocity`: m/s, to the right if positive; an infinite one moves all points at once. Points
+    /// reached before `origin` would have moved before t = 0, and start with a jump: let `origin` be the edge of
+    /// the base that the wave reaches first.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a velocity of zero or NaN, or an origin that is not finite.
@@ -48,10 +50,11 @@ impl TravellingWave {
         Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
     }
 
-    /// This wave on a ground in plan, turned about the vertical axis: it runs in the direction `azimuth` (rad),
-    /// counter-clockwise from x as seen from above, and its components along and across that direction turn with it.
-    /// `origin` counts from (0, 0) in that direction. A ground in the plane moves with its components along x and up,
-    /// at y = 0.
+    /// Rotates this wave about the vertical axis, for a ground in plan.
+    ///
+    /// The wave runs in the direction `azimuth` (rad), counter-clockwise from x as seen from above. Its components
+    /// along and across that direction rotate with it. `origin` counts from (0, 0) in that direction. A ground in
+    /// the plane moves with the components along x and up, at y = 0.
     ///
     /// ```
     /// use basemat::motion::{FreeField, PlaneWave, el_centro_1940};
@@ -77,7 +80,7 @@ impl TravellingWave {
         Ok(Self { direction: [cos, sin], ..self })
     }
 
-    /// Time (s) at which the motion of `origin` reaches a place.
+    /// Time (s) that the wave takes from `origin` to a place.
     fn delay(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.direction;
         self.slowness * (cos * x + sin * y - self.origin)
@@ -98,7 +101,7 @@ impl FreeField for TravellingWave {
     }
 
     fn moves_across(&self) -> bool {
-        // The sine of π is a rounding.
+        // The sine of π is not exactly zero.
         self.direction[1].abs() > f64::EPSILON || self.field.moves_across()
     }
 

@@ -52,7 +52,7 @@ impl AccelerationUnit {
         }
     }
 
-    /// The unit that files call so, by the whole name; upper or lower case.
+    /// The unit with this name in files, in upper or lower case.
     pub(super) fn named(name: &str) -> Option<Self> {
         let name = name.trim().trim_end_matches('.').to_ascii_lowercase();
         match name.as_str() {
@@ -92,7 +92,7 @@ impl fmt::Display for AccelerationUnit {
     }
 }
 
-/// The names that files have, too: `cm/s2`, `m/s^2`, `m/sec/sec`, in upper or lower case.
+/// Also accepts the names in files: `cm/s2`, `m/s^2`, `m/sec/sec`, in upper or lower case.
 ///
 /// ```
 /// use basemat::motion::AccelerationUnit;
@@ -104,19 +104,19 @@ impl FromStr for AccelerationUnit {
     type Err = Error;
 
     /// # Errors
-    /// [`Error::Word`] with those that are known.
+    /// [`Error::Word`] with the known units.
     fn from_str(text: &str) -> Result<Self> {
         let known = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
         Self::named(text).ok_or_else(|| unknown("unit of acceleration", text, known))
     }
 }
 
-// Numbers with units in the headers of records: the one place that says what counts as one.
+// Numbers with units in the headers of records.
 
-/// Signs that may stand around a quantity and mean nothing.
+/// Characters around a quantity that have no meaning.
 const PADDING: [char; 6] = [' ', '\t', ',', ';', '=', ':'];
 
-/// Names of units, in lower case, and how many of each make one of the SI.
+/// Names of units, in lower case, and their values in SI units.
 type Units = &'static [(&'static str, f64)];
 
 const TIME: Units = &[
@@ -168,8 +168,9 @@ impl HeaderNumber {
         }
     }
 
-    /// The value that all of `text` is, in SI units: a number or a fraction, and a unit or none.
-    /// None if the text is empty.
+    /// The value of `text` in SI units: a number or a fraction, with or without a unit.
+    ///
+    /// `None` if the text is empty; an error unless all of it is understood.
     pub(super) fn read(self, text: &str) -> std::result::Result<Option<f64>, RecordError> {
         let text = text.trim_matches(PADDING);
         if text.is_empty() {
@@ -180,7 +181,7 @@ impl HeaderNumber {
     }
 
     fn parse(self, text: &str) -> Option<f64> {
-        // An `E` may begin the exponent or the unit: where the unit begins shows when it is known.
+        // An `E` may begin the exponent or the unit; the first split with a known unit decides.
         let starts = text.char_indices().filter(|(_, sign)| sign.is_alphabetic() || *sign == '(');
         starts.map(|(at, _)| at).chain([text.len()]).find_map(|at| {
             let (number, unit) = text.split_at(at);
@@ -203,13 +204,14 @@ fn number_or_fraction(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The refusal of a quantity of the header.
+/// The error for a quantity of the header.
 pub(super) fn unclear(quantity: &'static str, text: &str) -> RecordError {
     RecordError::Unclear { quantity, text: excerpt(text) }
 }
 
-/// Place of the comma or semicolon that ends the first clause of a text, or the text's end; a digit
-/// behind it makes it part of a number.
+/// Place of the comma or semicolon that ends the first clause, or the text's end.
+///
+/// A separator with a digit behind it is part of a number.
 pub(super) fn clause_end(text: &str) -> usize {
     let separators = text.match_indices([',', ';']).map(|(at, _)| at);
     let mut ends =
