@@ -12,7 +12,7 @@ use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};
 use crate::soil::{Base, Elastic, GeneralizedMaxwell, Resolved, SoilProfile, StrainCurves};
 
-/// Strain-compatible properties of one layer and the strains they belong to.
+/// Strain-compatible properties of one layer, and its strains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct LayerResponse {
@@ -20,7 +20,7 @@ pub struct LayerResponse {
     pub depth: f64,
     /// Shear modulus, Pa.
     pub shear_modulus: f64,
-    /// Shear modulus over that at small strain.
+    /// Shear modulus over its value at small strain.
     pub modulus_ratio: f64,
     /// Damping ratio.
     pub damping: f64,
@@ -30,41 +30,47 @@ pub struct LayerResponse {
     pub effective_strain: f64,
 }
 
-/// Response of a soil column with strain-compatible properties. Printed, it is a table.
+/// Response of a soil column with strain-compatible properties; it prints as a table.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct EquivalentLinear {
-    /// The site for a ground: strain-compatible moduli at its own first frequency, damping constant over the band.
+    /// The soil for a ground: strain-compatible moduli at its first frequency, constant damping over the band.
     pub profile: SoilProfile,
-    /// Motion of the free surface, for [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`.
-    /// Use this one: `profile` disperses, and the peak of its own surface motion ([`SoilColumn::to_surface`]) differs
-    /// by up to 5 %.
+    /// Motion of the free surface, the input of a simulation.
+    ///
+    /// For [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`. Use this record:
+    /// `profile` disperses, and the peak of its own surface motion ([`SoilColumn::to_surface`]) differs by up to 5
+    /// %.
     pub surface: Record,
     /// Properties and strains from the surface down.
     pub layers: Vec<LayerResponse>,
-    /// Acceleration (m/s²) at the tops of all layers and of the base within, as many samples as the motion's.
+    /// Acceleration (m/s²) at the tops of all layers and of the base (within), with as many samples as the motion.
     pub accelerations: Vec<Vec<f64>>,
-    /// Largest absolute value of each, m/s².
+    /// Largest absolute acceleration at each of these places, m/s².
     pub peak_accelerations: Vec<f64>,
     /// Linear calculations made.
     pub iterations: usize,
-    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
+    /// Estimated largest relative change of a modulus or damping ratio by all further iterations.
     pub last_change: f64,
-    /// Assumptions of the method that the response strains.
+    /// Warnings about assumptions of the method.
     pub warnings: Vec<SiteWarning>,
 }
 
 impl SoilColumn {
-    /// Strain-compatible properties under `motion`, by as many linear calculations as it takes, and the response with
-    /// them. `curves` has one entry for each layer; the damping laws of layers are not used, that of the base is.
+    /// Strain-compatible properties under `motion`, and the response with them.
     ///
-    /// Each layer has one strain, that of its middle, where waves A up and B down at the layer's top have du/dz = κ(A
-    /// e^(κh/2) − B e^(−κh/2)), κ = s/c: divide layers in which it varies. Curves are read at a share of its largest
-    /// value. This is in the frequency domain, s = iω, with the [`ComplexModulus`](super::ComplexModulus) of the options,
-    /// G(1 + 2iξ) unless another is chosen. The resulting profile has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, under the
-    /// layers too if the base's law cannot march in time. That disperses: what [`SoilColumn::to_surface`] makes with it
-    /// is some per cent off `surface`. Poisson's ratio stays, so pressure waves slow down with shear waves (below the
-    /// water table they would not).
+    /// The properties follow from linear calculations, repeated until they converge. `curves` has one entry for
+    /// each layer. The damping laws of the layers are not used; the base's law is used.
+    ///
+    /// The strain of a layer is the strain in its middle: waves A up and B down at the layer's top give du/dz =
+    /// κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c. Divide layers in which the strain varies. Curves are read at a
+    /// fraction of the largest strain. The calculation is in the frequency domain, s = iω, with the
+    /// [`ComplexModulus`](super::ComplexModulus) of the options, G(1 + 2iξ) by default.
+    ///
+    /// The resulting profile has [`GeneralizedMaxwell::constant_q`] instead, with the same modulus at its first
+    /// frequency; below the layers too, if the base's law cannot be used in the time domain. This law disperses:
+    /// motions that [`SoilColumn::to_surface`] computes with it differ from `surface` by some per cent. Poisson's
+    /// ratio stays constant, so pressure waves slow down with shear waves (below the water table they would not).
     ///
     /// ```
     /// use basemat::Soil;
@@ -86,8 +92,9 @@ impl SoilColumn {
     /// ```
     ///
     /// # Errors
-    /// [`SiteError`](crate::SiteError) for curves that do not fit the layers or have parameters out of their range, and a column of
-    /// pressure waves; [`Error::Input`](crate::Error::Input) for options out of theirs and motions that overflow.
+    /// [`SiteError`](crate::SiteError) for curves that do not fit the layers or have parameters out of range, and
+    /// for a column of pressure waves; [`Error::Input`](crate::Error::Input) for options out of range and motions
+    /// that overflow.
     pub fn equivalent_linear(
         &self,
         motion: &Record,
@@ -97,8 +104,10 @@ impl SoilColumn {
         self.compatible_response(motion, curves, options, &mut Watch::nobody())
     }
 
-    /// [`equivalent_linear`](SoilColumn::equivalent_linear) with an observer: it counts all iterations that are
-    /// allowed, and comes to the end at once after the last one made.
+    /// [`equivalent_linear`](SoilColumn::equivalent_linear) with an observer.
+    ///
+    /// The observer counts the largest number of iterations as the total, and jumps to the end after the last
+    /// iteration.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`equivalent_linear`](SoilColumn::equivalent_linear).
@@ -157,7 +166,7 @@ impl SoilColumn {
         Ok(result)
     }
 
-    /// Profile of these properties with causal laws of damping, whose moduli are theirs at its first frequency.
+    /// Profile with these properties by causal damping laws, with the same moduli at its first frequency.
     fn causal(
         &self,
         properties: &[[f64; 2]],
@@ -201,7 +210,7 @@ impl EquivalentLinear {
     }
 }
 
-/// A line per layer, that of the base, iterations and warnings.
+/// One line per layer, one for the base, then iterations and warnings.
 impl fmt::Display for EquivalentLinear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(

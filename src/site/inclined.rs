@@ -12,13 +12,12 @@ use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
 use crate::soil::{Base, Soil, SoilProfile};
 
-/// A plane SV, P or SH wave that comes up at an angle through the half-plane below a soil profile.
+/// A plane SV, P or SH wave from the half-plane below a soil profile, at an angle.
 ///
-/// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px):
-/// each frequency is refracted and reflected in all of them, the surface moves horizontally and
-/// vertically. At vertical incidence it is [`SoilColumn`](super::SoilColumn), without layers
-/// [`PlaneWave`]. A damped base has a complex speed: p stays real, so the wave is as strong everywhere
-/// along the surface.
+/// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px): each
+/// frequency is refracted and reflected in all layers, and the surface moves horizontally and vertically. At
+/// vertical incidence the wave is a [`SoilColumn`](super::SoilColumn), without layers a [`PlaneWave`]. A damped
+/// base has a complex speed, but p stays real, so the wave is equally strong everywhere along the surface.
 ///
 /// ```
 /// use basemat::Soil;
@@ -53,8 +52,9 @@ pub struct InclinedWave {
 }
 
 impl InclinedWave {
-    /// SV wave below `profile`, its direction in the base at `angle` (rad) from the vertical, to the
-    /// right if positive.
+    /// SV wave below `profile`, at `angle` (rad) from the vertical in the base.
+    ///
+    /// It runs to the right if the angle is positive.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
@@ -63,8 +63,10 @@ impl InclinedWave {
         Self::new(profile, angle, Kind::Sv)
     }
 
-    /// SH wave, as for [`InclinedWave::sv`], for a ground in plan: what is called horizontal moves the surface across
-    /// its direction, away from the reader where it runs to the right, and nothing moves up. A mat under it twists.
+    /// SH wave, as for [`InclinedWave::sv`], for a ground in plan.
+    ///
+    /// Its horizontal motion is across its direction, away from the reader if it runs to the right; it has no
+    /// vertical motion. A mat under it twists.
     ///
     /// ```
     /// use basemat::Soil;
@@ -83,7 +85,8 @@ impl InclinedWave {
     /// ```
     ///
     /// # Errors
-    /// As for [`InclinedWave::sv`]; [`InclinedControl::OutcropVertical`] is an error later, in [`InclinedWave::field`].
+    /// As for [`InclinedWave::sv`]; [`InclinedWave::field`] returns an error for
+    /// [`InclinedControl::OutcropVertical`].
     pub fn sh(profile: SoilProfile, angle: f64) -> Result<Self> {
         Self::new(profile, angle, Kind::Sh)
     }
@@ -109,19 +112,21 @@ impl InclinedWave {
         Ok(Self { profile, base, kind, slowness: angle.sin() / speed, own, outcrop })
     }
 
-    /// Velocity (m/s) with which the wave runs along the surface, positive to the right; infinite
-    /// at vertical incidence.
+    /// Velocity (m/s) of the wave along the surface, positive to the right.
+    ///
+    /// Infinite at vertical incidence.
     pub fn apparent_velocity(&self) -> f64 {
         1.0 / self.slowness
     }
 
-    /// Motion of the surface, horizontal and up, by that of `control` for e^(iωt) at `frequency` (Hz).
-    /// Angles beyond the critical one and any damping are allowed.
+    /// Motion of the surface, horizontal and up, per unit motion e^(iωt) of `control`.
+    ///
+    /// At `frequency` (Hz). Angles beyond the critical one and any damping are allowed.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite, for a component of the
-    /// outcrop that is less than a tenth of the other, and for a motion that is not finite (a free surface wave of an
-    /// undamped layer); as for damping laws that are not passive.
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite, for a prescribed
+    /// component of the outcrop that is less than a tenth of the other, and for a motion that is not finite (a
+    /// free surface wave of an undamped layer); as for damping laws that are not passive.
     pub fn transfer(&self, control: InclinedControl, frequency: f64) -> Result<[Complex; 2]> {
         not_negative("frequency of a transfer function", frequency)?;
         self.check(control)?;
@@ -132,13 +137,14 @@ impl InclinedWave {
         Ok(found)
     }
 
-    /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x, samples
-    /// `time_step` seconds apart; any of displacement, velocity and acceleration. The ground is at
-    /// rest at first. It rings after the end of `motion`, as under a [`SoilColumn`](super::SoilColumn).
+    /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x.
+    ///
+    /// Samples are `time_step` seconds apart: displacement, velocity or acceleration. The ground is at rest at
+    /// first. It still moves after the end of `motion`, as in a [`SoilColumn`](super::SoilColumn).
     ///
     /// # Errors
     /// As for [`InclinedWave::transfer`] and [`SoilColumn::to_surface`](super::SoilColumn::to_surface);
-    /// [`LayeredError::BeyondCritical`] where waves are out of phase and so have no beginning.
+    /// [`LayeredError::BeyondCritical`] where waves are out of phase and so have no first arrival.
     pub fn to_surface(
         &self,
         control: InclinedControl,
@@ -177,7 +183,7 @@ impl InclinedWave {
         Ok(found)
     }
 
-    /// [`InclinedWave::to_surface`] with what follows.
+    /// [`InclinedWave::to_surface`] with the motion after the end of the samples.
     fn filtered(
         &self,
         control: InclinedControl,
@@ -198,9 +204,11 @@ impl InclinedWave {
         })
     }
 
-    /// The free field in which `record` is the motion of `control` below `origin` (m), the edge of the
-    /// base that the wave reaches first. It goes on after the record's end until the layers are
-    /// at rest; [`InclinedWave::to_surface`] says how much of it is near the highest frequency or before t = 0.
+    /// The free field in which `record` is the motion of `control` below `origin` (m).
+    ///
+    /// `origin` is the edge of the base that the wave reaches first. The motion continues after the record's end
+    /// until the layers are at rest. [`InclinedWave::to_surface`] returns how much of it is near the highest
+    /// frequency or before t = 0.
     ///
     /// # Errors
     /// As for [`InclinedWave::to_surface`]; [`Error::Input`](crate::Error::Input) for an origin that is not finite.
@@ -214,8 +222,9 @@ impl InclinedWave {
         TravellingWave::new(surface, self.apparent_velocity(), origin)
     }
 
-    /// Records of the surface that [`InclinedWave::field`] moves along it, with an observer: along x, or along y of an SH
-    /// wave, and up.
+    /// Records of the surface motion of [`InclinedWave::field`], with an observer.
+    ///
+    /// Along x, or along y for an SH wave, and up.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`InclinedWave::to_surface`].
@@ -249,7 +258,7 @@ impl InclinedWave {
         Ok(Triaxial { x: horizontal, up, y: None })
     }
 
-    /// Error for a component of the outcrop that is too small to be prescribed.
+    /// Error if the prescribed component of the outcrop is too small.
     fn check(&self, control: InclinedControl) -> Result<()> {
         let [x, up] = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
         let x = x + self.outcrop.amplification_across();
@@ -264,8 +273,9 @@ impl InclinedWave {
         }
     }
 
-    /// Error if the fastest waves of a layer that take part are evanescent: then motion precedes its cause. Layers
-    /// stiffen with frequency, so the highest decides.
+    /// Error if waves with a part in the motion are evanescent in a layer: motion would precede its cause.
+    ///
+    /// Layers stiffen with frequency, so the highest frequency decides.
     fn check_beginning(&self, highest: f64) -> Result<()> {
         let mut moduli = vec![];
         let s = Complex::real(finite("highest frequency of a motion", highest)?);

@@ -14,11 +14,11 @@ use crate::soil::{
     StrainCurves,
 };
 
-/// Effective strain that stands for none.
+/// Effective strain that replaces zero.
 const LEAST_STRAIN: f64 = 1e-12;
-/// Damping ratio from which the modulus by its magnitude has an imaginary part almost as large as laws may have.
+/// Damping ratio at which the modulus by magnitude reaches about the largest imaginary part of a damping law.
 const MOST_DAMPED: f64 = 0.52;
-/// Least and largest relaxation factor.
+/// Smallest and largest relaxation factor.
 const FACTORS: [f64; 2] = [0.3, 20.0];
 
 /// Options of [`SoilColumn::equivalent_linear`].
@@ -26,12 +26,12 @@ const FACTORS: [f64; 2] = [0.3, 20.0];
 pub struct EquivalentLinearOptions {
     /// Place at which the motion is given.
     pub control: ControlPoint,
-    /// Effective strain over the largest, at most 1.
+    /// Effective strain over the largest strain, at most 1.
     pub strain_ratio: f64,
-    /// Largest relative change of a modulus or damping ratio by all further iterations, as estimated, that passes for
-    /// none.
+    /// Estimated relative change of a modulus or damping ratio, by all further iterations, at which the iteration
+    /// ends.
     pub tolerance: f64,
-    /// Most iterations, at least 1.
+    /// Largest number of iterations, at least 1.
     pub most_iterations: usize,
     /// Frequencies (Hz) over which the damping of the resulting profile is constant.
     pub band: [f64; 2],
@@ -39,10 +39,10 @@ pub struct EquivalentLinearOptions {
     pub complex_modulus: ComplexModulus,
 }
 
-/// Complex modulus of a layer by its shear modulus G and damping ratio ξ.
+/// Complex modulus of a layer from its shear modulus G and damping ratio ξ.
 ///
-/// The two differ by 2ξ² in the stiffness, so that surface peaks differ by per cents from about 10 % of damping on.
-/// Comparisons with another program need its convention.
+/// The two forms differ by 2ξ² in the stiffness, so surface peaks differ by some per cent above about 10 %
+/// damping. Use the convention of the program with which you compare results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -55,7 +55,7 @@ pub enum ComplexModulus {
 }
 
 impl ComplexModulus {
-    /// Modulus G' and damping ratio ξ' with which G'(1 + 2iξ') is the complex modulus of a layer, counted from 0.
+    /// Modulus G' and damping ratio ξ' for which G'(1 + 2iξ') is a layer's complex modulus; layers count from 0.
     fn real_part_and_ratio(self, index: usize, [modulus, damping]: [f64; 2]) -> Result<[f64; 2]> {
         if self == Self::RealPart {
             return Ok([modulus, damping]);
@@ -71,7 +71,7 @@ impl ComplexModulus {
     }
 }
 
-/// The rock's outcrop, 0.65 of the largest strain, 1e-3 in at most 50 iterations, 0.1 to 30 Hz, G(1 + 2iξ).
+/// Outcrop of the rock, 0.65 of the largest strain, 1e-3 in at most 50 iterations, 0.1 to 30 Hz, G(1 + 2iξ).
 impl Default for EquivalentLinearOptions {
     fn default() -> Self {
         let (control, band) = (ControlPoint::Outcrop, [0.1, 30.0]);
@@ -104,7 +104,7 @@ impl EquivalentLinearOptions {
 }
 
 impl SoilColumn {
-    /// The profile with these modulus ratios and damping ratios, by a damping law of the ratio.
+    /// The profile with these modulus ratios and damping ratios; `law` makes a damping law from a ratio.
     pub(super) fn compatible<L: Relaxation + 'static>(
         &self,
         properties: &[[f64; 2]],
@@ -135,7 +135,7 @@ pub(super) struct Iteration<'a> {
     transform: Option<Transform>,
 }
 
-/// Modulus ratio and damping ratio of each layer, and the largest strains with them.
+/// Result of an iteration: modulus ratio and damping ratio of each layer, and its largest strain.
 pub(super) struct Converged {
     pub(super) properties: Vec<[f64; 2]>,
     pub(super) strains: Vec<f64>,
@@ -211,7 +211,7 @@ impl<'a> Iteration<'a> {
         Ok(strains)
     }
 
-    /// Motion of the surface, and accelerations of the tops of layers and base, as long as the motion that is given.
+    /// Motion of the surface, and accelerations at the tops of layers and base, as long as the given motion.
     pub(super) fn accelerations(
         &mut self,
         properties: &[[f64; 2]],
@@ -229,7 +229,7 @@ impl<'a> Iteration<'a> {
         Ok((surface, accelerations))
     }
 
-    /// Iterates the moduli and damping ratios, beginning at small strain.
+    /// Iterates moduli and damping ratios, starting at small strain.
     pub(super) fn converged(&mut self, watch: &mut Watch<'_>) -> Result<Converged> {
         let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
             *self.options;
@@ -253,8 +253,10 @@ impl<'a> Iteration<'a> {
     }
 }
 
-/// Fixed-point iteration with one relaxation factor, from the last two residuals (Irons & Tuck 1969): about 1/(1 − ρ)
-/// where each iteration leaves the share ρ of the distance, so that its step is an estimate of all that is left.
+/// Fixed-point iteration with one relaxation factor, from the last two residuals (Irons & Tuck 1969).
+///
+/// The factor is about 1/(1 − ρ) if each iteration leaves the fraction ρ of the distance. The step then estimates
+/// the whole remaining distance.
 #[derive(Debug, Default)]
 struct Aitken {
     residual: Vec<f64>,
@@ -262,14 +264,14 @@ struct Aitken {
 }
 
 impl Aitken {
-    /// Next argument after `old`, whose image is `new`.
+    /// Next argument after `old`; `new` is the image of `old`.
     fn next(&mut self, old: &[f64], new: &[f64]) -> Vec<f64> {
         let residual: Vec<f64> = old.iter().zip(new).map(|(old, new)| new - old).collect();
         let pairs =
             || self.residual.iter().zip(&residual).map(|(before, now)| [*before, now - before]);
         let [along, size] = pairs().fold([0.0; 2], |[a, b], [r, d]| [a + r * d, b + d * d]);
         let factor = -self.factor * along / size;
-        // Without a residual before, or if the last step went astray: a plain step.
+        // Without an earlier residual, or if the last step diverged: a plain step.
         self.factor = if factor > 0.0 { factor.clamp(FACTORS[0], FACTORS[1]) } else { 1.0 };
         let next = old.iter().zip(&residual).map(|(old, r)| old + self.factor * r).collect();
         self.residual = residual;
@@ -284,7 +286,7 @@ fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// An error with its layer, counted from 0; a damping ratio that no law fits becomes an error of the layer.
+/// Adds the layer, counted from 0, to an error; a damping ratio that no law fits becomes the layer's error.
 fn of_layer(index: usize, error: Error) -> Error {
     let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
         return SiteError::of_layer(index, error);

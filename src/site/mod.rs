@@ -1,8 +1,8 @@
 //! Site response: waves from the base of a layered ground to its surface.
 //!
-//! [`SoilColumn`] takes vertically travelling waves up and down and finds strain-compatible properties
-//! ([`SoilColumn::equivalent_linear`]), [`InclinedWave`] makes a free field of SV,
-//! P and SH waves that come at an angle. A [`SiteMotion`] says what its samples cannot hold.
+//! [`SoilColumn`] computes vertically travelling waves up and down, and finds strain-compatible properties
+//! ([`SoilColumn::equivalent_linear`]). [`InclinedWave`] computes a free field from SV, P and SH waves at an
+//! angle. A [`SiteMotion`] also states how much of a motion its samples do not contain.
 
 mod equivalent_linear;
 mod inclined;
@@ -26,18 +26,18 @@ pub use vertical::{ControlPoint, VerticalWave};
 
 use std::fmt;
 
-/// Warning that assumptions of a site's response are strained.
+/// Warning that a site's response exceeds assumptions of its method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SiteWarning {
-    /// Strain above 5·10⁻³: one modulus for the whole shaking is no longer a fair picture.
+    /// Strain above 5·10⁻³: one modulus for the whole shaking is no longer a good approximation.
     LargeStrain {
         /// Layer, from 1 at the surface.
         layer: usize,
         /// Largest strain of the layer.
         strain: f64,
     },
-    /// Effective strain beyond the end of the layer's curves, whose last value was taken.
+    /// Effective strain beyond the end of the layer's curves; their last value was used.
     Extrapolated {
         /// Layer, from 1 at the surface.
         layer: usize,
@@ -46,21 +46,24 @@ pub enum SiteWarning {
         /// Largest strain of its curves.
         largest: f64,
     },
-    /// Properties that were not strain-compatible after the last iteration.
+    /// Properties that are not strain-compatible after the last iteration.
     NotConverged {
-        /// Largest relative change that all further ones would make, as estimated.
+        /// Estimated largest relative change by all further iterations.
         change: f64,
         /// Iterations made.
         iterations: usize,
     },
-    /// The surface moves before the motion's first sample or after its last, by more than 1 % of its peak: the record
-    /// needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more damping.
+    /// The surface moves before the motion's first sample or after its last, by more than 1 % of its peak.
+    ///
+    /// The record needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more
+    /// damping.
     CutOff {
         /// Largest acceleration cut off, over the peak.
         share: f64,
     },
-    /// Most of a motion's energy is at frequencies that the site amplifies more than a hundredfold, as it does noise on
-    /// the way down through soft, damped soil ([`SiteMotion::warning`]).
+    /// Most of a motion's energy is at frequencies that the site amplifies more than a hundredfold.
+    ///
+    /// Deconvolution through soft, damped soil amplifies noise in this way ([`SiteMotion::warning`]).
     Amplified {
         /// Lowest of these frequencies, Hz.
         frequency: f64,

@@ -8,16 +8,18 @@ use crate::error::Result;
 use crate::linalg::{Complex, Number};
 use crate::soil::{Soil, SoilProfile};
 
-/// Motion that is given of an inclined wave. All are at the depth of the base's top.
+/// Prescribed motion of an inclined wave, at the depth of the base's top.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InclinedControl {
-    /// Horizontal motion of the base's free surface where no layers cover it: rock outcrop.
+    /// Horizontal motion of the base's free surface without layers above: rock outcrop.
     #[default]
     OutcropHorizontal,
-    /// Vertical motion of the same, positive up.
+    /// Vertical motion of the same surface, positive up.
     OutcropVertical,
-    /// The incident wave itself: SV to the right (and down, if it runs to the right), P up (and to the
-    /// right), SH away from the reader.
+    /// The incident wave itself.
+    ///
+    /// SV is positive to the right (and down, if it runs to the right), P up (and to the right), SH away from the
+    /// reader.
     Incident,
 }
 
@@ -43,8 +45,9 @@ pub(super) struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// Functions of layers as they are; `slownesses` are the horizontal one, the elastic one, and the cosine of the
-    /// angle.
+    /// Functions of the unmodified layers.
+    ///
+    /// `slownesses`: the horizontal one, the elastic one, and the cosine of the angle.
     pub(super) fn exact(
         profile: &'a SoilProfile,
         base: Soil,
@@ -56,7 +59,7 @@ impl<'a> Surface<'a> {
         Self { profile, base, kind, control, slowness, own, highest: Highest::default() }
     }
 
-    /// These functions with layers as samples see them on a contour that ends at s = `end`.
+    /// These functions for layers modified for samples, on a contour that ends at s = `end`.
     pub(super) fn sampled(self, end: Complex) -> Result<Self> {
         let travels = |index: usize, modulus| self.travels(index, end, modulus);
         Ok(Self { highest: Highest::new(self.profile, end, travels)?, ..self })
@@ -108,8 +111,8 @@ impl Functions for Surface<'_> {
             }
             kept.push((medium, travels));
         }
-        // The surface by unit amplitudes, the outcrop, and the amplitude of a unit displacement. Amplitudes of SV and P
-        // are those of (b, p) or (p, a), whose length is 1/c.
+        // The surface and the outcrop by unit amplitudes, and the amplitude of a unit displacement. The amplitudes
+        // of SV and P belong to the vectors (b, p) and (p, a), whose length is 1/c.
         let (none, one) = (s.like_real(0.0), s.like_real(1.0));
         let (motion, outcrop, unit) = if *kind == Kind::Sh {
             ([surface_motion_across(kept, &base), none], [one + one, none], one)

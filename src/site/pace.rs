@@ -2,27 +2,27 @@
 
 use crate::error::{Result, Watch};
 
-/// One of the equal parts of a call through a site, as its observer counts them.
+/// One of the equal parts of a call through a site, for its observer.
 pub(super) struct Pace<'p, 'w> {
     watch: &'p mut Watch<'w>,
     begin: usize,
 }
 
 impl<'p, 'w> Pace<'p, 'w> {
-    /// Parts that an observer counts for each.
+    /// Observer's counts in each part.
     pub(super) const PARTS: usize = 1000;
 
-    /// A call that is one part.
+    /// A call of one part.
     pub(super) fn whole(watch: &'p mut Watch<'w>) -> Self {
         Self::part(watch, 0)
     }
 
-    /// Part of this number, from 0.
+    /// The part with this number, from 0.
     pub(super) fn part(watch: &'p mut Watch<'w>, number: usize) -> Self {
         Self { watch, begin: number.saturating_mul(Self::PARTS) }
     }
 
-    /// Says which fraction of the part is done.
+    /// Reports the fraction of the part that is done.
     pub(super) fn reach(&mut self, fraction: f64) -> Result<()> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
         let done = (Self::PARTS as f64 * fraction.clamp(0.0, 1.0)) as usize;

@@ -1,14 +1,14 @@
-//! Layers as sampled motions see them.
+//! Layers modified so that sampled motions can pass through them.
 //!
-//! A delay that is no multiple of the time step has no place in samples at their highest frequency,
-//! π/Δt: e^(iωτ) there must be real, or the response to one sample alternates for ever, before it as
-//! well as after (Oppenheim & Schafer 2010, § 4.5). So layers keep what they are up to a share
-//! [`BAND`](super::transform::BAND) below that frequency and go over smoothly, until there
+//! Samples cannot represent a delay that is not a multiple of the time step at their highest frequency, π/Δt: e^(iωτ)
+//! must be real there. Otherwise the response to one sample alternates for ever, before it as well as after
+//! (Oppenheim & Schafer 2010, § 4.5). Layers are therefore unmodified up to a fraction
+//! [`BAND`](super::transform::BAND) below that frequency. Within the band they change smoothly, until at its end
 //!
 //! * travel times are multiples of Δt: half a step off at most, from the surface to any depth,
-//! * moduli are real: those of growth at the same rate, s = π/Δt.
+//! * moduli are real: their values for growth at the same rate, s = π/Δt.
 //!
-//! Each is still a passive layer, so a motion through the site has one that comes back.
+//! Each layer is still passive, so a motion can pass through the site and back.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -19,15 +19,15 @@ use crate::error::Result;
 use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
 use crate::soil::SoilProfile;
 
-/// A place on the contour in each lane.
+/// A place on the contour, one in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At<C> {
     pub(super) s: C,
     /// s, or i at frequency zero, which is the limit from above.
     pub(super) direction: C,
-    /// Whether the moduli are the ones of the call before, with the same `kept`.
+    /// Whether the moduli equal the previous call's, with the same `kept`.
     pub(super) repeats: bool,
-    /// Nearness and ratio of the places, if any is in the band.
+    /// Nearness and ratio of the places; `None` if none is in the band.
     near: Option<[C; 2]>,
 }
 
@@ -52,8 +52,9 @@ impl At<Complex> {
     }
 }
 
-/// Real moduli of layers at the highest frequency, and their travels there, s h/c, whose imaginary parts are multiples
-/// of π; empty for layers as they are.
+/// Real moduli of layers at the highest frequency, and their travels s h/c there.
+///
+/// The imaginary parts of the travels are multiples of π. Empty for unmodified layers.
 #[derive(Debug, Default)]
 pub(super) struct Highest<const WAVES: usize> {
     moduli: Vec<f64>,
@@ -61,7 +62,7 @@ pub(super) struct Highest<const WAVES: usize> {
 }
 
 impl<const WAVES: usize> Highest<WAVES> {
-    /// Layers of `profile` on a contour that ends at s = `end`; their travels there are given for their moduli.
+    /// Layers of `profile` on a contour that ends at s = `end`; `travel` gives their travels for a modulus.
     pub(super) fn new(
         profile: &SoilProfile,
         end: Complex,
@@ -84,14 +85,14 @@ impl<const WAVES: usize> Highest<WAVES> {
         Ok(Self { moduli: moduli.iter().map(|modulus| modulus.re).collect(), travels })
     }
 
-    /// Modulus of a soil that is `modulus` outside the band.
+    /// Modulus of a soil; `modulus` outside the band.
     #[inline(always)]
     pub(super) fn modulus<C: Number>(&self, index: usize, at: &At<C>, modulus: C) -> C {
         let Some([nearness, _]) = at.near else { return modulus };
         modulus + (modulus.like_real(self.moduli[index]) - modulus) * nearness
     }
 
-    /// Travels through a layer that are `travels` outside the band.
+    /// Travels through a layer; `travels` outside the band.
     #[inline(always)]
     pub(super) fn travels<C: Number>(
         &self,
@@ -110,7 +111,7 @@ impl<const WAVES: usize> Highest<WAVES> {
 
 /// Functions of s, one or several, of a layered ground.
 pub(super) trait Functions {
-    /// Numbers that the functions keep of a layer.
+    /// Intermediate values of a layer, kept between calls.
     type Kept<C: Number>;
 
     fn profile(&self) -> &SoilProfile;
@@ -118,8 +119,9 @@ pub(super) trait Functions {
     /// Number of functions.
     fn count(&self) -> usize;
 
-    /// Overwrites `found`, one number for each function, at a place with these moduli of the soils from the surface
-    /// down. Must be `#[inline(always)]`.
+    /// Overwrites `found` with one number for each function, at one place.
+    ///
+    /// `moduli`: of the soils from the surface down. Implementations must be `#[inline(always)]`.
     fn evaluate<C: Number>(
         &self,
         at: &At<C>,
@@ -137,7 +139,7 @@ pub(super) trait Functions {
     }
 }
 
-/// Overwrites `found` with the functions at the places: all numbers of the first function, then all of the next.
+/// Overwrites `found` with the functions at the places: all numbers of the first function, then of the next.
 pub(super) fn evaluate(
     functions: &impl Functions,
     places: &[Place],
@@ -167,7 +169,7 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
         let (length, count) = (places.len(), Lanes::<S>::COUNT);
         let zero = Complex::default();
         let directions: Vec<Complex> = s.iter().map(|s| direction(*s)).collect();
-        // As of hysteretic damping.
+        // Hysteretic damping has constant moduli.
         let is_constant = moduli.chunks_exact(length).all(|own| own.iter().all(|m| *m == own[0]));
         let mut kept = vec![];
         let mut values = vec![Lanes::load(simd, &[zero]); functions.count()];
@@ -208,7 +210,7 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
     }
 }
 
-/// Overwrites what left the range of lanes; the first of the places is number `begin`.
+/// Overwrites numbers that left the range of lanes; the first of the places has the number `begin`.
 fn one_by_one<F: Functions>(
     functions: &F,
     places: &[Place],

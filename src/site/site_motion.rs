@@ -1,37 +1,38 @@
-//! Motion that went through a site.
+//! Motions that have passed through a site.
 
 use std::fmt;
 
 use super::SiteWarning;
 use crate::linalg::largest;
 
-/// Ratio of a motion to the one that was given above which it counts as amplified.
+/// Ratio of a motion to the given one above which it counts as amplified.
 pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
 
-/// A motion that went through a site, at the times of the one that was given, and the sizes of what
-/// its samples do not hold.
+/// A motion that has passed through a site, and the size of its lost parts.
 ///
-/// Motions are taken to be zero outside their samples, so what is cut off here is missing on the way
-/// back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record with quiet
-/// time around it goes through a site and returns to 1e-9 of its peak, whatever its frequencies, if
+/// It has the times of the given motion. Motions count as zero outside their samples, so a part that is cut off
+/// here is missing on the way back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record
+/// with quiet time around it passes through a site and returns to 1e-9 of its peak, whatever its frequencies, if
 /// [`SiteMotion::is_whole`] on both ways.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct SiteMotion {
     /// Samples of the motion.
     pub samples: Vec<f64>,
-    /// Largest sample before the first one, cut off: on the way down motion comes earlier.
+    /// Largest sample before the first one, cut off: motion at depth precedes motion of the surface.
     pub before: f64,
-    /// Largest sample after the last one, cut off: what is still on its way.
+    /// Largest sample after the last one, cut off: waves that are still on their way.
     pub after: f64,
-    /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt, where layers
-    /// delay by whole time steps: the error of that, which is at most half a step from the surface to
-    /// any depth, to a factor of four.
+    /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt.
+    ///
+    /// Layers delay these frequencies by whole time steps, with an error of at most half a step from the surface
+    /// to any depth. The error of the motion is this number to a factor of four.
     pub near_nyquist: f64,
-    /// Rounding, estimated: large if damped layers amplify high frequencies on the way down.
+    /// Estimated rounding: large if deconvolution through damped layers amplifies high frequencies.
     pub rounding: f64,
-    /// Lowest frequency (Hz) at which the motion is more than a hundred times the given one, if most of its energy comes
-    /// from such frequencies: see [`SiteMotion::warning`].
+    /// Lowest frequency (Hz) at which the motion is more than a hundred times the given one.
+    ///
+    /// Set if most of the motion's energy is at such frequencies: see [`SiteMotion::warning`].
     pub amplified_from: Option<f64>,
 }
 
@@ -49,9 +50,11 @@ impl SiteMotion {
         self.before.max(self.after).max(self.rounding) <= Self::LIMIT * self.peak()
     }
 
-    /// Warning that the motion is mostly amplification: on the way down through soft, damped soil noise at high
-    /// frequencies becomes more than the motion. Practice removes it before ([`Record::low_pass`], as a rule at 15 to
-    /// 25 Hz), or softens the demand on the soil model.
+    /// Warning that the motion is mostly amplified noise.
+    ///
+    /// In deconvolution through soft, damped soil, noise at high frequencies may exceed the motion. Usual
+    /// remedies: remove it before ([`Record::low_pass`], usually at 15 to 25 Hz), or demand less of the soil
+    /// model.
     ///
     /// [`Record::low_pass`]: crate::motion::Record::low_pass
     ///
@@ -79,13 +82,13 @@ impl SiteMotion {
         self.amplified_from.map(|frequency| SiteWarning::Amplified { frequency })
     }
 
-    /// Number of samples up to the last one that is something.
+    /// Number of samples up to the last one that is not rest.
     pub(super) fn duration(&self) -> usize {
         let least = Self::LIMIT * self.peak();
         self.samples.iter().rposition(|x| x.abs() > least).map_or(0, |last| last + 1)
     }
 
-    /// Leaves `count` samples.
+    /// Keeps the first `count` samples.
     pub(super) fn cut(&mut self, count: usize) {
         let count = count.min(self.samples.len());
         self.after = largest(&self.samples[count..]);

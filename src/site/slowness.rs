@@ -1,18 +1,18 @@
 //! P–SV waves of one horizontal slowness, from the base to the surface.
 //!
-//! All goes with e^(s(t − px)), z down. Waves that go up have amplitudes A = (P, SV), those that go
+//! All quantities vary as e^(s(t − px)), z down. Waves that go up have the amplitudes A = (P, SV), waves that go
 //! down B; displacements (x, z) and stresses (xz, zz)/(−s) are
 //!
 //! U↓ = [[p, b], [a, −p]],  T↓ = μ [[2pa, g], [g, −2pb]];  U↑ = diag(1, −1) U↓,  T↑ = diag(−1, 1) T↓
 //!
-//! The reflection R that takes A to B is carried down from the free surface, with decaying
-//! exponentials only: so is the surface motion by A (Kennett 1983, ch. 6).
+//! The reflection R from A to B is carried down from the free surface, with decaying exponentials only. So is the
+//! surface motion by A (Kennett 1983, ch. 6).
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | p | horizontal slowness, real |
 //! | a, b | vertical slownesses √(1/c₁² − p²), √(1/c₂² − p²), with e^(−saz) going down or decaying |
-//! | g = b² − p², r = g² + 4p²ab | the latter Rayleigh's function |
+//! | g = b² − p², r = g² + 4p²ab | r is Rayleigh's function |
 //! | μ, ρ | complex shear modulus, density |
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
@@ -20,11 +20,12 @@
 use crate::linalg::Number;
 use crate::soil::Soil;
 
-/// Squared vertical slowness of a layer, relative to that of the wave at vertical incidence, that
-/// passes for zero. Up and down are the same wave there; results are even in a and b, so this
-/// costs as much of them, and rounding over its root no more.
+/// Squared vertical slowness of a layer, relative to the value at vertical incidence, that counts as zero.
+///
+/// Up and down are the same wave there. Results are even in a and b: they lose this fraction, and the rounding
+/// over its root is no larger.
 const GRAZING: f64 = 4e-11;
-/// Share of a number that is rounding.
+/// Fraction of a number that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A layer or half-plane at one p, and at one s in each lane.
@@ -55,7 +56,7 @@ impl<C: Number> Medium<C> {
         Self::new(soil, modulus, s, p, [pressure, shear])
     }
 
-    /// Shear stress across over velocity in an SH wave.
+    /// Shear stress over velocity, both across, in an SH wave.
     #[inline(always)]
     fn impedance(&self) -> C {
         self.modulus * self.b
@@ -67,8 +68,10 @@ impl<C: Number> Medium<C> {
         [self.a, self.b]
     }
 
-    /// Slownesses of the half-plane below, from which the wave comes; `own` is the elastic slowness of this wave and
-    /// the cosine of its angle, which give its vertical slowness without cancellation.
+    /// Slownesses of the half-plane below, from which the wave comes.
+    ///
+    /// `own`: elastic slowness of this wave and the cosine of its angle, which give its vertical slowness without
+    /// cancellation.
     #[inline(always)]
     pub(super) fn base(soil: Soil, modulus: C, s: C, p: f64, own: [f64; 2]) -> Self {
         let elastic = modulus.like_real(soil.shear_modulus());
@@ -86,7 +89,7 @@ impl<C: Number> Medium<C> {
         Self::new(soil, modulus, s, p, below)
     }
 
-    /// Medium of these squares of vertical slownesses; frequency zero is the limit from above, s = i.
+    /// Medium with these squares of vertical slownesses; frequency zero is the limit from above, s = i.
     #[inline(always)]
     fn new(soil: Soil, modulus: C, s: C, p: f64, below: [C; 2]) -> Self {
         let [shear, pressure] = squares(soil, modulus);
@@ -97,7 +100,7 @@ impl<C: Number> Medium<C> {
         Self { modulus, density: soil.density(), p, a, b, g, shear, pressure }
     }
 
-    /// Motion of a free surface, to the right and up, by the waves A that come up to it.
+    /// Motion of a free surface, to the right and up, by the waves A below it.
     #[inline(always)]
     pub(super) fn free_surface(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
@@ -135,7 +138,7 @@ impl<C: Number> Medium<C> {
         ]
     }
 
-    /// A and B of this state, each times (a, b).
+    /// A and B of this state, each multiplied by (a, b).
     #[inline(always)]
     fn waves(&self, [x, z, shear, normal]: [C; 4]) -> [[C; 2]; 2] {
         let Self { modulus, p, a, b, g, .. } = *self;
@@ -171,7 +174,7 @@ fn inverse<C: Number>([a, b, c, d]: Square<C>) -> Square<C> {
     scaled([d, -b, -c, a], scale)
 }
 
-/// The surface by the waves A that come up at a place, and R there, below a medium that ends at it.
+/// Surface motion by the waves A at a place, and R there, for a medium that ends at the place.
 struct Above<C> {
     medium: Medium<C>,
     surface: Square<C>,
@@ -179,7 +182,7 @@ struct Above<C> {
 }
 
 impl<C: Number> Above<C> {
-    /// The same at the top of the next medium down; at the free surface without one above.
+    /// The same at the top of the next medium down; without `above`, at the free surface.
     #[inline(always)]
     #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
     fn enter(above: Option<Self>, medium: &Medium<C>) -> [Square<C>; 2] {
@@ -190,7 +193,7 @@ impl<C: Number> Above<C> {
         let [p, q, r, t] = reflection;
         let first = medium.waves(upper.state([one, none], [p, r]));
         let second = medium.waves(upper.state([none, one], [q, t]));
-        // A' = diag(1/a, 1/b) M A, and the same for B'.
+        // A' = diag(1/a, 1/b) M A, and B' in the same way.
         let [up, down] = [0, 1];
         let back = inverse([first[up][0], second[up][0], first[up][1], second[up][1]]);
         let below = [first[down][0], second[down][0], first[down][1], second[down][1]];
@@ -202,8 +205,9 @@ impl<C: Number> Above<C> {
     }
 }
 
-/// Motion of the surface, to the right and up, by the waves A that come up in `base`: under `layers`
-/// (from the surface down, each with s h a and s h b).
+/// Motion of the surface, to the right and up, by the waves A in `base`.
+///
+/// `layers` from the surface down, each with s h a and s h b.
 #[inline(always)]
 pub(super) fn surface_motion<C: Number>(
     layers: &[(Medium<C>, [C; 2])],
@@ -220,9 +224,10 @@ pub(super) fn surface_motion<C: Number>(
     Above::enter(above, base)[0]
 }
 
-/// Motion of the surface across p by an SH wave of unit displacement that comes up in `base`: under `layers` (from the
-/// surface down, each with s h a and s h b). Where it meets the next medium down, u = (1 + R) A and the stress, μ b (1 − R) A, go
-/// on.
+/// Motion of the surface across p by an SH wave of unit displacement in `base`.
+///
+/// `layers` from the surface down, each with s h a and s h b. Displacement u = (1 + R) A and stress μ b (1 − R) A
+/// are continuous between layers.
 #[inline(always)]
 pub(super) fn surface_motion_across<C: Number>(
     layers: &[(Medium<C>, [C; 2])],

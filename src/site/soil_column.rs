@@ -12,13 +12,13 @@ use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};
 use crate::soil::SoilProfile;
 
-/// Frequencies of a transfer function that are computed together.
+/// Number of frequencies of a transfer function that are computed together.
 const BLOCK: usize = 256;
 
-/// A soil profile as a column that waves travel up and down.
+/// A soil profile as a column for vertical waves.
 ///
-/// Simulations take the motion of the free *surface*; a column makes it of a motion at depth, or goes
-/// the other way (deconvolution).
+/// Simulations use the motion of the free *surface*. A column computes it from a motion at depth, or the motion at
+/// depth from the surface (deconvolution).
 ///
 /// ```
 /// use basemat::Soil;
@@ -50,11 +50,11 @@ impl SoilColumn {
         Ok(Self { profile, wave })
     }
 
-    /// Motion of the surface by that of `control` for e^(iωt) at `frequency` (Hz).
+    /// Motion of the surface per unit motion e^(iωt) of `control` at `frequency` (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws that
-    /// are not passive; infinite at a resonance without damping.
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws
+    /// that are not passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
         let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
@@ -63,8 +63,9 @@ impl SoilColumn {
         Ok(upwards(found[0], found[1]))
     }
 
-    /// Motion of the surface for a unit motion e^(iωt) of `control` at each of `frequencies` (Hz), with an observer; quicker
-    /// than [`transfer`](SoilColumn::transfer) for each.
+    /// Motion of the surface per unit motion e^(iωt) of `control`, at many frequencies.
+    ///
+    /// `frequencies`: Hz. With an observer; faster than [`transfer`](SoilColumn::transfer) for each frequency.
     ///
     /// ```
     /// # use basemat::Soil;
@@ -107,9 +108,11 @@ impl SoilColumn {
         Ok(found)
     }
 
-    /// Motion of the surface from `motion` at `control`, samples `time_step` seconds apart; any
-    /// of displacement, velocity and acceleration. The column is at rest at first. It rings after the
-    /// end of `motion`: give that quiet time if the rest matters, as it does on the way back.
+    /// Motion of the surface from `motion` at `control`.
+    ///
+    /// Samples are `time_step` seconds apart: displacement, velocity or acceleration. The column is at rest at
+    /// first. It still moves after the end of `motion`: add quiet time there if this part matters, as it does on
+    /// the way back.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite,
@@ -139,10 +142,11 @@ impl SoilColumn {
         self.filtered(control, time_step, motion, upwards, &mut watch)
     }
 
-    /// Motion at `control` from `motion` of the surface (deconvolution). It comes before that of the
-    /// surface, so the record should begin with rest for as long as waves take through the layers,
-    /// and end with it: the surface is taken to stand still before and after. Damped layers
-    /// amplify high frequencies on the way down, so the record should have none that are noise.
+    /// Motion at `control` from `motion` of the surface (deconvolution).
+    ///
+    /// Motion at depth precedes motion of the surface. The record should therefore begin and end with rest for as
+    /// long as waves take through the layers: outside the record the surface counts as still. On the way down
+    /// damped layers amplify high frequencies, so remove noise from the record before.
     ///
     /// ```
     /// # use basemat::Soil;
@@ -191,9 +195,11 @@ impl SoilColumn {
         self.filtered(control, time_step, motion, downwards, &mut watch)
     }
 
-    /// Motion of the surface of `profile` in three directions by that of `control`: shear waves carry the components
-    /// along x and y, pressure waves the vertical one. Each goes on after its record's end until the layers are at
-    /// rest; [`to_surface`](SoilColumn::to_surface) says what else it loses.
+    /// Motion of the surface of `profile` in three directions from `motion` of `control`.
+    ///
+    /// Shear waves carry the components along x and y, pressure waves the vertical one. Each component continues
+    /// after its record's end until the layers are at rest. Other losses are as for
+    /// [`to_surface`](SoilColumn::to_surface).
     ///
     /// ```
     /// use basemat::Soil;
@@ -278,7 +284,7 @@ impl SoilColumn {
         Ok(found)
     }
 
-    /// Motion at the other end, with its part after the end of `motion`.
+    /// Motion at the other end, including the part after the end of `motion`.
     fn whole(
         &self,
         control: ControlPoint,
@@ -304,7 +310,7 @@ impl SoilColumn {
         Ok(found)
     }
 
-    /// Spectra inside the column, of any damping law, by the motion at `control` that `transform` holds.
+    /// Spectra inside the column from the motion at `control` in `transform`, for any damping law.
     pub(super) fn inside(
         &self,
         sought: Sought,
@@ -320,7 +326,7 @@ impl SoilColumn {
         })
     }
 
-    /// Contour for motions inside the column, which exist at real frequencies alone.
+    /// Contour for motions inside the column, which are computed at real frequencies only.
     pub(super) fn contour(&self, time_step: f64, samples: usize) -> Result<Contour> {
         let contour = Contour::new(time_step, samples, self.profile.travel_time())?;
         Ok(contour.at_real_frequencies())

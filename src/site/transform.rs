@@ -1,10 +1,10 @@
 //! Motions through transfer functions, by Fourier transform.
 //!
-//! All runs at Re s = η > 0: a window e^(−ηt) that makes what wraps around the transform negligible
-//! and undamped profiles regular. The transform has four times the samples that matter, so the window
-//! takes e^(−6) off the last of them and gives it back, with rounding e^6 times that of the transform.
-//! Filters that are real at the highest frequency, with all their slopes along the contour even about
-//! it, have responses that end; others would alternate and, without the window, grow.
+//! All transforms run at Re s = η > 0: the window e^(−ηt) makes wrap-around negligible and undamped profiles
+//! regular. The transform has four times the samples of the motion. The window thus reduces the last of these
+//! samples by e^(−6) and is undone afterwards, which increases the transform's rounding by e^6. Filters that are
+//! real at the highest frequency, with all their slopes along the contour even about it, have responses that end.
+//! Other responses would alternate and, without the window, grow.
 
 use std::sync::Arc;
 
@@ -16,37 +16,39 @@ use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
 use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::{Complex, largest};
 
-/// ηT: what wraps around is e^(−24).
+/// ηT: wrap-around is reduced to e^(−24).
 const WINDOW: f64 = 24.0;
-/// Samples that matter are this fraction of the transform's.
+/// Length of the transform over the number of samples of the motion.
 const PADDING: usize = 4;
-/// Most samples of a motion, and time steps that waves take through a site.
+/// Largest number of samples of a motion, and of time steps of waves through a site.
 const MOST_SAMPLES: usize = 1 << 24;
-/// Share of the frequencies, the highest, over which filters become real: narrow, for the transfer
-/// function holds below; not narrower, for responses last the longer.
+/// Fraction of the frequencies, the highest, over which filters become real.
+///
+/// Narrow, since the transfer function is exact only below. Not narrower, since a narrow band makes responses last
+/// longer.
 pub(super) const BAND: f64 = 0.02;
 /// Exponent of the transition's slope, e^(β(√(1 − x²) − 1)) over the band (Barnett, Magland & af
 /// Klinteberg 2019): its transform is e^(−β) from 2β/(π · band) samples on.
 const SHARPNESS: f64 = 24.0;
-/// Frequency for zero, in steps of the transform's.
+/// Frequency used for zero, in steps of the transform.
 const BESIDE_REST: f64 = 1e-3;
-/// Frequencies that are computed together.
+/// Number of frequencies that are computed together.
 const BLOCK: usize = 64;
-/// Samples in which responses of the transition end.
+/// Samples after which responses of the transition end.
 const TRANSITION: usize = 2000;
 
 /// A place on the contour.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) s: Complex,
-    /// Share of the highest frequency's rule: 0 below the band, 1 there.
+    /// Weight of the modified layers of the highest frequency: 0 below the band, 1 at its end.
     pub(super) nearness: f64,
     /// Frequency over the highest.
     pub(super) ratio: f64,
 }
 
 impl Place {
-    /// A frequency by itself, without samples.
+    /// A single frequency, without samples.
     pub(super) fn alone(s: Complex) -> Self {
         Self { s, nearness: 0.0, ratio: 0.0 }
     }
@@ -63,7 +65,7 @@ pub(super) struct Contour {
 }
 
 impl Contour {
-    /// Contour for `samples`, `time_step` seconds apart, and waves that take `travel` seconds.
+    /// Contour for `samples`, `time_step` seconds apart, and waves that take `travel` seconds through the site.
     pub(super) fn new(time_step: f64, samples: usize, travel: f64) -> Result<Self> {
         positive("time step of a motion", time_step)?;
         same_length("motion through a site", samples, samples.clamp(1, MOST_SAMPLES))?;
@@ -72,14 +74,15 @@ impl Contour {
         require(quantity, steps, (0.0..=MOST_SAMPLES as f64).contains(&steps), "at most 2^24")?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=2^24")]
         let travel = steps.ceil() as usize;
-        // There and back, and later for damping that slows long waves.
+        // There and back, and longer for damping that slows long waves.
         let length = (PADDING * (samples + 2 * travel + TRANSITION)).next_power_of_two();
         let decay = positive("decay of the window", WINDOW / (length as f64 * time_step))?;
         Ok(Self { time_step, length, window: WINDOW, decay })
     }
 
-    /// This transform along real frequencies, for filters that exist there alone: motion that lasts longer than the
-    /// quiet three quarters of the transform wraps around.
+    /// This transform along real frequencies, for filters that exist only there.
+    ///
+    /// Motion that lasts longer than the quiet three quarters of the transform wraps around.
     pub(super) fn at_real_frequencies(self) -> Self {
         Self { window: 0.0, decay: 0.0, ..self }
     }
@@ -100,7 +103,7 @@ impl Contour {
         Error::Singular { matrix: "spectrum of a motion", order: self.length }
     }
 
-    /// Share of the highest frequency's rule at each frequency of the band, in order up to it.
+    /// Weight of the modified layers at each frequency of the band, in ascending order.
     fn transition(&self) -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
         let count = (BAND * (self.length / 2) as f64) as usize;
@@ -117,8 +120,10 @@ impl Contour {
         (0..count).map(add).collect()
     }
 
-    /// `motion` times each of N functions of s, whose values at places `filters` writes one function after the other;
-    /// with what follows its end, as far as the window reaches.
+    /// `motion` times each of N functions of s, including the motion after its end.
+    ///
+    /// `filters` writes the values of one function at places, then of the next. The motion reaches as far as the
+    /// window.
     pub(super) fn filtered<const N: usize>(
         self,
         motion: &[f64],
@@ -144,7 +149,7 @@ pub(super) struct Transform {
     spectrum: Vec<Complex64>,
     /// √Σx² of the windowed samples, for rounding.
     size: f64,
-    /// Share of the highest frequency's rule at each frequency of the band.
+    /// Weight of the modified layers at each frequency of the band.
     transition: Vec<f64>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     values: Vec<f64>,
@@ -190,8 +195,10 @@ impl Transform {
         &self.contour
     }
 
-    /// Multiplies the spectrum by `count` functions, whose values at places `filters` writes one function after the
-    /// other; rounding and amplification of the motions are known if they are `measured`.
+    /// Multiplies the spectrum by `count` functions.
+    ///
+    /// `filters` writes the values of one function at places, then of the next. With `measured`, rounding and
+    /// amplification of the motions are computed too.
     pub(super) fn filter(
         &mut self,
         count: usize,
@@ -216,7 +223,7 @@ impl Transform {
         let place = |l: usize, transition: &[f64]| {
             let ratio = l as f64 / last as f64;
             let nearness = if l < below { 0.0 } else { transition[l - below] };
-            // Beside s = 0, where strains are 0/0 and some laws have no modulus.
+            // Slightly above s = 0, where strains are 0/0 and some laws have no modulus.
             let beside = if l == 0 && decay == 0.0 { BESIDE_REST / last as f64 } else { ratio };
             Place { s: Complex::new(decay, end * beside), nearness, ratio }
         };
@@ -239,7 +246,7 @@ impl Transform {
             }
             pace.reach(0.5 * stop as f64 / (last + 1) as f64)?;
         }
-        // Real by themselves, but for rounding.
+        // Real in theory; this removes rounding.
         for filtered in &mut self.filtered {
             filtered[0].im = 0.0;
             filtered[last].im = 0.0;
@@ -247,14 +254,14 @@ impl Transform {
         Ok(())
     }
 
-    /// Samples of motion `k`, as many as the given motion has; to be called once.
+    /// Samples of motion `k`, as many as the given motion has; call it once.
     pub(super) fn samples(&mut self, k: usize) -> Result<Vec<f64>> {
         self.invert(k)?;
         let own = self.values[..self.samples].iter().enumerate();
         own.map(|(i, value)| self.at(*value, i as f64)).collect()
     }
 
-    /// Largest sample of motion `k`, with what follows the end of the motion that was given; to be called once.
+    /// Largest sample of motion `k`, including the time after the end of the given motion; call it once.
     pub(super) fn peak(&mut self, k: usize) -> Result<f64> {
         let length = self.contour.length;
         self.invert(k)?;
@@ -267,7 +274,7 @@ impl Transform {
         }
     }
 
-    /// Motion `k`, with what follows the end of the motion that was given; to be called once.
+    /// Motion `k`, including the time after the end of the given motion; call it once.
     pub(super) fn motion(&mut self, k: usize) -> Result<SiteMotion> {
         let mut found = SiteMotion::default();
         let length = self.contour.length;
@@ -299,13 +306,13 @@ impl Transform {
         Ok(found)
     }
 
-    /// Sample of a motion at a time in samples, which may be before the first.
+    /// Sample of a motion at a time in samples, which may be before the first sample.
     fn at(&self, value: f64, time: f64) -> Result<f64> {
         let scale = 1.0 / self.contour.length as f64;
         finite("motion through a site", value * scale / self.contour.window_at(time))
     }
 
-    /// Overwrites the values with motion `k`, and its spectrum with what the transform leaves.
+    /// Overwrites the values with motion `k`, and its spectrum with scratch of the transform.
     fn invert(&mut self, k: usize) -> Result<()> {
         let Self { filtered, values, scratch, .. } = self;
         let made = self.inverse.process_with_scratch(&mut filtered[k], values, scratch);
@@ -318,7 +325,7 @@ impl Transform {
 struct Sums {
     gain: f64,
     power: f64,
-    /// Part of the power where |F| is above the limit of amplification, and the lowest frequency there, Hz.
+    /// Part of the power at frequencies with |F| above the limit of amplification, and the lowest of these, Hz.
     amplified: f64,
     lowest: Option<f64>,
 }

@@ -27,15 +27,15 @@ pub enum VerticalWave {
     Pressure,
 }
 
-/// Place to which a motion at depth belongs.
+/// Place of a prescribed or computed motion at depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ControlPoint {
-    /// The surface of the base where no layers cover it: rock outcrop.
+    /// The surface of the base without layers above: rock outcrop.
     #[default]
     Outcrop,
-    /// The base under the layers, with what they send back. The same as the outcrop if it is rigid.
+    /// The base under the layers, including reflected waves; equal to the outcrop if the base is rigid.
     Within,
 }
 
@@ -50,7 +50,7 @@ pub(super) enum Sought {
     Strains,
 }
 
-/// Functions of a profile for one kind of wave, whose layers may be as sampled motions see them.
+/// Functions of a profile for one kind of wave, with unmodified layers or layers modified for samples.
 #[derive(Debug)]
 pub(super) struct Column<'a> {
     profile: &'a SoilProfile,
@@ -62,7 +62,7 @@ pub(super) struct Column<'a> {
 }
 
 impl<'a> Column<'a> {
-    /// Functions of layers as they are.
+    /// Functions of the unmodified layers.
     pub(super) fn exact(
         profile: &'a SoilProfile,
         wave: VerticalWave,
@@ -78,7 +78,7 @@ impl<'a> Column<'a> {
         Self { profile, soils, control, sought, highest: Highest::default() }
     }
 
-    /// These functions with layers as samples see them on a contour that ends at s = `end`.
+    /// These functions for layers modified for samples, on a contour that ends at s = `end`.
     pub(super) fn sampled(self, end: Complex) -> Result<Self> {
         let travel = |index: usize, modulus| [self.travel(index, end, self.speed(index, modulus))];
         Ok(Self { highest: Highest::new(self.profile, end, travel)?, ..self })
@@ -95,7 +95,9 @@ impl<'a> Column<'a> {
         s.scale(self.profile.layers()[index].thickness) * slowness
     }
 
-    /// Waves (up, down) below an interface by those above it, whose impedance is `above`.
+    /// Waves (up, down) below an interface from the waves above it.
+    ///
+    /// `above`: impedance above; `below`: reciprocal of the impedance below.
     #[inline(always)]
     fn cross<C: Number>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
         let sum = (up + down).scale(0.5);
@@ -105,7 +107,7 @@ impl<'a> Column<'a> {
 }
 
 impl Functions for Column<'_> {
-    /// Of a soil: c and 1/c; of a layer also waves up and down at its top, its travel κh and e^(−κh/2).
+    /// For a soil: c and 1/c; for a layer also waves up and down at its top, its travel κh and e^(−κh/2).
     type Kept<C: Number> = [C; 6];
 
     fn profile(&self) -> &SoilProfile {
@@ -177,7 +179,7 @@ impl Functions for Column<'_> {
             waves = [up, down * both];
         }
         let [up, down] = waves;
-        // A rigid base moves as the layer's bottom does.
+        // A rigid base moves like the bottom of the lowest layer.
         let is_outcrop = self.control == ControlPoint::Outcrop
             && matches!(self.profile.base(), Base::HalfPlane { .. });
         let value = if is_outcrop { up } else { (up + down).scale(0.5) };
