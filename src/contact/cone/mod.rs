@@ -1,20 +1,22 @@
-//! Contact with uplift and friction in plan: Signorini's law and Coulomb's, whose shear is bounded by a disc.
+//! Contact with uplift and friction in plan: Signorini's law, and Coulomb's law with shear on a disc.
 //!
-//! 1. If nothing slid in the step before, its statuses are tried; their factors are kept as long as they do not change.
-//! 2. Sweeps over the elements, from the forces of the step before.
+//! 1. If nothing slid in the previous step, its statuses are tried; their factors are kept as long as they do not
+//!    change.
+//! 2. Sweeps over the elements, from the forces of the previous step.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
 //! 5. The proximal point method around all of them.
 //!
-//! Friction above 100, or endless, is first tried by Newton's method alone, then by all methods with a lower friction,
-//! which is raised from that solution. Where it cannot be raised, the step keeps the lower one, and the run warns of it.
+//! Friction above 100, or infinite, is first tried by Newton's method alone, then by all methods with a lower
+//! friction, which is raised from that solution. If it cannot be raised, the step keeps the lower friction, and
+//! the run warns of it.
 //!
-//! W is symmetric and positive definite, so that a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); by small
-//! friction there is one. The shear of a sliding element lies on its disc against the slip of the same solution: its
-//! friction work is never negative.
+//! W is symmetric and positive definite, so a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); with
+//! small friction it is unique. The shear of a sliding element lies on its disc against the slip of the same
+//! solution: its friction work is never negative.
 //!
-//! A bond bears tension, and shear without pressure, up to its strength. Elements that have opened beyond it lose it in the
-//! step, which is then solved again: at most once for each.
+//! A bond bears tension, and shear without pressure, up to its strength. The bond of an element that has opened
+//! beyond it breaks in the step, which is then solved again: at most once for each element.
 
 mod newton;
 mod problem;
@@ -37,7 +39,7 @@ use proximal::Proximal;
 use search::search;
 use system::{Normal, Status, Tangential};
 
-/// Gap at which a bond is broken, relative to the largest displacement.
+/// Gap at which a bond breaks, relative to the largest displacement.
 const GONE: f64 = 1e-12;
 
 /// A contact problem in plan, and the methods that solve it.
@@ -46,13 +48,13 @@ pub(super) struct Cone {
     newton: Newton,
     proximal: Proximal,
     areas: Vec<f64>,
-    /// Compliance of each element's layer, in W.
+    /// Compliance of each element's layer, included in W.
     layers: Vec<[f64; 2]>,
-    /// Number of the W that is held, if it is.
+    /// Number of the present W; `None` before the first.
     generation: Option<usize>,
-    /// Elements whose bonds have gone in this step.
+    /// Elements whose bonds have broken in this step.
     broken: Vec<bool>,
-    /// Forces that a search begins with, and forces that solve with less friction.
+    /// Initial forces of a search, and forces that solve with less friction.
     start: Vec<f64>,
     limited: Vec<f64>,
     /// Whether the structure is linear: all steps then have the same W, unless layers change.
@@ -60,7 +62,7 @@ pub(super) struct Cone {
 }
 
 impl Cone {
-    /// Search for elements of these areas, m², under a structure that `is_linear` or not.
+    /// Search for elements with these areas, m²; `is_linear`: whether the structure is linear.
     pub(super) fn new(areas: &[f64], is_linear: bool) -> Self {
         let count = areas.len();
         Self {
@@ -77,8 +79,9 @@ impl Cone {
         }
     }
 
-    /// Finds `modes`, starting from those given; the solver then holds the solution. Returns the number of iterations
-    /// and the last method that was needed.
+    /// Finds `modes`, starting from the given ones; the solver then holds the solution.
+    ///
+    /// Returns the number of iterations and the last method used.
     pub(super) fn solve(
         &mut self,
         solver: &mut ContactSolver,
@@ -116,7 +119,7 @@ impl Cone {
         let layout = ContactLayout::new(SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
             let [_, e] = layout.origin(i);
-            // Exactly zero in total where there is no force.
+            // Exactly zero in total if there is no force.
             *traction = match self.problem.force(i) {
                 0.0 => -input.static_traction[i],
                 _ => self.problem.change[i] / self.areas[e],
@@ -127,7 +130,7 @@ impl Cone {
         Ok((trials, method))
     }
 
-    /// Takes over W, q and the limits of the laws.
+    /// Reads W, q and the limits of the laws.
     fn take(&mut self, generation: usize, input: &ContactInput<'_>) -> Result<(), LawError> {
         self.find_operator(generation, input)?;
         let Self { problem, areas, layers, .. } = self;
@@ -145,7 +148,7 @@ impl Cone {
             for (component, i) in problem.places(e).into_iter().enumerate() {
                 problem.anchor[i] = area * input.static_traction[i];
                 problem.q[i] = input.free_jump[i];
-                // A layer starts from its deformation, and a slip from its last value.
+                // A layer starts from its deformation, a slip from its last value.
                 let layer = layers[e][component.min(1)];
                 let begin = if component == 0 { 0.0 } else { shear[component] };
                 problem.q[i] += layer * (input.static_traction[i] - begin);
@@ -160,7 +163,7 @@ impl Cone {
         Ok(())
     }
 
-    /// Takes over W, with the layers of the laws, if either has changed.
+    /// Copies W and adds the layers of the laws, if either has changed.
     fn find_operator(
         &mut self,
         generation: usize,
@@ -199,7 +202,7 @@ impl Cone {
         Ok(())
     }
 
-    /// Solves for the statuses of the step before; false if an element slid.
+    /// Solves for the statuses of the previous step; `false` if an element slid.
     fn repeat(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
@@ -225,7 +228,7 @@ impl Cone {
         newton.step(problem)
     }
 
-    /// The forces that the step begins with.
+    /// Sets the initial forces of the step.
     fn begin(&mut self, input: &ContactInput<'_>) {
         for (e, area) in self.areas.iter().enumerate() {
             let traction = input.start.state(e).traction();
@@ -235,7 +238,7 @@ impl Cone {
         }
     }
 
-    /// Breaks the bonds of elements that have opened; returns whether there were any.
+    /// Breaks the bonds of elements that have opened; returns whether any broke.
     fn break_bonds(&mut self, gone: f64) -> bool {
         let mut any = false;
         for (e, status) in self.newton.statuses.iter().enumerate() {
@@ -264,7 +267,7 @@ impl Cone {
         }
     }
 
-    /// Least friction that replaced a greater one on an element that slides.
+    /// Smallest friction bound that replaced the law's larger one on a sliding element.
     fn stand_in(&self) -> Option<f64> {
         let elements = self.newton.statuses.iter().zip(&self.problem.bounds);
         let taken = elements.filter(|(status, bounds)| status.is_held_by(bounds.friction));
@@ -273,7 +276,7 @@ impl Cone {
 
     fn failure(&mut self, iterations: usize) -> StepError {
         let problem = &mut self.problem;
-        // Of the law's own friction.
+        // With the friction of the laws.
         problem.hold(f64::INFINITY);
         let residual = problem.residual();
         let tolerance = problem.tolerance();
@@ -284,7 +287,9 @@ impl Cone {
     }
 }
 
-/// Whether W stays as it is for the whole run: the structure is linear, and laws with layers have no state variables.
+/// Whether W is constant for the whole run.
+///
+/// True if the structure is linear, and laws with layers have no state variables.
 fn lasts(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool {
     let is_fixed =
         |(e, layer): (usize, &[f64; 2])| *layer == [0.0; 2] || input.law(e).state_variables() == 0;

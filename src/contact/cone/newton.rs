@@ -8,9 +8,9 @@ use std::mem::Discriminant;
 use super::problem::{Endless, Problem};
 use super::system::{Normal, Status, System, Tangential};
 
-/// Iterations.
+/// Largest number of iterations.
 const ITERATIONS: usize = 15;
-/// Iterations of an attempt with partial steps, and the smallest part of a step.
+/// Largest number of iterations of an attempt with partial steps, and the smallest part of a step.
 const WANDERED: usize = 60;
 const LEAST: f64 = 0.2;
 
@@ -18,7 +18,7 @@ const LEAST: f64 = 0.2;
 pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
     system: System,
-    /// Kinds of the statuses and changes of force of the iteration before.
+    /// Kinds of the statuses and changes of force in the previous iteration.
     kinds: Vec<(Normal, Discriminant<Tangential>)>,
     before: Vec<f64>,
 }
@@ -33,18 +33,19 @@ impl Newton {
         }
     }
 
-    /// Forgets the factors: to be called when W has changed; `lasts` if it will not do so again.
+    /// Discards the factors; call it when W has changed. `lasts`: whether W will stay constant.
     pub(super) fn forget(&mut self, lasts: bool) {
         self.system.forget(lasts);
     }
 
-    /// Forgets the steps before, as far as the choice of a system depends on them.
+    /// Discards the results of previous steps that influence the choice of a system.
     pub(super) fn begin_step(&mut self) {
         self.system.begin_step();
     }
 
-    /// Iterates from the present r; returns the number of iterations, and whether they found a solution. With `ahead` the
-    /// radius follows from the trial's p instead of the present one.
+    /// Iterates from the present r; returns the number of iterations, and whether they found a solution.
+    ///
+    /// With `ahead` the radius follows from the trial's p instead of the present p.
     pub(super) fn solve(&mut self, problem: &mut Problem, ahead: bool) -> (usize, bool) {
         for iteration in 0..ITERATIONS {
             if problem.is_solved() {
@@ -58,8 +59,10 @@ impl Newton {
         (ITERATIONS, problem.is_solved())
     }
 
-    /// Makes `attempts` in turn from `start`, from zero forces and from all elements sticking. Until the statuses stay the
-    /// same, each element takes a random part of each step, which keeps the iterates from cycling.
+    /// Makes `attempts` in turn: from `start`, from zero forces and with all elements sticking.
+    ///
+    /// Until the statuses stay the same, each element takes a random part of each step, which keeps the iterates
+    /// from cycling.
     pub(super) fn wander(
         &mut self,
         problem: &mut Problem,
@@ -106,7 +109,7 @@ impl Newton {
                 continue;
             }
             for e in 0..problem.count {
-                // A generator of Marsaglia's (2003).
+                // Marsaglia's generator (2003).
                 state ^= state << 13;
                 state ^= state >> 7;
                 state ^= state << 17;
@@ -171,7 +174,7 @@ impl Newton {
         }
     }
 
-    /// Solves the system of the statuses; false if it is singular.
+    /// Solves the system of the statuses; `false` if it is singular.
     pub(super) fn step(&mut self, problem: &mut Problem) -> bool {
         self.system.solve(problem, &self.statuses)
     }

@@ -7,36 +7,36 @@
 //! | R | radius of the disc of admissible t: friction (p + attraction) + strength |
 //! | ρ | reciprocals of W's diagonal, N/m |
 //!
-//! Solutions are fixed points of r ← P(r − ρ y): p on the interval from −tension to the cap against y less the
-//! offset of a closed gap, then t on the disc. That is Signorini's and Coulomb's law at the level of displacements, with
-//! elastic layers in W's diagonal.
+//! Solutions are fixed points of r ← P(r − ρ y): p on the interval from −tension to the cap against y minus the
+//! offset of a closed gap, then t on the disc. This is Signorini's and Coulomb's law in terms of displacements,
+//! with elastic layers in W's diagonal.
 //!
-//! Endless friction is the limit of that: y = 0 where something presses; else no force, or a closed gap with a shear
-//! against the slip, for which no pressure is needed.
+//! Infinite friction is the limit: y = 0 where there is pressure; elsewhere no force, or a closed gap with a shear
+//! against the slip, which needs no pressure.
 
 use crate::linalg::dense_multiply_add;
 
-/// Residual of a solution, relative to the largest force.
+/// Residual at which a solution is accepted, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
-/// Friction coefficient that replaces an endless one beside a bond, and in methods that need a disc.
+/// Friction coefficient that replaces an infinite one beside a bond, and in methods that need a disc.
 pub(super) const STAND_IN: f64 = 1e4;
 
 /// Bounds of an element's force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounds {
-    /// Limit of the friction by the law.
+    /// Friction coefficient of the law.
     pub(super) friction: f64,
-    /// Limit of the friction at present.
+    /// Present upper limit of the friction coefficient.
     pub(super) grip: f64,
-    /// Force that friction acts on beside p, N.
+    /// Force that adds to p in friction, N.
     pub(super) attraction: f64,
-    /// Shear force beside friction, N.
+    /// Shear force that adds to friction, N.
     pub(super) strength: f64,
-    /// Least and greatest p, N.
+    /// Smallest and largest p, N.
     pub(super) interval: [f64; 2],
     /// Gap when closed, m.
     pub(super) offset: f64,
-    /// Whether nothing slides or opens.
+    /// Whether the element neither slides nor opens.
     pub(super) bonded: bool,
 }
 
@@ -60,13 +60,13 @@ impl Bounds {
         }
     }
 
-    /// Friction that is taken at present.
+    /// Present friction coefficient.
     pub(super) fn taken(&self) -> f64 {
         let is_plain = self.strength == 0.0 && self.interval[0] == -self.attraction;
         self.friction.min(if is_plain { self.grip } else { self.grip.min(STAND_IN) })
     }
 
-    /// Whether friction is taken as infinite.
+    /// Whether the present friction is infinite.
     pub(super) fn is_endless(&self) -> bool {
         self.taken() == f64::INFINITY && !self.bonded
     }
@@ -82,7 +82,7 @@ impl Bounds {
         Self { attraction: 0.0, strength: 0.0, interval, ..self }
     }
 
-    /// p of P(r − ρ y), for the gap y less the offset.
+    /// p of P(r − ρ y), for the gap y minus the offset.
     pub(super) fn press(&self, p: f64) -> f64 {
         if self.bonded { p } else { p.max(self.interval[0]).min(self.interval[1]) }
     }
@@ -97,7 +97,7 @@ impl Bounds {
     }
 }
 
-/// Status of an element of endless friction.
+/// Status of an element with infinite friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Endless {
     Open,
@@ -106,21 +106,21 @@ pub(super) enum Endless {
     Slip([f64; 2]),
 }
 
-/// W, q and bounds; the present r and y.
+/// W, q and bounds, and the present r and y.
 pub(super) struct Problem {
     pub(super) count: usize,
-    /// Row-major, component by component as contact vectors are.
+    /// Row-major, component by component as in contact vectors.
     pub(super) w: Vec<f64>,
     pub(super) q: Vec<f64>,
     /// r₀.
     pub(super) anchor: Vec<f64>,
     pub(super) bounds: Vec<Bounds>,
-    /// r − r₀, which does not lose a small change of a large force.
+    /// r − r₀, so that a small change of a large force is not lost.
     pub(super) change: Vec<f64>,
     pub(super) y: Vec<f64>,
     /// ρ of each element: normal, tangential.
     pub(super) rho: Vec<[f64; 2]>,
-    /// Force to which residuals are relative if r is smaller, N, and the least residual above rounding, N.
+    /// Smallest force used to normalise residuals, N; in `finest` the residual at rounding level, N.
     pub(super) scale: f64,
     pub(super) finest: f64,
 }
@@ -157,7 +157,7 @@ impl Problem {
         places.map(|i| places.map(|j| self.w[i * self.size() + j]))
     }
 
-    /// Finds ρ: to be called when the diagonal of W has changed.
+    /// Computes ρ; call it when the diagonal of W has changed.
     pub(super) fn find_scales(&mut self) {
         for e in 0..self.count {
             let [[n, ..], [_, xx, xy], [_, _, yy]] = self.block(e);
@@ -165,13 +165,13 @@ impl Problem {
         }
     }
 
-    /// r₀ and its y.
+    /// Sets r to r₀, and y accordingly.
     pub(super) fn rest(&mut self) {
         self.change.fill(0.0);
         self.y.copy_from_slice(&self.q);
     }
 
-    /// y of the present r.
+    /// Computes y for the present r.
     pub(super) fn respond(&mut self) {
         let Self { w, q, change, y, .. } = self;
         y.copy_from_slice(q);
@@ -188,8 +188,10 @@ impl Problem {
         ]
     }
 
-    /// Status of an element of endless friction. Pressure excludes slip, and a gap excludes a shear against the slip: of
-    /// each pair, the trial keeps the larger.
+    /// Status of an element with infinite friction.
+    ///
+    /// Pressure excludes slip, and a gap excludes a shear against the slip. The trial keeps the larger of each
+    /// pair.
     pub(super) fn endless(&self, e: usize) -> Endless {
         let (bounds, [p, tx, ty]) = (&self.bounds[e], self.trial(e));
         let ([_, x, y], [normal, tangential]) = (self.places(e), self.rho[e]);
@@ -205,7 +207,7 @@ impl Problem {
         }
     }
 
-    /// Distance of the force of an element of endless friction from what its status asks for, N.
+    /// Difference of an element's force from the conditions of its status, with infinite friction, N.
     fn miss_endless(&self, e: usize) -> f64 {
         let (bounds, trial, [n, x, y]) = (&self.bounds[e], self.trial(e), self.places(e));
         let force = [n, x, y].map(|i| self.force(i));
@@ -222,7 +224,7 @@ impl Problem {
         }
     }
 
-    /// Distance of an element's force from its fixed point, N, for the present y.
+    /// Difference of an element's force from its fixed point for the present y, N.
     pub(super) fn miss(&self, e: usize) -> f64 {
         if self.bounds[e].is_endless() {
             return self.miss_endless(e);
@@ -232,18 +234,18 @@ impl Problem {
         let p = bounds.press(p);
         let [tx, ty] = bounds.shear(p, [tx, ty]);
         let parts = [p - self.force(n), tx - self.force(x), ty - self.force(y)];
-        // A sum of magnitudes does not lose NaN.
+        // A sum of magnitudes preserves NaN.
         parts.iter().map(|part| part.abs()).sum()
     }
 
-    /// Largest distance of all, which is NaN if one is.
+    /// Largest difference of all elements; NaN if one is NaN.
     pub(super) fn residual(&mut self) -> f64 {
         self.respond();
         let larger = |most: f64, miss: f64| if miss <= most { most } else { miss };
         (0..self.count).map(|e| self.miss(e)).fold(0.0, larger)
     }
 
-    /// Limits all friction to `grip`.
+    /// Limits the friction of all elements to `grip`.
     pub(super) fn hold(&mut self, grip: f64) {
         self.bounds.iter_mut().for_each(|bounds| bounds.grip = grip);
     }
@@ -258,12 +260,12 @@ impl Problem {
         self.change[i] = force - self.anchor[i];
     }
 
-    /// Force to which residuals are relative, N.
+    /// Force that normalises residuals, N.
     pub(super) fn largest(&self) -> f64 {
         (0..self.size()).fold(self.scale, |most, i| most.max(self.force(i).abs()))
     }
 
-    /// Residual at which r is a solution, N.
+    /// Residual below which r is a solution, N.
     pub(super) fn tolerance(&self) -> f64 {
         (TOLERANCE * self.largest()).max(self.finest)
     }

@@ -1,15 +1,15 @@
-//! The proximal point method: a sequence of problems with W + α D and q − α D r, r being the last iterate.
+//! The proximal point method: a sequence of problems with W + α D and q − α D r, with r the last iterate.
 //!
-//! Each is better conditioned than the problem itself, and what is added vanishes as the iterates converge.
+//! Each problem is better conditioned than the original one, and the added terms vanish as the iterates converge.
 
 use super::problem::Problem;
 
-/// First fraction of the mean diagonal D that is added.
+/// Initial fraction of the mean diagonal D that is added.
 const SHARE: f64 = 0.3;
-/// Iterations at most.
+/// Largest number of iterations.
 const ITERATIONS: usize = 60;
 
-/// q and the diagonal of W while they are changed, and the last iterate.
+/// Original q and diagonal of W, and the last iterate.
 pub(super) struct Proximal {
     q: Vec<f64>,
     diagonal: Vec<f64>,
@@ -22,7 +22,7 @@ impl Proximal {
         Self { q: zero(), diagonal: zero(), center: zero() }
     }
 
-    /// Solves `problem` by `solve`, which solves a modified one; returns whether it succeeded.
+    /// Solves `problem` by `solve`, a solver for modified problems; returns whether it succeeded.
     pub(super) fn solve(
         &mut self,
         problem: &mut Problem,

@@ -1,17 +1,17 @@
-//! Search for the forces of a contact problem in plan: one method after the other.
+//! Search for the forces of a contact problem in plan, by one method after the other.
 
 use super::newton::Newton;
 use super::problem::{Problem, STAND_IN};
 use super::proximal::Proximal;
 use crate::contact::SearchMethod;
 
-/// Most sweeps of a round.
+/// Largest number of sweeps of a round.
 const SWEEPS: usize = 60;
-/// Rounds of sweeps and Newton's method, alone and within the proximal method.
+/// Rounds of sweeps and Newton's method, alone or within the proximal method.
 const ROUNDS: usize = 12;
-/// Greatest friction that is solved by all methods; a higher one is approached from below.
+/// Largest friction that all methods are tried with; a higher one is approached from below.
 const GRIP: f64 = 100.0;
-/// Least friction that a higher one is approached from.
+/// Smallest friction from which a higher one is approached.
 const LEAST_GRIP: f64 = 3.0;
 /// Attempts of Newton's method with partial steps: alone, while friction is raised, and within the proximal method.
 const ATTEMPTS: u64 = 60;
@@ -20,9 +20,11 @@ const FEW_ATTEMPTS: u64 = 4;
 /// Smallest factor by which friction is raised.
 const STRIDE: f64 = 1.2;
 
-/// Tries one method after the other, with `start` and `limited` as scratch; returns the number of iterations, and the
-/// last method that was needed. A friction above [`GRIP`] that is not solved at once is limited, and raised from that
-/// solution as far as it goes. `lasts` tells whether W stays as it is for the whole run.
+/// Tries one method after the other, with `start` and `limited` as scratch.
+///
+/// Returns the number of iterations, and the last method used. A friction above [`GRIP`] that is not solved at
+/// once is limited, and raised from that solution as far as possible. `lasts`: whether W is constant for the whole
+/// run.
 pub(super) fn search(
     problem: &mut Problem,
     newton: &mut Newton,
@@ -40,7 +42,7 @@ pub(super) fn search(
     if found {
         return (all, Some(SearchMethod::Newton));
     }
-    // The greatest friction of a solution, with its method.
+    // The largest friction with a solution, and its method.
     let mut most: Option<(f64, SearchMethod)> = None;
     for grip in [STAND_IN, GRIP, 0.1 * GRIP, LEAST_GRIP] {
         problem.hold(grip);
@@ -71,8 +73,9 @@ pub(super) fn search(
     (all, Some(found))
 }
 
-/// Raises the limit of friction from a solution towards the `greatest`, by smaller factors where that fails; returns the
-/// number of iterations.
+/// Raises the limit of friction from a solution towards `greatest`; returns the number of iterations.
+///
+/// Where that fails it uses smaller factors.
 fn let_go(problem: &mut Problem, newton: &mut Newton, start: &mut [f64], greatest: f64) -> usize {
     let (mut grip, mut stride) = (problem.bounds[0].grip, f64::INFINITY);
     let mut all = 0;
@@ -131,7 +134,7 @@ fn search_held(
     (all, found.then_some(SearchMethod::Proximal))
 }
 
-/// Sweeps and Newton's method in turn: iterations, and the last that was needed.
+/// Sweeps and Newton's method in turn; returns the number of iterations, and the last method used.
 fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMethod>) {
     let mut all = 0;
     for round in 0..ROUNDS {
@@ -146,7 +149,7 @@ fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMe
         if found {
             return (all, Some(SearchMethod::Newton));
         }
-        // Forces that are not finite are no start.
+        // Forces that are not finite cannot start an iteration.
         if problem.change.iter().any(|change| !change.is_finite()) {
             problem.change.fill(0.0);
         }

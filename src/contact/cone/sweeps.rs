@@ -3,15 +3,17 @@
 use super::problem::Problem;
 use crate::linalg::transposed_multiply_add;
 
-/// Most projections of an element in a sweep.
+/// Largest number of projections of an element in a sweep.
 const LOCAL: usize = 40;
-/// Sweeps after which the rate of convergence is known.
+/// Number of sweeps after which the rate of convergence is known.
 const KNOWN: usize = 4;
-/// Change in a sweep at which sweeps end, as a fraction of the residual of a solution.
+/// Change at which sweeps end, as a fraction of the residual of a solution.
 const GOAL: f64 = 1e-2;
 
 impl Problem {
-    /// Makes up to `most` sweeps, fewer if these will not converge; returns their number, and whether they found a solution.
+    /// Makes up to `most` sweeps; returns their number, and whether they found a solution.
+    ///
+    /// Sweeps that will not converge end early.
     pub(super) fn sweep(&mut self, most: usize) -> (usize, bool) {
         self.respond();
         let mut before = f64::INFINITY;
@@ -27,7 +29,7 @@ impl Problem {
             if largest <= tolerance && self.is_solved() {
                 return (sweep, true);
             }
-            // Factor by which the change falls in a sweep.
+            // Factor by which a sweep reduces the change.
             let rate = largest / before;
             let left = (tolerance / largest).ln() / rate.ln();
             if sweep > KNOWN && (rate >= 1.0 || left > 2.0 * (most - sweep) as f64) {

@@ -1,7 +1,7 @@
-//! The linear system of given statuses, for corrections of forces and motions that satisfy y = q + W (r − r₀).
+//! The linear system of given statuses, for corrections that satisfy y = q + W (r − r₀).
 //!
-//! Each component of an element has a condition on its force or on its motion, and what the condition leaves open is
-//! unknown. There are two systems with the same solution; the smaller one is solved:
+//! Each component of an element has a condition on its force or on its motion; the other quantity is unknown.
+//! There are two systems with the same solution; the smaller one is solved:
 //!
 //! | | unknown forces, by W | unknown motions, by W⁻¹ |
 //! |---|---|---|
@@ -14,21 +14,21 @@
 //!
 //! κ = R/\|t − ρ y\|: the direction turns with the slip (Alart & Curnier 1991).
 //!
-//! Both have the same solution but for rounding, so that a run that is resumed must choose as the uninterrupted one does:
-//! by the statuses alone where W stays as it is, and otherwise by the statuses of the same step. Where all elements
-//! stick, the factors of W itself solve.
+//! Both solutions are equal up to rounding. A resumed run must choose as the uninterrupted one does: by the
+//! statuses alone if W is constant, otherwise by the statuses of the same step. If all elements stick, the factors
+//! of W itself solve.
 
 use std::mem::{Discriminant, discriminant};
 
 use super::problem::Problem;
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
-/// Columns of W⁻¹ that are solved for together.
+/// Number of columns of W⁻¹ that are solved for together.
 const BLOCK: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE: f64 = 4.0;
 
-/// Behaviour of an element by its trial.
+/// Contact status of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Status {
     pub(super) normal: Normal,
@@ -65,7 +65,7 @@ impl Status {
         (self.normal, discriminant(&self.tangential))
     }
 
-    /// Whether friction below `friction` lets the element slip.
+    /// Whether the element slips and its friction is below `friction`.
     pub(super) fn is_held_by(&self, friction: f64) -> bool {
         matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
     }
@@ -75,7 +75,7 @@ impl Status {
     /// Open, without any force.
     pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
 
-    /// p, unless closed.
+    /// Prescribed p of an open or capped element; `None` if closed.
     fn bound(&self, [least, most]: [f64; 2]) -> Option<f64> {
         match self.normal {
             Normal::Open => Some(least),
@@ -96,7 +96,7 @@ impl Status {
     }
 }
 
-/// A sum of components with weights: one with weight 1, or those of an element.
+/// A weighted sum of components: one with weight 1, or the three of an element.
 #[derive(Clone, Copy)]
 struct Mix {
     places: [usize; 3],
@@ -124,7 +124,7 @@ impl Mix {
     }
 }
 
-/// An unknown and its condition. With x of the kind that is unknown (forces or motions) and A x of the other kind, the
+/// An unknown and its condition. x are the unknown forces or motions, A x the quantities of the other kind. The
 /// unknown adds multiples of `column` to x, and row · A x + own column · x = goal.
 struct Unknown {
     row: Mix,
@@ -139,21 +139,21 @@ pub(super) struct System {
     dofs: Vec<Unknown>,
     rhs: Vec<f64>,
     factor: DenseFactor,
-    /// Factors of W, if there are any.
+    /// Factors of W, if `is_whole`.
     whole: DenseFactor,
     is_whole: bool,
     /// W⁻¹; empty until it has been computed.
     inverse: Vec<f64>,
-    /// Whether W stays as it is for the whole run.
+    /// Whether W is constant for the whole run.
     lasts: bool,
-    /// Cost of the solves of this step that W⁻¹ would have saved, if W changes.
+    /// Cost of the solutions of this step that W⁻¹ would have saved, if W changes.
     spent: f64,
     /// Statuses of the present factors, without slip; valid only if `is_held`.
     held: Vec<Status>,
     is_held: bool,
-    /// Whether the present factors are those of unknown motions.
+    /// Whether the present factors belong to unknown motions.
     by_motions: bool,
-    /// Corrections that follow from the statuses alone: motions by unknown motions, otherwise forces.
+    /// Corrections that follow from the statuses alone, of the same kind as the unknown quantities.
     given: Vec<f64>,
     /// Response to the given corrections, of the other kind.
     answer: Vec<f64>,
@@ -179,14 +179,14 @@ impl System {
         }
     }
 
-    /// Forgets factors and W⁻¹: to be called when W has changed; `lasts` if it will not do so again.
+    /// Discards factors and W⁻¹; call it when W has changed. `lasts`: whether W will stay constant.
     pub(super) fn forget(&mut self, lasts: bool) {
         (self.is_held, self.is_whole, self.lasts) = (false, false, lasts);
         self.inverse.clear();
         self.spent = 0.0;
     }
 
-    /// Forgets the steps before, as far as the choice of a system depends on them.
+    /// Discards the results of previous steps that influence the choice of a system.
     pub(super) fn begin_step(&mut self) {
         if !self.lasts {
             self.is_held &= !self.by_motions;
@@ -195,7 +195,7 @@ impl System {
         }
     }
 
-    /// Corrects r, whose y is the present one, to that of `statuses`; false if the system is singular.
+    /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
     pub(super) fn solve(&mut self, problem: &mut Problem, statuses: &[Status]) -> bool {
         if statuses.iter().all(|status| *status == Status::STICK) {
             return self.stick(problem);
@@ -217,7 +217,7 @@ impl System {
             self.held.copy_from_slice(statuses);
         }
         self.correct(problem);
-        // Given forces, to the last bit.
+        // Prescribed forces, to the last bit.
         for (e, status) in statuses.iter().enumerate() {
             let [n, x, y] = problem.places(e);
             if let Some(bound) = status.bound(problem.bounds[e].interval) {
@@ -231,7 +231,7 @@ impl System {
         problem.change.iter().all(|change| change.is_finite())
     }
 
-    /// Corrects r so that nothing moves, all gaps at their offsets; false if W is singular.
+    /// Corrects r so that nothing moves and all gaps are at their offsets; `false` if W is singular.
     fn stick(&mut self, problem: &mut Problem) -> bool {
         if !self.factor_whole(problem) {
             return false;
@@ -247,14 +247,14 @@ impl System {
         problem.change.iter().all(|change| change.is_finite())
     }
 
-    /// Factors W, unless it is; false if it is singular.
+    /// Factors W if it has not been factored; `false` if it is singular.
     fn factor_whole(&mut self, problem: &Problem) -> bool {
         self.is_whole = self.is_whole || self.whole.factor(&problem.w, problem.size());
         self.is_whole
     }
 
-    /// Whether fewer motions than forces are unknown, and W⁻¹ is held. A W that lasts has it at once, any other one when
-    /// it would have saved its own cost in this step.
+    /// Whether fewer motions than forces are unknown, and W⁻¹ is available. W⁻¹ of a constant W is computed at
+    /// once, otherwise when it would have saved its own cost in this step.
     fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
         let dofs = statuses.iter().map(Status::dofs);
         let [forces, motions] = dofs.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
@@ -276,7 +276,7 @@ impl System {
         !self.inverse.is_empty()
     }
 
-    /// Lists what is unknown, and what is known of the corrections.
+    /// Lists the unknown quantities, and the known part of the corrections.
     fn gather(&mut self, problem: &Problem, statuses: &[Status]) {
         self.dofs.clear();
         self.given.fill(0.0);
@@ -295,7 +295,7 @@ impl System {
                 None if motions => given[n] = bounds.offset - problem.y[n],
                 None => {}
             }
-            // A force p, and the shear that it lets slip.
+            // The force p, and the shear that p allows in slip.
             let mut pressing = Mix::single(n);
             match status.tangential {
                 Tangential::Free | Tangential::Stick => {
@@ -312,8 +312,8 @@ impl System {
                 }
                 Tangential::Slip { direction: [c, s], turn, slope } => {
                     let mix = |weights| Mix { places, weights };
-                    // Along the slip: shear and pressure are divided by a friction above one, so that an endless one has
-                    // its limit.
+                    // Along the slip: shear and pressure are divided by a friction above one, so that infinite
+                    // friction has its limit.
                     let [sheared, pressed] =
                         if slope > 1.0 { [1.0 / slope, 1.0] } else { [1.0, slope] };
                     let goal = sheared * bounds.strength + pressed * bounds.attraction;
@@ -330,7 +330,7 @@ impl System {
                         }
                         pressing = mix([sheared, pressed * c, pressed * s]);
                     }
-                    // Across it.
+                    // Across the slip.
                     let (factor, own) = if motions {
                         (1.0 - turn, turn * problem.rho[e][1])
                     } else {
@@ -347,7 +347,7 @@ impl System {
         dofs.sort_unstable_by_key(|unknown| !unknown.row.is_single());
     }
 
-    /// Factors the matrix of what is unknown; false if it is singular.
+    /// Factors the matrix of the unknown quantities; `false` if it is singular.
     fn assemble(&mut self, problem: &Problem) -> bool {
         let (size, motions) = (problem.size(), self.by_motions);
         let Self { dofs, factor, inverse, answer, .. } = self;
