@@ -10,8 +10,9 @@ use crate::text::column::{Cell, column, distinct, number, of_body, printed};
 use crate::text::csv::Csv;
 use crate::text::table::Table;
 
-/// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
-/// as many cases as lines below 100 characters hold.
+/// Runs side by side in one table.
+///
+/// It prints a row per quantity and a column per case, in blocks of as many cases as fit into 100 characters.
 ///
 /// ```no_run
 /// # fn runs() -> Vec<(f64, basemat::results::Run)> { vec![] }
@@ -28,11 +29,11 @@ pub struct Comparison {
     pub cases: Vec<(String, Run)>,
 }
 
-/// Value of a run; none where a run does not have it.
+/// Value of a run; `None` if the run does not have it.
 type Value = dyn Fn(&Run) -> Option<f64>;
 
-/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run. Results per metre in the
-/// plane have a row for each dimension that occurs.
+/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run. Results per metre in
+/// the plane have a row for each dimension that occurs.
 struct Line {
     name: String,
     unit: &'static str,
@@ -52,7 +53,7 @@ impl Line {
     }
 }
 
-/// Result that is no quantity or is made of several: name, unit, column, factor and value.
+/// Result derived from one or several quantities: name, unit, column, factor and value.
 type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
 const DERIVED: [Derived; 9] = [
@@ -75,7 +76,9 @@ const DERIVED: [Derived; 9] = [
     }),
 ];
 
-/// All rows, for runs of these dimensions (whether in plan): quantities, with the times of some, then what is derived.
+/// All rows: quantities, some with their times, then derived results.
+///
+/// `of`: dimensions of the runs, `true` for in plan.
 fn lines(of: &[bool]) -> Vec<Line> {
     let mut lines = Vec::new();
     for quantity in Quantity::shown(Place::Comparison, of.contains(&true)) {
@@ -152,7 +155,7 @@ impl Comparison {
             cells.extend(self.cases.iter().map(|(_, run)| row.cell(run)));
             cells
         };
-        // A quantity that no case has gets no row.
+        // A quantity without a value in any case gets no row.
         let known = |row: &Line| {
             self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.value)(s).is_some())
         };
@@ -185,8 +188,9 @@ impl Comparison {
         self.table().markdown()
     }
 
-    /// A line per case and a column per quantity, in SI units (probes in their own): columns and numbers
-    /// as the [module](super) has them for all files; empty where a case has no value.
+    /// One line per case and one column per quantity, in SI units (probes in their own units).
+    ///
+    /// Columns and numbers follow the [rule](super) for all files; a cell is empty if a case has no value.
     pub fn csv(&self) -> Csv {
         let mut heading = vec!["case".to_owned()];
         let lines = self.lines();

@@ -7,7 +7,7 @@ use crate::motion::SpectralOrdinate;
 use crate::text::column::{Cell, column, distinct, line};
 use crate::text::csv::Csv;
 
-/// A heading and lines of numbers, after the texts that begin them.
+/// A heading and lines: each begins with a text, then its numbers.
 fn lines<N: IntoIterator<Item = f64>>(
     heading: &str,
     rows: impl IntoIterator<Item = (String, N)>,
@@ -21,8 +21,9 @@ fn lines<N: IntoIterator<Item = f64>>(
 }
 
 impl TimeSeries {
-    /// Times, scalars, probes and the energy balance's input as CSV: a heading and a line for every kept step, by
-    /// [the rule](super#columns-and-numbers-in-files).
+    /// Times, scalars, probes and the energy balance's input as CSV.
+    ///
+    /// A heading and a line for every kept step, by [the rule](super#columns-and-numbers-in-files).
     pub fn csv(&self) -> Csv {
         let mut columns = self.columns();
         columns.push(EnergyTerm::Input.column(self.in_plan()));
@@ -33,8 +34,9 @@ impl TimeSeries {
         lines(&columns.join(","), rows)
     }
 
-    /// [Contact frames](TimeSeries::contact_frames) as CSV in long form: a heading and a line for every frame and
-    /// element, elements from 0 on with their ends.
+    /// [Contact frames](TimeSeries::contact_frames) as CSV in long form.
+    ///
+    /// A heading and a line for every frame and element; elements count from 0 and are given with their ends.
     ///
     /// ```
     /// # use basemat::bem::SpringGround;
@@ -58,7 +60,7 @@ impl TimeSeries {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// In plan front and back ends follow, and slip and shear along y at the end.
+    /// In plan the line continues with front and back ends, and ends with slip and shear along y.
     pub fn contact_csv(&self) -> Csv {
         let (ends, numbers) = (self.element_ends(), self.contact_numbers());
         let names = ends.iter().map(|(name, _)| *name).chain(["mode"]);
@@ -81,7 +83,7 @@ impl TimeSeries {
 type EnvelopeColumn = (&'static str, &'static str, bool, fn(&ElementEnvelope) -> f64);
 
 impl Run {
-    /// Columns of an [envelope](Run::envelope): word, SI unit, whether only grounds in plan have it, value.
+    /// Columns of an [envelope](Run::envelope): word, SI unit, whether in plan only, value.
     pub const ENVELOPE: [EnvelopeColumn; 20] = [
         ("left", "m", false, |own| own.element.left),
         ("right", "m", false, |own| own.element.right),
@@ -105,8 +107,9 @@ impl Run {
         ("slip_across_time", "s", true, |own| own.slip_across.time),
     ];
 
-    /// [Envelopes](Run::envelope) as CSV: a heading and a line for every element, with the times of the extremes, by
-    /// [the rule](super#columns-and-numbers-in-files).
+    /// [Envelopes](Run::envelope) as CSV, with the times of the extremes.
+    ///
+    /// A heading and a line for every element, by [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
         let columns: Vec<_> = Self::ENVELOPE.iter().filter(|own| self.in_plan || !own.2).collect();
         let names = columns.iter().map(|(word, unit, ..)| column(word, unit));
@@ -119,8 +122,9 @@ impl Run {
     }
 }
 
-/// Response spectrum, of a record or of a floor, as CSV: a heading and a line for every period, by
-/// [the rule](crate::results#columns-and-numbers-in-files).
+/// Response spectrum of a record or of a floor as CSV.
+///
+/// A heading and a line for every period, by [the rule](crate::results#columns-and-numbers-in-files).
 ///
 /// ```
 /// use basemat::results::spectrum_csv;
@@ -146,12 +150,12 @@ pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
     )
 }
 
-// The columns of time series, in CSV and in archives of arrays.
+// Columns of time series, in CSV and in archives of arrays.
 
-/// Times, modes and their words of contact frames, beside their numbers.
+/// Columns of contact frames for times, modes and the words of modes.
 pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contact_mode_words"];
 
-/// A number of an element after a step.
+/// A number of an element's contact state.
 type Number = fn(&ContactState) -> f64;
 
 /// Columns of motion frames.
@@ -177,13 +181,13 @@ impl TimeSeries {
         ends
     }
 
-    /// Columns and values of the numbers of each element in frames of contact.
+    /// Columns of contact frames with a number per element, and their values.
     pub(super) fn contact_numbers(&self) -> Vec<(String, Number)> {
         let numbers = ContactState::NUMBERS.into_iter().filter(|own| self.in_plan() || !own.2);
         numbers.map(|(word, unit, _, value)| (column(word, unit), value)).collect()
     }
 
-    /// Names of time, scalars and probes; those of probes differ from all others in any file.
+    /// Names of time, scalars and probes; a probe's name differs from all other names in any file.
     pub(super) fn columns(&self) -> Vec<String> {
         let in_plan = self.in_plan();
         let mut columns = vec![column("time", "s")];

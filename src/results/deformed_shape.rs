@@ -6,7 +6,7 @@ use crate::structure::{
     DofCombination, FaceNode, FemModel, ShearBuilding, StoreyBuilding, Structure,
 };
 
-/// A point of a [`DeformedShape`]: its place, and its displacement as weighted sums of degrees of freedom.
+/// A point of a [`DeformedShape`]: its place and its displacement.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShapePoint {
     /// Coordinates at rest, m: x, and the height above the surface.
@@ -23,7 +23,7 @@ pub struct ShapePoint {
 
 /// Points and cells of a structure, for pictures and for ParaView.
 ///
-/// Made before the structure goes into the builder:
+/// Make it before you pass the structure to the builder:
 /// ```
 /// use basemat::results::DeformedShape;
 /// use basemat::structure::RigidBlock;
@@ -42,9 +42,10 @@ pub struct DeformedShape {
 }
 
 impl DeformedShape {
-    /// Points, and cells as indices of points: 1 a point, 2 a line, 3 a triangle, 4 a quadrilateral
-    /// (all the way round); 6 a triangle, 8 or 9 a quadrilateral with its corners first; other
-    /// numbers a polygon.
+    /// Shape from points, and cells as indices of points.
+    ///
+    /// A cell of 1 index is a point, 2 a line, 3 a triangle, 4 a quadrilateral (in order round it), 6 a triangle
+    /// and 8 or 9 a quadrilateral with the corners first; other numbers a polygon.
     ///
     /// # Errors
     /// [`Error::Size`] without points or for an empty cell, [`Error::Index`] for a cell with a point
@@ -71,7 +72,7 @@ impl DeformedShape {
 
     /// Nodes and elements of a finite-element model.
     pub fn of_model(model: &FemModel) -> Self {
-        // Of a follower of a rigid link, what it follows; a node without degrees of freedom stays.
+        // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
         let point = |(node, position): (usize, &[f64; 2])| ShapePoint {
             position: *position,
@@ -86,8 +87,10 @@ impl DeformedShape {
         }
     }
 
-    /// A rigid block of the plane as a rectangle of this height (m), or rigid bodies in plan as prisms on the faces of
-    /// their bases. Other structures are drawn as if their base carried such a body.
+    /// Shape of a rigid block in the plane, or of rigid bodies in plan.
+    ///
+    /// A block is a rectangle of this height (m), a body in plan a prism on each face of its base. Other
+    /// structures are drawn as if their base carried such a body.
     ///
     /// ```
     /// use basemat::results::DeformedShape;
@@ -103,7 +106,7 @@ impl DeformedShape {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the height is positive; those of [`DofCombination::of_base`].
+    /// [`Error::Input`] unless the height is positive; as for [`DofCombination::of_base`].
     pub fn of_block(block: &dyn Structure, height: f64) -> Result<Self> {
         positive("height of the rectangle", height)?;
         // Checks the base.
@@ -139,10 +142,12 @@ impl DeformedShape {
         Self::new(points, cells)
     }
 
-    /// Mat, floors and columns of a building in plan: floors have the outline of the mat, and tilt with it.
+    /// Mat, floors and columns of a building in plan.
+    ///
+    /// Floors have the outline of the mat, and tilt with it.
     ///
     /// # Errors
-    /// None that a valid building gives.
+    /// None for a valid building.
     pub fn of_storeys(building: &StoreyBuilding) -> Result<Self> {
         let ([x, y], mut height) = (building.center(), 0.0);
         let base = building.contact_faces().concat();
@@ -167,7 +172,7 @@ impl DeformedShape {
     /// Floors and columns of a shear building.
     ///
     /// # Errors
-    /// None that a valid building gives.
+    /// None for a valid building.
     pub fn of_building(building: &ShearBuilding) -> Result<Self> {
         let base = building.contact_nodes();
         let (mut points, mut cells) = (Vec::new(), Vec::new());
@@ -209,11 +214,13 @@ impl DeformedShape {
         self.points.iter().any(|point| !point.across.is_empty())
     }
 
-    /// [horizontal, up, along y] of every point (m, or m/s) for these degrees of freedom (or their rates); nothing
-    /// moves along y in the plane.
+    /// Displacement of every point: [horizontal, up, along y].
+    ///
+    /// `dofs`: values of the degrees of freedom, or their rates; the result is in m, or m/s. In the plane nothing
+    /// moves along y.
     ///
     /// # Errors
-    /// [`Error::Index`] if a point is moved by a degree of freedom that is not there.
+    /// [`Error::Index`] if a degree of freedom of a point is missing in `dofs`.
     pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 3]>> {
         let sum = |row: &DofCombination| {
             row.iter().try_fold(0.0, |sum, &(index, weight)| {
@@ -254,7 +261,7 @@ impl FaceNode {
     }
 }
 
-/// A polygon of points from `first` on; in lines where a cell of as many points would be curved.
+/// A polygon of points from `first` on; single lines if a cell of this many points would be curved.
 fn add_outline(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
     if matches!(count, 6 | 8 | 9) {
         cells.extend((0..count).map(|k| vec![first + k, first + (k + 1) % count]));
@@ -263,7 +270,7 @@ fn add_outline(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
     }
 }
 
-/// Lines from points of one polygon to those of the next, eight at most.
+/// Lines from points of one polygon to the points of the next, eight at most.
 fn add_columns(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
     let columns = (0..count).step_by(count.div_ceil(8).max(1));
     cells.extend(columns.map(|k| vec![first + k, first + count + k]));

@@ -1,4 +1,4 @@
-//! Response spectra of points of the structure.
+//! Floor response spectra of points of the structure.
 
 use super::TimeSeries;
 use crate::coupled::Probe;
@@ -8,13 +8,12 @@ use crate::motion::{Record, SpectralOrdinate};
 impl TimeSeries {
     /// The record of an acceleration probe (total acceleration, m/s²), from rest.
     ///
-    /// Accelerations are means over steps for the midpoint and θ rules, so the record is half a
-    /// step late, which no spectrum notices. A floor's vibration should have ten steps or more in
-    /// its period.
+    /// With the midpoint and θ rules accelerations are means over steps. The record is then half a step late,
+    /// which does not affect a spectrum. A floor's vibration should have ten steps or more in its period.
     ///
     /// # Errors
-    /// [`Error::Name`] if no probe has this name; [`Error::Scene`] if it does not read accelerations
-    /// only, or if not every step is kept; those of [`Record::new`].
+    /// [`Error::Name`] if no probe has this name; [`Error::Scene`] if the probe contains displacements or
+    /// velocities, or if not every step is kept; as for [`Record::new`].
     pub fn acceleration_record(&self, probe: &str) -> Result<Record> {
         let index = self.probe_index(probe)?;
         let Probe { displacement, velocity, acceleration, .. } = &self.probes[index];
@@ -32,11 +31,11 @@ impl TimeSeries {
         Record::new(self.time_step, self.probe_values[index].clone())
     }
 
-    /// Floor (in-structure) response spectrum: the largest response of oscillators that stand on the
-    /// point of an acceleration probe, at `periods` (s) with the damping ratio `damping`.
+    /// Floor (in-structure) response spectrum at the point of an acceleration probe.
     ///
-    /// Periods of fewer than ten time steps are not exact, for which [`Record::coarse_spectrum`] has a warning: at
-    /// a period of 0.05 s a step of 0.02 s costs 11 %. A run with a shorter time step mends it.
+    /// The largest response of oscillators on that point, at `periods` (s) with the damping ratio `damping`.
+    /// Periods of fewer than ten time steps are not exact: at a period of 0.05 s a step of 0.02 s reduces the
+    /// response by 11 %. [`Record::coarse_spectrum`] warns of them. Use a shorter time step for such periods.
     ///
     /// # Errors
     /// As for [`TimeSeries::acceleration_record`] and [`Record::response_spectrum`].
@@ -73,13 +72,12 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
     Ok(numbers)
 }
 
-/// A spectrum whose peaks are broadened to frequencies `fraction` lower and higher, for what is not
-/// known of soil and structure: 0.15 in U.S. NRC Regulatory Guide 1.122, rev. 1 (1978).
+/// A spectrum with peaks broadened to frequencies `fraction` lower and higher.
 ///
-/// The ordinate at every frequency f is spread over (1 − fraction) f to (1 + fraction) f, and the largest
-/// that is spread to a frequency counts: at the period T that of the given spectrum between
-/// (1 − fraction) T and (1 + fraction) T. Between the given periods the spectrum is linear in the
-/// logarithm of the period.
+/// This covers uncertainty of soil and structure: 0.15 in U.S. NRC Regulatory Guide 1.122, rev. 1 (1978). The
+/// ordinate at every frequency f is spread over (1 − fraction) f to (1 + fraction) f, and the largest ordinate at
+/// each frequency counts. At the period T it is the largest of the given spectrum between (1 − fraction) T and (1
+/// + fraction) T. Between the given periods the spectrum is linear in the logarithm of the period.
 ///
 /// # Errors
 /// [`Error::Input`] unless 0 ≤ `fraction` < 1 and the periods increase.

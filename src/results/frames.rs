@@ -1,4 +1,4 @@
-//! Snapshots of the base and of the structure, every so many steps.
+//! Snapshots of the base and of the structure at regular steps.
 
 use std::collections::TryReserveError;
 
@@ -56,7 +56,7 @@ impl ContactFrames {
         self.modes.extend_from_slice(&state.modes);
     }
 
-    /// Reserves memory for so many more `frames` of `count` elements each.
+    /// Reserves memory for `frames` more frames of `count` elements each.
     pub(super) fn reserve(&mut self, frames: usize, count: usize) -> Result<(), TryReserveError> {
         reserve(&mut self.times, frames)?;
         reserve(&mut self.states, frames.saturating_mul(count))?;
@@ -98,7 +98,7 @@ pub(super) struct MotionFrames {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     free_field: Vec<[f64; 2]>,
-    /// Mean displacement of the free field along y, m, one for each frame; none if the file that was read has none.
+    /// Mean displacement of the free field along y, m, one for each frame; empty after reading a file without it.
     #[cfg_attr(feature = "serde", serde(default))]
     free_field_across: Vec<f64>,
 }
@@ -116,7 +116,7 @@ impl MotionFrames {
         self.free_field_across.push(state.free_field_across);
     }
 
-    /// Reserves memory for so many more `frames` of `count` degrees of freedom each.
+    /// Reserves memory for `frames` more frames of `count` degrees of freedom each.
     pub(super) fn reserve(&mut self, frames: usize, count: usize) -> Result<(), TryReserveError> {
         reserve(&mut self.times, frames)?;
         reserve(&mut self.displacement, frames.saturating_mul(count))?;
@@ -146,7 +146,7 @@ impl MotionFrames {
             let range = k * count..(k + 1) * count;
             let displacement = &self.displacement[range.clone()];
             let (velocity, free_field) = (&self.velocity[range], self.free_field[k]);
-            // Files of before have none.
+            // Files of earlier versions have none.
             let free_field_across = self.free_field_across.get(k).copied().unwrap_or(0.0);
             MotionFrame { time, displacement, velocity, free_field, free_field_across }
         })
@@ -157,8 +157,10 @@ impl MotionFrames {
     }
 }
 
-/// Reserves memory for `more` entries: as many again as there are, so that a growing list is seldom moved, or an eighth
-/// if those do not fit. Where that does not fit either, enough is left to say so.
+/// Reserves memory for `more` entries.
+///
+/// It doubles the list, so that a growing list is seldom moved, or adds an eighth if twice as much does not fit.
+/// If that fails too, enough memory is left to report the error.
 pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), TryReserveError> {
     list.try_reserve(more).or_else(|_| list.try_reserve_exact(more.max(list.len() / 8)))
 }

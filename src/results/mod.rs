@@ -1,8 +1,8 @@
 //! Results for engineers: time series, peaks with their times, envelopes, factors of safety.
 //!
-//! [`Simulation::run`](crate::Simulation::run) gives a [`Run`]: peaks, envelopes, factors of safety,
-//! printed a page for the report. A [`Comparison`] puts several into one table. For time series and
-//! snapshots a [`Recorder`] says what to keep, and [`TimeSeries`] keep it as the observer of the run.
+//! [`Simulation::run`](crate::Simulation::run) returns a [`Run`]: peaks, envelopes and factors of safety, which
+//! print as a page for the report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
+//! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run.
 //!
 //! ```
 //! use basemat::bem::ElasticGround;
@@ -45,24 +45,23 @@
 //!
 //! # Columns and numbers in files
 //!
-//! One rule for CSV and for the arrays of NPZ: a column is called by its quantity in `snake_case`, with the
-//! unit spelled out behind it (`base_shear_n_per_m`, `roof_m_per_s2`, `base_rotation_rad`, none of a
-//! ratio), probes as well; of equal ones the second
-//! ends in `_2`. Values are in SI units, those of probes in their own. Numbers have the digits that
-//! read back as the same number; one that is not there or not known (NaN) is an empty cell, infinities
-//! are `inf` and `-inf`, as pandas reads them.
+//! One rule for CSV and for the arrays of NPZ: the name of a column is its quantity in `snake_case`, followed by
+//! the unit in words (`base_shear_n_per_m`, `roof_m_per_s2`, `base_rotation_rad`; a ratio has no unit). Probes
+//! follow the same rule. Of two equal names the second ends in `_2`. Values are in SI units, probes in their own
+//! units. Numbers have all digits, so that they read back as the same number. A missing or unknown number (NaN) is
+//! an empty cell, infinities are `inf` and `-inf`, as pandas reads them.
 //!
-//! # What it costs
+//! # Memory
 //!
-//! Nothing where it is not used. The scalar time series take 24 numbers and one per probe at every
-//! kept step (192 kB for 1000 steps); contact and motion frames are off unless asked for, see
-//! [`TimeSeries::bytes`]. All of them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] keeps numbers per element and the slip events. Its peaks,
-//! envelopes and events are those of all steps, however few the time series keep.
+//! Results that are not requested cost nothing. Scalar time series take 24 numbers and one per probe at every kept
+//! step (192 kB for 1000 steps). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
+//! them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores numbers per element and the
+//! slip events. Its peaks, envelopes and events cover all steps, even if the time series keep only some.
 //!
 //! # Conventions
 //!
-//! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs
-//! to the end of its step. The base moment is the total one, static part included.
+//! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs to the end of
+//! its step. The base moment is the total moment, static part included.
 
 mod comparison;
 mod csv;

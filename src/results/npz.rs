@@ -1,4 +1,4 @@
-//! Time series as an archive of NumPy's arrays.
+//! Time series as an archive of NumPy arrays.
 //!
 //! An NPZ file is a ZIP archive of files `name.npy`: a magic number, the length of the header, a Python
 //! dictionary of type, order and shape, blanks up to a multiple of 64 bytes, and the numbers (NumPy
@@ -34,7 +34,7 @@ impl Archive {
         let shape = format!("({}{comma})", lengths.join(", "));
         let mut header =
             format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
-        // Magic number, version and length take ten bytes, the line end one.
+        // Magic number, version and length take ten bytes, the line end takes one.
         let blanks = (header.len() + 11).next_multiple_of(64) - (header.len() + 11);
         header += &" ".repeat(blanks);
         header.push('\n');
@@ -59,7 +59,7 @@ impl Archive {
         self.add(name, "<f8", shape, &bytes)
     }
 
-    /// Texts in four bytes for each character, as long as the longest.
+    /// Texts with four bytes for each character, padded to the longest text.
     fn add_words(&mut self, name: &str, words: &[String]) -> io::Result<()> {
         let longest = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
         let letters = |word: &String| {
@@ -72,18 +72,19 @@ impl Archive {
 }
 
 impl TimeSeries {
-    /// Writes the archive of [`TimeSeries::write_npz`] to a file; its folder is made if it is not there.
+    /// Writes the archive of [`TimeSeries::write_npz`] to a file; creates its folder if necessary.
     ///
     /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if that fails.
+    /// [`Error::Write`](crate::Error::Write) if the file cannot be written.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
         let (path, mut bytes) = (path.as_ref(), Vec::new());
         self.write_npz(&mut bytes).map_err(unwritten(path))?;
         write_file(path, bytes)
     }
 
-    /// Writes all that was kept as an archive of NumPy's arrays, `numpy.load("run.npz")["base_shear_n_per_m"]`;
-    /// feature `npz`. No array is compressed.
+    /// Writes all time series and frames as an archive of NumPy arrays.
+    ///
+    /// In Python: `numpy.load("run.npz")["base_shear_n_per_m"]`. Feature `npz`. Arrays are not compressed.
     ///
     /// | arrays | shape | |
     /// |---|---|---|
@@ -101,7 +102,7 @@ impl TimeSeries {
     /// | in plan `motion_free_field_across_m` | frames | along y |
     ///
     /// # Errors
-    /// Those of `out`, and invalid input for a probe whose name is longer than 60 000 bytes.
+    /// Errors of `out`, and invalid input for a probe whose name is longer than 60 000 bytes.
     pub fn write_npz(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
         let steps = self.times().len();

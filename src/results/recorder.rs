@@ -1,7 +1,8 @@
-//! Selection of results to keep of a run.
+//! Selection of a run's results to keep.
 
-/// Selection of results of a run to keep beyond its [`Run`](super::Run): time series of scalars and probes at every
-/// step, unless set otherwise.
+/// Selects results to keep beyond a [`Run`](super::Run).
+///
+/// Default: time series of scalars and probes at every step.
 ///
 /// See the [module](super) for an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,20 +26,21 @@ impl Recorder {
         Self::default()
     }
 
-    /// Keeps scalars and probes of every `steps`th step only; floor spectra are then not possible.
+    /// Keeps scalars and probes only at every `steps`th step; floor spectra are then impossible.
     #[must_use]
     pub fn every(self, steps: usize) -> Self {
         Self { every: steps, ..self }
     }
 
-    /// Keeps the base at every `steps`th step: 49 bytes per element and frame.
+    /// Keeps contact frames at every `steps`th step: 49 bytes per element and frame.
     #[must_use]
     pub fn contact(self, steps: usize) -> Self {
         Self { contact: Some(steps), ..self }
     }
 
-    /// Keeps displacement and velocity of the structure at every `steps`th step: 16 bytes per
-    /// degree of freedom and frame.
+    /// Keeps motion frames of the structure at every `steps`th step.
+    ///
+    /// Displacement and velocity take 16 bytes per degree of freedom and frame.
     #[must_use]
     pub fn motion(self, steps: usize) -> Self {
         Self { motion: Some(steps), ..self }

@@ -1,4 +1,4 @@
-//! The observer: time series of a run, and the frames of motion and contact that it keeps.
+//! Time series of a run, and its motion and contact frames, stored by an observer.
 
 use std::collections::TryReserveError;
 
@@ -11,11 +11,11 @@ use crate::coupled::{EnergyBalance, Probe, State};
 use crate::error::{MemoryError, Result, memory_limit, require};
 use crate::structure::probe::probe_index;
 
-/// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
-/// observer of [`Simulation::run`].
+/// Time series and snapshots of a run.
 ///
-/// The first entry of every history is the state it started from. See the [module](super) for an
-/// example. One that was read from a file takes no more steps.
+/// [`Recorder::start`] creates it; pass [`TimeSeries::record`] to [`Simulation::run`] as observer. The first entry
+/// of every series is the initial state. See the [module](super) for an example. Time series read from a file
+/// ignore further steps.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "TimeSeriesForm"))]
@@ -81,17 +81,17 @@ validated! {
     }
 }
 
-/// Most steps that memory is reserved for.
+/// Largest number of steps that memory is reserved for.
 const MOST_RESERVED: usize = 1_000_000;
 
-/// Ways out of a limit of memory.
+/// Remedies at a limit of memory.
 const LIMITED: &str = "a recorder of fewer steps takes less, `set_memory_limit` allows more";
 
-/// Ways out where the system has no more memory.
+/// Remedies if the system has no more memory.
 const EXHAUSTED: &str = "the system gives no more; a recorder of fewer steps takes less";
 
 impl Recorder {
-    /// Starts with the simulation as it stands.
+    /// Starts recording with the present state of the simulation.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an interval of zero steps.
@@ -123,26 +123,28 @@ impl Recorder {
 }
 
 impl TimeSeries {
-    /// Reserves memory for `steps` more steps, at most a million: recording them then allocates nothing (but for frames
-    /// of motion of a structure that is stepped in its modes, whose degrees of freedom the state then makes).
+    /// Reserves memory for `steps` more steps, at most a million.
     ///
-    /// Called before a run, it says at once whether the run's time series and frames fit.
+    /// Recording them then allocates nothing, except for motion frames of a structure in modal coordinates: the
+    /// state allocates its degrees of freedom. Call it before a run to find out whether the run's time series and
+    /// frames fit.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::Error::Memory) if time series and frames of all `steps` would take more than the
-    /// [limit](crate::memory_limit), or the first million more than the system gives.
+    /// [`Error::Memory`](crate::Error::Memory) if time series and frames of all `steps` would exceed the
+    /// [limit](crate::memory_limit), or the first million steps the memory of the system.
     pub fn reserve(&mut self, steps: usize) -> Result<()> {
         self.fit(steps)?;
         self.make_room(steps.min(MOST_RESERVED))
     }
 
-    /// Takes in a step. States of another simulation and those that are not later than the last
-    /// one are ignored.
+    /// Records a step.
+    ///
+    /// States of another simulation, and states that are not later than the last one, are ignored.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::Error::Memory) if time series and frames would take more than the
-    /// [limit](crate::memory_limit) or than the system gives; they end with the step before then. As the observer's
-    /// error it ends a run.
+    /// [`Error::Memory`](crate::Error::Memory) if time series and frames would exceed the
+    /// [limit](crate::memory_limit) or the memory of the system; they then end with the previous step. As the
+    /// observer's error it ends a run.
     pub fn record(&mut self, state: &State) -> Result<()> {
         if !self.sequence.is_next(state) {
             return Ok(());
@@ -155,7 +157,7 @@ impl TimeSeries {
         Ok(())
     }
 
-    /// Number of the next `steps` steps that are kept of every `every`th.
+    /// Number of kept steps among the next `steps`, if every `every`th is kept.
     fn due(&self, every: usize, steps: usize) -> usize {
         self.steps.saturating_add(steps) / every - self.steps / every
     }
@@ -233,12 +235,14 @@ impl TimeSeries {
         }
     }
 
-    /// Times of the kept steps, s; the first is that of the start.
+    /// Times of the kept steps, s; the first is the start.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Time series of a quantity at [`TimeSeries::times`]; empty in the plane for those of three directions.
+    /// Time series of a quantity at [`TimeSeries::times`].
+    ///
+    /// Empty in the plane for quantities of three directions.
     pub fn series(&self, quantity: Quantity) -> &[f64] {
         self.scalars.get(quantity as usize).map_or(&[], Vec::as_slice)
     }
@@ -246,12 +250,12 @@ impl TimeSeries {
     /// Time series of the probe called `name`, zero at the start of a run.
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if there is none.
+    /// [`Error::Name`](crate::Error::Name) if no probe has this name.
     pub fn probe(&self, name: &str) -> Result<&[f64]> {
         self.probe_index(name).map(|index| &self.probe_values[index][..])
     }
 
-    /// The probes, in the order they were given to the builder.
+    /// The probes, in the order of the builder.
     pub fn probes(&self) -> &[Probe] {
         &self.probes
     }
@@ -275,22 +279,22 @@ impl TimeSeries {
         &self.depths
     }
 
-    /// Whether the time series are of a ground in plan.
+    /// Whether the ground is one in plan.
     pub(crate) fn in_plan(&self) -> bool {
         !self.depths.is_empty()
     }
 
-    /// Snapshots of the base; none unless asked for with [`Recorder::contact`].
+    /// Snapshots of the base; none unless [`Recorder::contact`] was set.
     pub fn contact_frames(&self) -> impl Iterator<Item = ContactFrame<'_>> {
         self.contact.iter().flat_map(|frames| frames.frames(self.elements.len()))
     }
 
-    /// Snapshots of the structure; none unless asked for with [`Recorder::motion`].
+    /// Snapshots of the structure; none unless [`Recorder::motion`] was set.
     pub fn motion_frames(&self) -> impl Iterator<Item = MotionFrame<'_>> {
         self.motion.iter().flat_map(|frames| frames.frames(self.dofs))
     }
 
-    /// Memory that time series and frames take up now.
+    /// Memory that time series and frames use now, bytes.
     pub fn bytes(&self) -> usize {
         let numbers: usize =
             self.scalars.iter().chain(&self.probe_values).map(Vec::len).sum::<usize>()
