@@ -16,13 +16,13 @@ pub enum CaseError<E> {
     /// The case panicked.
     #[error("the case panicked: {message}")]
     Panicked {
-        /// Message of the panic; empty if that is no text.
+        /// Message of the panic; empty if the panic has no text.
         message: String,
     },
 }
 
 impl<E> CaseError<E> {
-    /// A panic, by the value that it was raised with.
+    /// A panic with its payload.
     pub(crate) fn panicked(payload: &(dyn Any + Send)) -> Self {
         let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
         let message = text.or_else(|| payload.downcast_ref().cloned()).unwrap_or_default();
@@ -63,7 +63,7 @@ pub enum SweepError {
         /// The value.
         value: f64,
     },
-    /// A value that a parameter takes twice.
+    /// A value that occurs twice in a parameter.
     #[error("parameter '{parameter}' has the value {value} twice")]
     RepeatedValue {
         /// Name of the parameter.
@@ -77,7 +77,7 @@ pub enum SweepError {
         /// Message of the panic.
         message: String,
     },
-    /// A result that was asked of a case that failed.
+    /// The result of a case that failed.
     #[error("case {case} failed: {reason}")]
     Failed {
         /// Number of the case.
@@ -93,20 +93,23 @@ pub enum SweepError {
         /// The system's own message.
         reason: ErrorKind,
     },
-    /// A file of rows that cannot be written, because the disk is full, say. No case was begun after
-    /// that.
+    /// A file of rows that cannot be written, for example because the disk is full.
+    ///
+    /// No case was started after that.
     #[error("{file} cannot be written: {reason}; {computed} cases have rows, {left} are left")]
     Unwritten {
         /// The file.
         file: String,
         /// The system's own message.
         reason: ErrorKind,
-        /// Cases with a row, those of earlier processes among them.
+        /// Cases with a row, including rows of earlier processes.
         computed: usize,
-        /// Cases of the shard without one.
+        /// Cases of the shard without a row.
         left: usize,
-        /// All rows that there are, as CSV: [`Sweep::table_in`](crate::sweep::Sweep::table_in) goes on from
-        /// them once they are in a file called as its own with `.part` at the end.
+        /// All rows so far, as CSV.
+        ///
+        /// Write them to a file named like the table's with `.part` at the end;
+        /// [`Sweep::table_in`](crate::sweep::Sweep::table_in) then continues from them.
         rows: String,
     },
     /// A file that does not hold rows of this sweep.
@@ -119,7 +122,7 @@ pub enum SweepError {
         /// Fault of the line.
         reason: CaseFileError,
     },
-    /// A case that is there twice.
+    /// A case that occurs twice.
     #[error("case {case} is in {first} and again in {second}")]
     Twice {
         /// Number of the case.
@@ -129,18 +132,17 @@ pub enum SweepError {
         /// File that has it again.
         second: String,
     },
-    /// Cases that no file has.
+    /// Cases that are in no file.
     #[error("{} of the sweep's cases missing: {}", .cases.len(), missing(.cases, .shards))]
     Missing {
         /// Numbers of the cases, ascending.
         cases: Vec<usize>,
-        /// The shards that they are, `[index, of]`, where the files and they make equal shards; empty
-        /// otherwise.
+        /// The missing shards, `[index, of]`, if the files and these form equal shards; empty otherwise.
         shards: Vec<[usize; 2]>,
     },
 }
 
-/// Shards and the first few cases.
+/// Text of the missing shards and the first few missing cases.
 fn missing(cases: &[usize], shards: &[[usize; 2]]) -> String {
     const SHOWN: usize = 10;
     let dots = |count: usize| if count > SHOWN { ", …" } else { "" };
@@ -158,7 +160,7 @@ fn missing(cases: &[usize], shards: &[[usize; 2]]) -> String {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaseFileError {
-    /// The file ends within a line: it was not written to its end.
+    /// The file ends within a line: writing was interrupted.
     #[error("the file ends within this line")]
     Cut,
     /// Bytes that are not UTF-8.
@@ -175,7 +177,7 @@ pub enum CaseFileError {
         /// Cells needed.
         needed: usize,
     },
-    /// A heading that is not the sweep's, or not that of the other files.
+    /// A heading that differs from the sweep's or from the other files'.
     #[error("column {column} is called '{found}', but must be '{needed}'")]
     Heading {
         /// Column, from 1.
@@ -185,7 +187,7 @@ pub enum CaseFileError {
         /// Heading needed.
         needed: String,
     },
-    /// A number that is none of the sweep's cases.
+    /// A number of a case that the sweep does not have.
     #[error("'{text}' is no case of this sweep")]
     Case {
         /// The cell, cut to 40 characters.
@@ -203,7 +205,7 @@ pub enum CaseFileError {
         /// Value in this sweep, printed.
         needed: String,
     },
-    /// A result that is no number.
+    /// A result that is not a number.
     #[error("{column} is '{text}', which is no number")]
     NotANumber {
         /// Name of the column.
@@ -211,7 +213,7 @@ pub enum CaseFileError {
         /// The cell, cut to 40 characters.
         text: String,
     },
-    /// A row that is not what was written: its check sum is another.
+    /// A row with a wrong check sum: it differs from the row written.
     #[error(
         "case {case} does not agree with its check sum: the row was damaged or changed by hand"
     )]

@@ -25,7 +25,7 @@ pub enum RecordError {
     Column {
         /// Columns found.
         found: usize,
-        /// Column asked for, from 1.
+        /// Requested column, from 1.
         needed: usize,
     },
     /// A field is not a finite number.
@@ -42,7 +42,7 @@ pub enum RecordError {
         /// The first step, s.
         expected: f64,
     },
-    /// The steps of the time column are nearly equal, but drift away from equal ones.
+    /// Steps of the time column that are nearly equal, but drift from equal steps.
     #[error("time is {found} s, but would be {expected} s with equal steps")]
     DriftingStep {
         /// Time that was found, s.
@@ -50,7 +50,7 @@ pub enum RecordError {
         /// The time with equal steps, s.
         expected: f64,
     },
-    /// The times are equally spaced, but rounded too coarsely to tell the time step.
+    /// The times are equally spaced, but rounded too coarsely to determine the time step.
     #[error(
         "times rounded to {resolution} s do not tell a time step near {step} s: give it (`time_step`)"
     )]
@@ -66,21 +66,21 @@ pub enum RecordError {
         /// Step that was found, s.
         found: f64,
     },
-    /// The number of samples is not the one that was asked for.
+    /// The number of samples differs from the given one.
     #[error("{found} samples, but {needed} asked for")]
     SampleCount {
         /// Samples found.
         found: usize,
-        /// Samples asked for.
+        /// Given number of samples.
         needed: usize,
     },
-    /// The header lacks something.
+    /// A quantity is missing in the header.
     #[error("the header has no {quantity}, or none that makes sense")]
     Missing {
         /// Missing quantity.
         quantity: &'static str,
     },
-    /// A quantity of the header is given, but not as a number and a unit that are known.
+    /// A quantity of the header without a known number or unit.
     #[error("the {quantity} '{text}' is not understood")]
     Unclear {
         /// Name of the quantity.
@@ -88,15 +88,16 @@ pub enum RecordError {
         /// The file's own words, cut to 40 characters.
         text: String,
     },
-    /// A line does not keep to the columns of the file's Fortran format, which place the decimal
-    /// points or scale the numbers; or it does, and those before did not.
+    /// A line does not match the columns of the file's Fortran format, which place the decimal points or scale the
+    /// numbers; or it does, and previous lines did not.
     #[error("'{text}': not all lines keep to the file's format, which places the decimal points")]
     OffColumns {
         /// The line, cut to 40 characters.
         text: String,
     },
-    /// A line with commas, or with two tabs together, has another number of fields than those before:
-    /// its columns may be others.
+    /// A line with commas, or with two tabs together, has another number of fields than the previous lines.
+    ///
+    /// Its columns may have shifted.
     #[error("{found} columns, but {expected} before")]
     UnequalColumns {
         /// Columns found.
@@ -104,7 +105,7 @@ pub enum RecordError {
         /// Columns of the lines before.
         expected: usize,
     },
-    /// The file holds something else than an acceleration, or in a unit that is not known.
+    /// The file contains another quantity than acceleration, or an unknown unit.
     #[error("'{text}' is no acceleration in a known unit")]
     NotAcceleration {
         /// The file's own description of its numbers, cut to 60 characters.
@@ -115,12 +116,12 @@ pub enum RecordError {
     Contradiction {
         /// Name of the quantity, with its unit.
         quantity: &'static str,
-        /// The value that the samples would be read with.
+        /// The value with which the samples would be read.
         found: f64,
         /// The value of the other place.
         stated: f64,
     },
-    /// The file holds data before their processing, which are no acceleration at equal steps.
+    /// The file contains unprocessed data, which are no acceleration at equal steps.
     #[error("'{text}': {kind}; read the file of corrected data (volume 2)")]
     Unprocessed {
         /// Kind of the data.
@@ -128,15 +129,15 @@ pub enum RecordError {
         /// The file's own description of its numbers, cut to 60 characters.
         text: String,
     },
-    /// A line before all numbers is neither the one title that is passed over nor numbers.
+    /// A line before all numbers that contains neither numbers nor the column titles.
     #[error(
         "'{text}' is not a finite number: with more than one line of header, give their number (`header_lines`)"
     )]
     HeaderLine {
-        /// The first field that is no number, cut to 40 characters.
+        /// The first field that is not a number, cut to 40 characters.
         text: String,
     },
-    /// The title of a column names another unit than that in which the column is read.
+    /// The title of a column names another unit than the given one.
     #[error("the title '{text}' names another unit than {unit}, in which the column is read")]
     TitleUnit {
         /// The title, cut to 40 characters.
@@ -144,12 +145,12 @@ pub enum RecordError {
         /// The unit of the column.
         unit: String,
     },
-    /// No channel of this number.
+    /// There is no channel of this number.
     #[error("{found} channels, but channel {needed} was asked for (they count from 1)")]
     Channel {
         /// Channels found.
         found: usize,
-        /// Channel asked for.
+        /// Requested channel.
         needed: usize,
     },
     /// A line has several columns where one was expected.
@@ -158,10 +159,10 @@ pub enum RecordError {
         /// Columns found.
         found: usize,
     },
-    /// The numbers can be read, but make no record.
+    /// The numbers can be read, but form no valid record.
     #[error("{0}")]
     Unusable(Box<Error>),
-    /// A line is too long to be one of numbers.
+    /// A line is too long for a line of numbers.
     #[error("no line end in {bytes} bytes")]
     LineTooLong {
         /// Bytes read without a line end.
@@ -179,19 +180,19 @@ pub enum MeshFileError {
     /// The file could not be read.
     #[error("cannot be read: {}", fault_of_file(*.0))]
     Unreadable(std::io::ErrorKind),
-    /// Something that is needed is not there.
+    /// A required item is missing.
     #[error("there is no {what}")]
     Missing {
         /// Missing item.
         what: String,
     },
-    /// Something is there twice.
+    /// An item occurs twice.
     #[error("{what} is given twice")]
     Twice {
         /// Repeated item.
         what: String,
     },
-    /// A section has more or fewer things than it says.
+    /// A section has more or fewer items than it states.
     #[error("{found} {what}, but {announced} are announced")]
     Count {
         /// Counted items.
@@ -201,7 +202,7 @@ pub enum MeshFileError {
         /// Number that the section states.
         announced: u64,
     },
-    /// A field is not what it must be.
+    /// A field has an invalid value.
     #[error("'{text}' is no {what}")]
     NotA {
         /// Required value.
@@ -209,21 +210,21 @@ pub enum MeshFileError {
         /// The field, cut to 40 characters.
         text: String,
     },
-    /// Something that the crate does not read.
+    /// A feature that the crate does not read.
     #[error("cannot use {text}")]
     Unsupported {
         /// Value found.
         text: String,
     },
-    /// An element that the mesh does not take.
+    /// An element that the mesh rejects.
     #[error("element {tag}: {source}")]
     Element {
         /// The element's tag in the file.
         tag: u64,
-        /// Why.
+        /// Reason.
         r#source: Box<Error>,
     },
-    /// A line is too long to be one of numbers.
+    /// A line is too long for a line of numbers.
     #[error("no line end in {bytes} bytes")]
     LineTooLong {
         /// Bytes read without a line end.
@@ -247,13 +248,13 @@ pub enum MatrixFileError {
     /// The file has no line.
     #[error("the file is empty")]
     Empty,
-    /// The first line is no Matrix Market header.
+    /// The first line is not a Matrix Market header.
     #[error("'{text}' is not '%%MatrixMarket matrix <format> <field> <symmetry>'")]
     Header {
         /// The line, cut to 80 characters.
         text: String,
     },
-    /// The header asks for something that a structure's matrix cannot be.
+    /// The header describes a matrix that a structure cannot have.
     #[error("'{text}' is not supported: a real matrix, coordinate or array, general or symmetric")]
     Unsupported {
         /// The word of the header.
@@ -267,7 +268,7 @@ pub enum MatrixFileError {
         /// Fields needed.
         needed: usize,
     },
-    /// A field is no finite number, or no whole number where one is needed.
+    /// A field is not a finite number, or not a whole number where one is needed.
     #[error("'{text}' is not a number that can stand here")]
     NotANumber {
         /// The field, cut to 40 characters.
@@ -284,7 +285,7 @@ pub enum MatrixFileError {
     /// The matrix would not fit into memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// A row or column that the matrix does not have.
+    /// A row or column beyond the matrix.
     #[error("index {index}, but the matrix has {order} rows and columns")]
     Index {
         /// The index, which counts from 1.
@@ -308,7 +309,7 @@ pub enum MatrixFileError {
         /// Entries announced.
         needed: usize,
     },
-    /// A line is too long to be one of numbers.
+    /// A line is too long for a line of numbers.
     #[error("no line end in {bytes} bytes")]
     LineTooLong {
         /// Bytes read without a line end.

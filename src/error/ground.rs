@@ -18,7 +18,7 @@ pub enum LayeredError {
         /// Layer, from 1 at the surface.
         layer: usize,
     },
-    /// A damping law that gives energy away: Re(μ(s)/s) must not be negative where Re s > 0.
+    /// A damping law that generates energy: Re(μ(s)/s) must not be negative where Re s > 0.
     #[error(
         "damping law of layer {layer} gives energy away: Re(mu(s)/s) is {value:e} of |mu/s| at \
          s = {re} + {im}i 1/s, but must not be negative"
@@ -63,7 +63,7 @@ pub enum LayeredError {
         /// Wavenumber at which bisection stopped, 1/m.
         wavenumber: f64,
     },
-    /// A time step, or a top layer, so short beside the patch that no computer would finish.
+    /// A time step or top layer so small relative to the patch that no computer would finish.
     #[error(
         "the patch of {span} m needs wavenumbers up to {wavenumber:e} 1/m, more than 1e6 of its own (a \
          longer time step, a shorter patch or a thicker top layer helps)"
@@ -74,17 +74,16 @@ pub enum LayeredError {
         /// Wavenumber up to which C must be integrated, 1/m.
         wavenumber: f64,
     },
-    /// Convolution weights that would take longer than is allowed, estimated before anything of them is
-    /// computed.
+    /// Convolution weights whose estimated time exceeds the limit; nothing has been computed.
     #[error(
         "convolution weights up to lag {lags} would take {seconds:.0} s of a processor, but {limit} s are \
          allowed: time step {time_step:e} s, shortest element {element:.3e} m, top layer {layer:.3e} m ({cure} \
          or fewer steps help; `with_time_limit` allows more)"
     )]
     TooCostly {
-        /// Processor time, s, estimated.
+        /// Estimated processor time, s.
         seconds: f64,
-        /// Processor time that is allowed, s.
+        /// Processor time limit, s.
         limit: f64,
         /// Last of the lags.
         lags: usize,
@@ -94,7 +93,7 @@ pub enum LayeredError {
         element: f64,
         /// Thickness of the top layer, m; infinite for a half-plane.
         layer: f64,
-        /// Change that would help most.
+        /// Change with the largest effect.
         cure: &'static str,
     },
     /// Damping that no mechanisms reproduce over the band.
@@ -103,18 +102,18 @@ pub enum LayeredError {
          off"
     )]
     Fit {
-        /// Damping ratio that was asked for.
+        /// Requested damping ratio.
         ratio: f64,
         /// Largest deviation in the band, relative.
         worst: f64,
     },
-    /// Inclined waves over a rigid base, which sends none.
+    /// Inclined waves over a rigid base, which transmits none.
     #[error(
         "waves at an angle come from a half-plane below the layers, not from a rigid base \
          (site::SoilColumn takes the motion of a rigid base to the surface)"
     )]
     InclinedOverRigidBase,
-    /// An inclined wave without a beginning in time.
+    /// An inclined wave without a first arrival.
     #[error(
         "wave is beyond the critical angle of layer {layer}: its horizontal slowness is {slowness} s/m, \
          but must be below {limit} s/m, that of its fastest waves there, to begin in time (its transfer \
@@ -128,7 +127,7 @@ pub enum LayeredError {
         /// Slowness of pressure waves (SH: shear waves) in the layer at the highest frequency of the motion, s/m.
         limit: f64,
     },
-    /// Convolution weights that could give energy away.
+    /// Convolution weights that could generate energy.
     #[error(
         "convolution weights are not passive: least eigenvalue {margin:e} of the mobility, relative to \
          the largest, at {angle} radians on the circle |z| = {radius}; at least {allowed:e} is needed"
@@ -136,7 +135,7 @@ pub enum LayeredError {
     NotPassive {
         /// Least eigenvalue of the Hermitian part over its trace.
         margin: f64,
-        /// Least value that is accepted.
+        /// Smallest accepted value.
         allowed: f64,
         /// Angle on the circle, radians per step.
         angle: f64,
@@ -160,29 +159,29 @@ pub enum KernelFileError {
     /// The file could not be read.
     #[error("cannot be read: {}", fault_of_file(*.0))]
     Unreadable(std::io::ErrorKind),
-    /// The file does not begin as one of convolution weights does; it is left as it is.
+    /// The file does not begin like a file of convolution weights; it stays unchanged.
     #[error("is no file of convolution weights, and is not written over")]
     NotAKernel,
-    /// The file is cut short, or longer than it says.
+    /// The file is shorter or longer than it states.
     #[error("has a wrong length of {found} bytes (delete it to have it made anew)")]
     Length {
         /// Bytes found.
         found: u64,
-        /// Bytes needed; `None` if the file does not say.
+        /// Bytes needed; `None` if the file does not state them.
         needed: Option<u64>,
     },
-    /// The numbers are not those that were written.
+    /// The numbers differ from the numbers written.
     #[error("is damaged: its checksum is wrong (delete it to have it made anew)")]
     Damaged,
 }
 
 // Mats in plan.
 
-/// Reasons why the cells of a mat in plan, or what they carry, cannot be computed.
+/// Reasons why a mat in plan cannot be divided into cells or computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// A mat, or a mask, that no cell lies on.
+    /// A mat or a mask without a cell.
     #[error("mat {mat} has no cell: cells are {} m x {} m (more of them help)", pitch[0], pitch[1])]
     NoCells {
         /// Mat, from 0 in the order of its first face.
@@ -190,7 +189,7 @@ pub enum PlanError {
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// A face that is no convex polygon.
+    /// A face that is not a convex polygon.
     #[error("face {face} {reason}")]
     Face {
         /// Face, from 0.
@@ -198,7 +197,7 @@ pub enum PlanError {
         /// Fault of the face.
         reason: &'static str,
     },
-    /// Faces that the cells do not cover, or that overlap.
+    /// Faces that overlap, or that the cells do not cover.
     #[error(
         "cells inside the faces have an area of {cells} m2, but the faces one of {faces} m2: they overlap, or are too \
          narrow for cells of {} m x {} m (at most a tenth may be missing)", pitch[0], pitch[1]
@@ -217,12 +216,12 @@ pub enum PlanError {
          share corners)", mats[0], mats[1], pitch[0], pitch[1]
     )]
     TooClose {
-        /// The two, from 0 in the order of their first faces.
+        /// Numbers of the two mats, from 0 in the order of their first faces.
         mats: [usize; 2],
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// A top layer so thin, or cells so small beside the mat, that no one would wait for it.
+    /// The top layer is too thin, or the cells too small, for the weights to be computed in reasonable time.
     #[error(
         "a mat of {span:.4} m needs wavenumbers up to {wavenumber:.3e} 1/m, which would take minutes: up to {most:.3e} 1/m \
          are allowed, {:.2} times less (a time step so many times as long, frequencies so many times lower, a thicker top \
@@ -233,7 +232,7 @@ pub enum PlanError {
         span: f64,
         /// Wavenumber up to which form factors would be tabulated, 1/m.
         wavenumber: f64,
-        /// Largest wavenumber that is allowed for so many cells, 1/m.
+        /// Largest wavenumber that is allowed for this number of cells, 1/m.
         most: f64,
     },
     /// Cells that do not resolve the waves of a frequency.
@@ -248,14 +247,14 @@ pub enum PlanError {
         frequency: f64,
         /// Length of shear waves in the top layer, m.
         wavelength: f64,
-        /// Least number of cells in a wavelength.
+        /// Smallest number of cells in a wavelength.
         needed: f64,
     },
 }
 
 // Site response.
 
-/// Reasons why a soil profile makes no sense, or cannot be iterated to strain-compatible properties.
+/// Reasons why a soil profile is invalid, or its strain-compatible properties are not found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SiteError {
@@ -271,7 +270,7 @@ pub enum SiteError {
         /// Requirement.
         needed: &'static str,
     },
-    /// A number of curves that is not that of the layers.
+    /// A number of curves that differs from the number of layers.
     #[error("{curves} strain curves were given for {layers} layers: each layer needs its own")]
     Curves {
         /// Strain curves that were given.
@@ -285,7 +284,7 @@ pub enum SiteError {
 }
 
 impl SiteError {
-    /// An error of one quantity with its layer, counted from 0.
+    /// An error of one layer's quantity; layers count from 0.
     pub(crate) fn of_layer(index: usize, error: Error) -> Error {
         match error {
             Error::Input { quantity, value, needed } => {

@@ -1,10 +1,11 @@
-//! Memory that sizes given as numbers may take: one limit, and one error before it is allocated.
+//! Limit of memory for sizes given as numbers, checked before allocation.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A size for which more memory would be needed than is allowed: by [`memory_limit`](crate::memory_limit) for what is
-/// given, by [`HistoryOptions::memory`](crate::history::HistoryOptions::memory) for a convolution history. Nothing was
-/// allocated.
+/// A size that needs more memory than is allowed; nothing was allocated.
+///
+/// The limit is [`memory_limit`](crate::memory_limit), for a convolution history
+/// [`HistoryOptions::memory`](crate::history::HistoryOptions::memory).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "{quantity}: {asked} would take about {} of memory, but at most {} are allowed \
@@ -14,13 +15,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct MemoryError {
     /// Name of the quantity.
     pub quantity: &'static str,
-    /// Number that was requested.
+    /// Number in the request.
     pub asked: f64,
-    /// Memory that they would take, estimated, bytes.
+    /// Estimated memory for this number, bytes.
     pub needed: f64,
     /// The limit, bytes.
     pub limit: f64,
-    /// Ways out.
+    /// Remedies.
     pub remedy: &'static str,
 }
 
@@ -35,18 +36,19 @@ fn bytes(number: f64) -> String {
 
 static LIMIT: AtomicU64 = AtomicU64::new(4 << 30);
 
-/// Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
+/// Memory limit (bytes) for the size of one mesh, matrix, ground, record or sweep.
+///
 /// 4 GiB unless [`set_memory_limit`] was called.
 pub fn memory_limit() -> u64 {
     LIMIT.load(Ordering::Relaxed)
 }
 
-/// Sets the limit (bytes) for the whole process: to what the machine has, less what else runs on
-/// it.
+/// Sets the memory limit (bytes) for the whole process.
 ///
-/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a record,
-/// convolution weights of layered ground) are compared with it before anything is allocated: a [`MemoryError`] says
-/// what they would take. It is an estimate for each part by itself, not a count of all that a program holds.
+/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a
+/// record, convolution weights of layered ground) are compared with it before anything is allocated; a
+/// [`MemoryError`] states the memory that they would take. The estimate is for each part alone, not a count of all
+/// memory of a program. Set the limit to the machine's memory, minus the memory of other programs.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -62,7 +64,7 @@ pub fn set_memory_limit(bytes: u64) {
     LIMIT.store(bytes, Ordering::Relaxed);
 }
 
-/// Refuses `asked` of `quantity` if the `needed` bytes are more than the limit, or NaN.
+/// Error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
 pub(crate) fn check(
     quantity: &'static str,
     asked: f64,

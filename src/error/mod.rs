@@ -1,8 +1,8 @@
 //! Errors: every one names the quantity, its value and what was needed.
 //!
-//! The text of an error contains that of the error behind it, and `source()` is none: printed alone it
-//! is complete, and printed with its chain of sources it says nothing twice. A field called `source`
-//! is therefore written `r#source`, which `thiserror` does not take for one.
+//! The text of an error contains the text of its cause, and `source()` returns `None`. Printed alone the error is
+//! complete, and printed with its chain of sources nothing occurs twice. A field called `source` is therefore
+//! written `r#source`, which `thiserror` does not treat as a source.
 
 mod case;
 mod file;
@@ -34,9 +34,9 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Faults of this crate, with the quantity, its value and the requirement.
 ///
-/// Printed, an error is complete: its text contains that of the error behind it, which is in a field and not in
-/// [`source`](std::error::Error::source), so that chains of sources do not repeat it. `Debug` prints the same text:
-/// that is what `unwrap` and a `main` that returns [`Result`] show.
+/// The printed text of an error is complete: it contains the text of its cause. The cause is in a field and not in
+/// [`source`](std::error::Error::source), so chains of sources do not repeat it. `Debug` prints the same text, for
+/// `unwrap` and for a `main` that returns [`Result`].
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -91,7 +91,7 @@ pub enum Error {
         /// The system's own message.
         reason: std::io::ErrorKind,
     },
-    /// A name that nothing has.
+    /// A name that does not exist.
     #[error("there is no {quantity} called '{name}'{}", names(.known))]
     Name {
         /// Item that was sought.
@@ -101,7 +101,7 @@ pub enum Error {
         /// The names that are known.
         known: Vec<String>,
     },
-    /// A name that must be given once only.
+    /// A name that occurs more than once.
     #[error("more than one {quantity} is called '{name}'")]
     DuplicateName {
         /// Item that has the name.
@@ -109,12 +109,12 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// A word that stands for none of the choices.
+    /// A word that is not one of the choices.
     #[error("there is no {quantity} '{text}', only {}", known.join(", "))]
     Word {
         /// Choice to be made.
         quantity: &'static str,
-        /// The word that was given, cut to 40 characters.
+        /// The given word, cut to 40 characters.
         text: String,
         /// The words that are known.
         known: &'static [&'static str],
@@ -127,7 +127,7 @@ pub enum Error {
         /// Reason.
         r#source: Box<Error>,
     },
-    /// A point at which there is no node.
+    /// A point without a node.
     #[error(
         "no node at ({x}, {y}): the nearest, at ({}, {}), is {distance} m away",
         nearest[0], nearest[1]
@@ -142,7 +142,7 @@ pub enum Error {
         /// Distance to it, m.
         distance: f64,
     },
-    /// A node that no element moves in the direction that was asked for.
+    /// A node that no element moves in the given direction.
     #[error(
         "node {node} has no degree of freedom in direction {direction}: no element needs one there"
     )]
@@ -152,7 +152,7 @@ pub enum Error {
         /// The direction.
         direction: &'static str,
     },
-    /// A part of the scene that was not given, or does not fit another part.
+    /// A part of the scene that is missing, or does not fit another part.
     #[error("{quantity}: {needed}")]
     Scene {
         /// Name of the part.
@@ -160,7 +160,7 @@ pub enum Error {
         /// Requirement.
         needed: &'static str,
     },
-    /// A part of a user's own that does not accept the scene, a file or a checkpoint: see [`Error::part`].
+    /// A user's own part that does not accept the scene, a file or a checkpoint: see [`Error::part`].
     #[error("{part}: {reason}")]
     Part {
         /// Name of the part.
@@ -217,16 +217,16 @@ pub enum Error {
     Restrained {
         /// Direction of the translation that is resisted.
         direction: &'static str,
-        /// Force per metre of it at the degree of freedom, N/m; where the structure is held so that it can
-        /// hardly translate, that at the contact nodes.
+        /// Force per metre of it at the degree of freedom, N/m; if the structure is held so that it can hardly
+        /// translate, the force at the contact nodes.
         force: f64,
-        /// The degree of freedom where the force is largest beside the stiffness around.
+        /// The degree of freedom with the largest force relative to the stiffness around.
         dof: usize,
-        /// Size of that part relative to the whole.
+        /// That force relative to the stiffness around.
         ratio: f64,
     },
-    /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on
-    /// the ground nor move.
+    /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on the ground
+    /// nor move.
     #[error(
         "part of the structure is not joined to its base by any stiffness: {place} (dashpots alone \
          hold nothing up)"
@@ -234,30 +234,28 @@ pub enum Error {
     Detached {
         /// The degrees of freedom of all such parts, ascending.
         dofs: Vec<usize>,
-        /// The structure's own names of them: see
-        /// [`Structure::describe`](crate::structure::Structure::describe).
+        /// The structure's names of them: see [`Structure::describe`](crate::structure::Structure::describe).
         place: String,
     },
-    /// An element that fills the place of another one, or is the same again.
+    /// An element in the place of another one, or given twice.
     #[error("the element on nodes {nodes:?} lies where element {first} is, and would count twice")]
     DuplicateElement {
         /// Index of the element that is there.
         first: usize,
-        /// Nodes of the one that was to be added.
+        /// Nodes of the element that was to be added.
         nodes: Vec<usize>,
     },
-    /// A structure that buckles, held at its contact nodes, under the axial forces of its static
-    /// state.
+    /// A structure that buckles, held at its contact nodes, under the axial forces of its static state.
     #[error(
         "the structure buckles under the axial forces of its static state: held at its contact \
          nodes it carries {factor:.3e} of them"
     )]
     Buckling {
-        /// Share of the axial forces at which it buckles.
+        /// Fraction of the axial forces at which it buckles.
         factor: f64,
     },
-    /// A matrix with which a motion would give energy away without end: a negative mass or damping,
-    /// or columns under more than their buckling load.
+    /// A matrix that would let a motion gain energy without end: negative mass or damping, or columns above their
+    /// buckling load.
     #[error(
         "{matrix} is not positive semi-definite: it shows at row {row}, which has {diagonal:e} on the \
          diagonal"
@@ -265,7 +263,7 @@ pub enum Error {
     Indefinite {
         /// Name of the matrix.
         matrix: &'static str,
-        /// Row, and degree of freedom, at which it shows.
+        /// Row, and degree of freedom, at which the factorisation shows it.
         row: usize,
         /// Entry on the diagonal there.
         diagonal: f64,
@@ -283,7 +281,7 @@ pub enum Error {
         /// Both entries.
         entries: [f64; 2],
     },
-    /// A matrix of the step that double precision cannot carry.
+    /// A matrix of the step too ill-conditioned for double precision.
     #[error(
         "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; what \
          makes it so: {quantity}, {ratio:.1e}"
@@ -293,11 +291,11 @@ pub enum Error {
         matrix: &'static str,
         /// Estimated condition number; infinite if the matrix is singular.
         condition: f64,
-        /// Largest that is accepted.
+        /// Largest accepted condition number.
         limit: f64,
         /// Cause.
         quantity: &'static str,
-        /// Size of that.
+        /// Size of the cause.
         ratio: f64,
     },
     /// The static state under the structure's weight was not found.
@@ -312,53 +310,53 @@ pub enum Error {
         /// Last change, relative to the load.
         residual: f64,
     },
-    /// Weight and loads at t = 0 cannot be carried, and why.
+    /// Weight and loads at t = 0 that cannot be carried, and the reason.
     #[error("the structure cannot stand: {0}")]
     Stability(Box<StabilityError>),
-    /// A flexible base on so few contact elements that its static state is another one.
+    /// A flexible base with too few contact elements for its static state.
     #[error(transparent)]
     CoarseBase(#[from] CoarseBaseError),
     /// An interface law returned an invalid value before the first step.
     #[error(transparent)]
     Law(#[from] LawError),
-    /// A structure that cannot be stepped in reduced coordinates, or not as accurately as asked.
+    /// A structure that cannot be stepped in reduced coordinates, or not with the given accuracy.
     #[error("reduced coordinates: {0}")]
     Reduced(#[from] ReducedError),
-    /// A history by exponentials is not as accurate as was asked for.
+    /// A history by exponentials that does not reach the given accuracy.
     #[error("history by exponentials: relative error {reached:e}, but {tolerance:e} was asked for")]
     Accuracy {
-        /// Relative error that was asked for.
+        /// Given tolerance of the relative error.
         tolerance: f64,
-        /// Relative error with as many poles as were tried.
+        /// Relative error with the largest number of poles tried.
         reached: f64,
     },
-    /// A history by exponentials of a kernel that does not allow it.
+    /// A kernel that does not allow a history by exponentials.
     #[error("history by exponentials needs {needed}")]
     NoExponentials {
         /// Property that the kernel lacks.
         needed: &'static str,
     },
-    /// A history by exponentials could give energy away, and runs with it could grow.
+    /// A history by exponentials that could generate energy, so that runs could grow.
     #[error(
         "history by exponentials is not passive: least eigenvalue {margin:e} of its instantaneous \
          part, at {frequency} radians per step (a smaller tolerance helps)"
     )]
     NotPassive {
-        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), over that of the step compliance.
+        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), relative to the step compliance.
         margin: f64,
         /// Angle on the unit circle, radians per step.
         frequency: f64,
     },
-    /// A call that its [`Observer`] stopped; everything is as it was before it.
+    /// A call that its [`Observer`] stopped; everything is as before the call.
     #[error("stopped by its observer: {0}")]
     Stopped(Progress),
-    /// A layered ground that cannot be computed as asked.
+    /// A layered ground that cannot be computed.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),
-    /// A mat in plan that cannot be computed as asked.
+    /// A mat in plan that cannot be computed.
     #[error("mat in plan: {0}")]
     Plan(#[from] PlanError),
-    /// A soil profile that makes no sense, or cannot be iterated to strain-compatible properties.
+    /// A soil profile that is invalid, or without strain-compatible properties.
     #[error("site: {0}")]
     Site(#[from] SiteError),
     /// Parameters, a table or files of a sweep that cannot be used.

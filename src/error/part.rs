@@ -3,7 +3,7 @@
 use super::Error;
 
 impl Error {
-    /// [`Error::Part`], returned by a user's own part when none of the other errors fits.
+    /// Makes an [`Error::Part`], for a user's own part when no other error fits.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -62,26 +62,26 @@ pub enum LawError {
     NotFinite {
         /// Element, from the left, from 0.
         element: usize,
-        /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode that the law was asked about; for its
-        /// memory, the mode that the step ends in.
+        /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode for which the law was evaluated; for
+        /// its state variables, the mode at the end of the step.
         mode: &'static str,
         /// Name of the quantity.
         quantity: &'static str,
         /// Value of the quantity.
         value: f64,
     },
-    /// A number that is not finite, for a reason that the law gives
+    /// Limits or a start that the law rejects
     /// ([`InterfaceLaw::check_start`](crate::interface::InterfaceLaw::check_start)).
     #[error("interface law of element {element}, mode {mode}: {reason}")]
     Refused {
         /// Element, from the left, from 0.
         element: usize,
-        /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode that the law was asked about.
+        /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode for which the law was evaluated.
         mode: &'static str,
         /// The law's reason.
         reason: Box<Error>,
     },
-    /// A next mode that is none of the law's modes.
+    /// A next mode that the law does not list.
     #[error(
         "interface law of element {element}, mode {mode}: the next mode is {next}, but must be one of \
          the law's `modes`"
@@ -91,7 +91,7 @@ pub enum LawError {
         element: usize,
         /// Word of the mode that was tried.
         mode: &'static str,
-        /// Word of the mode that the law asked for.
+        /// Word of the law's next mode.
         next: &'static str,
     },
 }
@@ -122,19 +122,20 @@ pub enum ReducedError {
         /// Largest coefficient between two modes over the largest of one.
         coupling: f64,
     },
-    /// Responses are not as accurate as was asked for: of structures with too little damping of the
-    /// frequencies that a step cannot follow, and where rounding gets in the way.
+    /// Responses do not reach the given accuracy.
+    ///
+    /// The structure has too little damping at frequencies that a step cannot follow, or rounding is too large.
     #[error(
         "responses to sudden tractions still err by {reached:.1e} with {vectors} vectors, but \
          {tolerance:.1e} was asked for (undamped structures cannot be reduced: damping in proportion \
          to stiffness helps)"
     )]
     Accuracy {
-        /// Error that was asked for.
+        /// Given tolerance.
         tolerance: f64,
-        /// Error that was reached.
+        /// Error reached.
         reached: f64,
-        /// Number of vectors then.
+        /// Number of vectors used.
         vectors: usize,
     },
     /// The lowest modes are lost in the rounding of the highest.
@@ -145,7 +146,7 @@ pub enum ReducedError {
     Spectrum {
         /// Lowest over highest eigenvalue.
         ratio: f64,
-        /// Least ratio that is accepted.
+        /// Smallest accepted ratio.
         least: f64,
     },
 }

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 
 use super::{Error, Result};
 
-/// Progress of a long call: the parts of its work that are done, and all of them.
+/// Progress of a long call: the finished parts of its work, and all parts.
 ///
-/// `done` never falls, and ends at `total`, which does not change during a call. Parts take about the same time
-/// each.
+/// `done` never falls, and ends at `total`, which does not change during a call. All parts take about the same
+/// time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -27,12 +27,12 @@ impl fmt::Display for Progress {
     }
 }
 
-/// Observer of a long call: a closure that receives its [`Progress`], and may stop it.
+/// Observer of a long call: a closure that receives its [`Progress`] and may stop it.
 ///
 /// It is called on the calling thread, at least every half second on meshes of up to some hundred elements, and
-/// more often where parts are quick: an observer that draws should look at a clock. After
-/// [`ControlFlow::Break`] the call returns [`Error::Stopped`], and everything is as it was
-/// before; calls after that give the same to the last bit.
+/// more often if parts are short: an observer that draws should check the time. After [`ControlFlow::Break`] the
+/// call returns [`Error::Stopped`], and everything is as before the call; later calls return the same to the last
+/// bit.
 ///
 /// ```
 /// use std::ops::ControlFlow::{Break, Continue};
@@ -55,7 +55,7 @@ impl fmt::Display for Progress {
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Before a run, for the weights that it would compute unseen:
+/// Before a run, to observe the computation of its weights:
 ///
 /// ```
 /// use std::ops::ControlFlow::{Break, Continue};
@@ -91,7 +91,7 @@ impl fmt::Display for Progress {
 /// ```
 pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 
-/// The observer of a call, if it has one, and what it has heard last.
+/// The observer of a call, if any, and its last progress.
 pub(crate) struct Watch<'a> {
     observer: Option<&'a mut Observer<'a>>,
     progress: Progress,
@@ -117,7 +117,7 @@ impl<'a> Watch<'a> {
         self.observer.is_some()
     }
 
-    /// Says that `done` parts are done, or more if that has been said.
+    /// Reports that `done` parts are finished; `done` never decreases.
     ///
     /// # Errors
     /// [`Error::Stopped`].

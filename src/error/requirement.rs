@@ -22,7 +22,7 @@ pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
 }
 
-/// `value` if it is a damping ratio: that of critical damping is 1, and 5 % are 0.05.
+/// `value` if it is a damping ratio, a fraction of critical damping (5 % are 0.05).
 pub(crate) fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
 }
@@ -32,7 +32,7 @@ pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite(), "finite")
 }
 
-/// The first of `values` that is not finite, with its place.
+/// The first of `values` that is not finite, and its index.
 pub(crate) fn not_finite(values: &[f64]) -> Option<(usize, f64)> {
     values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
 }
@@ -69,8 +69,9 @@ pub(crate) fn require_part(
     if holds { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
 }
 
-/// A number for people, without the rounding of how it was computed: whole ones as they are, others in six figures, or
-/// in twelve where six would make a round number of them.
+/// A number for a message, without rounding errors of its computation.
+///
+/// Whole numbers stay as they are. Others have six figures, or twelve if six would make them round.
 pub(crate) fn short(value: f64) -> String {
     let figures = |count: usize| format!("{value:.count$e}").parse::<f64>().unwrap_or(value);
     let (three, six) = (figures(2), figures(5));
@@ -87,7 +88,7 @@ pub(crate) fn short(value: f64) -> String {
 }
 
 impl Error {
-    /// [`Error::Name`] for a name that none of `known` is.
+    /// [`Error::Name`] for a name that is not in `known`.
     pub(crate) fn no_name<T: Into<String>>(
         quantity: &'static str,
         name: &str,
@@ -97,13 +98,13 @@ impl Error {
     }
 }
 
-/// The first twelve of the names that there are.
+/// Text of the first twelve known names.
 pub(crate) fn names(known: &[String]) -> String {
     let listed = known[..known.len().min(12)].join(", ");
     if known.is_empty() { listed } else { format!(", only {listed}") }
 }
 
-/// What a user should read for an error of the file system.
+/// Message for an error of the file system.
 pub(super) fn fault_of_file(kind: std::io::ErrorKind) -> String {
     match kind {
         std::io::ErrorKind::NotFound => "it does not exist".to_owned(),

@@ -13,15 +13,15 @@ pub enum StepError {
         all(*sets), modes.join(" ")
     )]
     Contact {
-        /// Trials made, fallbacks included.
+        /// Number of trials, fallbacks included.
         iterations: usize,
-        /// Distance of the tractions of these modes from those of the modes that the laws ask for
-        /// instead, relative to the largest; 1 if either set of modes is singular.
+        /// Difference between the tractions of these modes and the tractions of the modes that the laws require
+        /// next, relative to the largest; 1 if either set of modes is singular.
         residual: f64,
         /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the modes of the last trial, left to right.
         modes: Vec<&'static str>,
-        /// Number of all sets of modes, if every one was tried: the step has no solution. `None` if
-        /// there are more than 65 536 of them.
+        /// Number of all sets of modes, if all were tried: the step has no solution. `None` if there are more than
+        /// 65 536 sets.
         sets: Option<usize>,
     },
     /// In plan: no contact forces were found that satisfy the interface laws.
@@ -31,12 +31,12 @@ pub enum StepError {
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
-        /// Sweeps and Newton's iterations made, those of the proximal method included.
+        /// Number of sweeps and Newton iterations, including the proximal method's.
         iterations: usize,
-        /// Largest distance of an element's force from what its law allows for the displacement that it makes, relative
-        /// to the largest force.
+        /// Largest difference of an element's force from the force that its law allows at its displacement,
+        /// relative to the largest force.
         residual: f64,
-        /// Elements whose distance is too large.
+        /// Elements with too large a difference.
         elements: Vec<usize>,
     },
     /// Newton's iteration for a nonlinear structure did not converge.
@@ -54,10 +54,10 @@ pub enum StepError {
         /// right.
         modes: Vec<&'static str>,
     },
-    /// The ground could not give its history.
+    /// The ground returned an error for its history.
     #[error("history of the ground: {0}")]
     Ground(Box<Error>),
-    /// The structure could not give its load, nonlinear force or tangent.
+    /// The structure returned an error for its load, nonlinear force or tangent.
     #[error("{quantity}: {source}")]
     Structure {
         /// Name of the quantity.
@@ -73,15 +73,16 @@ pub enum StepError {
     NotFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Place in it, from 0: the degree of freedom (or mode, where those are stepped) of a quantity of the
-        /// structure, the component of one of the base (normal ones first, then tangential ones),
-        /// the number of an external load.
+        /// Index from 0: of a structure's quantity the degree of freedom (or mode, in modal coordinates); of a
+        /// base's quantity the component (normal ones first, then tangential ones); of loads the number of the
+        /// load.
         index: usize,
         /// The value.
         value: f64,
     },
-    /// The structure has lost its stability and runs away: under its weight on yielding columns
-    /// (P–Δ), by a negative damping, with a ground that grows. The energy balance closes all the same.
+    /// The structure has lost its stability: its motion grows without limit.
+    ///
+    /// By weight on yielding columns (P–Δ), negative damping or a growing ground. The energy balance still closes.
     #[error("the structure runs away: it moves by {increment:e} in one step")]
     Runaway {
         /// Largest change of a degree of freedom in the step, m or rad (in modes, times the root of a mass).
@@ -105,7 +106,7 @@ fn all(sets: Option<usize>) -> String {
 }
 
 impl StepError {
-    /// Refuses `values` of which one is not finite.
+    /// Error if one of `values` is not finite.
     pub(crate) fn check_finite(
         quantity: &'static str,
         values: &[f64],
@@ -116,7 +117,7 @@ impl StepError {
         }
     }
 
-    /// The structure's own reason, for [`StepError::Structure`].
+    /// Wraps an error of the structure as [`StepError::Structure`].
     pub(crate) fn structure(quantity: &'static str) -> impl FnOnce(Error) -> Self {
         move |source| Self::Structure { quantity, source: Box::new(source) }
     }
@@ -134,7 +135,7 @@ pub enum CheckpointError {
         /// The part.
         part: &'static str,
     },
-    /// The checkpoint was made with another format than this version's.
+    /// The checkpoint has a format that this version does not read.
     #[error("format {found}, but this version reads {needed}")]
     Format {
         /// Format of the checkpoint.
@@ -142,7 +143,7 @@ pub enum CheckpointError {
         /// Format of this version.
         needed: u32,
     },
-    /// The contents are not those that were saved: a file was damaged, or changed by hand.
+    /// The contents differ from those saved: the file was damaged, or changed by hand.
     #[error("damaged: the contents do not agree with their check sum")]
     Damaged,
     /// The checkpoint belongs to another scene.
@@ -167,7 +168,7 @@ impl From<CheckpointError> for Error {
 
 // Why a structure cannot stand on the ground.
 
-/// The reason for which weight and loads at t = 0 have no equilibrium.
+/// The reason why weight and loads at t = 0 have no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StabilityError {
@@ -176,12 +177,12 @@ pub enum StabilityError {
     Uplift {
         /// Left and right end of the base of the part that is lifted, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
         across: Option<[f64; 2]>,
-        /// Resultant upwards, N/m; zero if nothing presses.
+        /// Resultant upwards, N/m; zero without any pressure.
         upward: f64,
     },
-    /// The horizontal load is beyond friction.
+    /// The horizontal load exceeds friction.
     #[error(
         "the load at t = 0 pushes it off: {horizontal:.4e} {0} along the base, {ratio:.3} times the \
          friction {resistance:.4e} {0} under a normal force of {normal:.4e} {0}{1}",
@@ -191,18 +192,18 @@ pub enum StabilityError {
     Sliding {
         /// Left and right end of the base of the part that slides, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
         across: Option<[f64; 2]>,
-        /// Horizontal resultant, positive to the right, N/m; in plan that of both directions.
+        /// Horizontal resultant, positive to the right, N/m; in plan the resultant of both directions.
         horizontal: f64,
         /// Normal force, N/m.
         normal: f64,
-        /// Largest friction coefficient times that, N/m.
+        /// Largest friction coefficient times the normal force, N/m.
         resistance: f64,
         /// Horizontal resultant over friction; infinite without friction.
         ratio: f64,
     },
-    /// In plan: the torque of the loads is beyond friction.
+    /// In plan: the torque of the loads exceeds friction.
     #[error(
         "the load at t = 0 twists it: a torque of {torque:.4e} N·m, {ratio:.3} times the {resistance:.4e} N·m of friction \
          under a normal force of {normal:.4e} N that is spread evenly{}",
@@ -219,7 +220,7 @@ pub enum StabilityError {
         normal: f64,
         /// Torque of friction under even pressure, N·m.
         resistance: f64,
-        /// Torque over that of friction; infinite without friction.
+        /// Torque over the torque of friction; infinite without friction.
         ratio: f64,
     },
     /// The resultant of weight and loads passes beside the base.
@@ -235,7 +236,7 @@ pub enum StabilityError {
     Overturning {
         /// Left and right end of the base of the part that overturns, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
         across: Option<[f64; 2]>,
         /// In plan: `x` if it overturns to the left or the right, `y` if to the front or the back.
         axis: Option<char>,
@@ -246,10 +247,11 @@ pub enum StabilityError {
         normal: f64,
         /// Distance of the resultant from the middle of the base, positive to the right, in plan along the axis, m.
         eccentricity: f64,
-        /// Eccentricity over half the width; in plan, for a base that is no rectangle, over the distance to its edge.
+        /// Eccentricity over half the width; in plan, for a base that is not rectangular, over the distance to its
+        /// edge.
         ratio: f64,
     },
-    /// The bearing pressure of the interface does not carry the weight.
+    /// The weight exceeds the bearing pressure of the interface.
     #[error(
         "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} {0}, {ratio:.3} \
          times the {capacity:.4e} {0} that the bearing pressure gives on the {width:.4} {1} whose middle \
@@ -261,19 +263,21 @@ pub enum StabilityError {
     BearingFailure {
         /// Left and right end of the base of the part that sinks in, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
         across: Option<[f64; 2]>,
         /// Normal force, N/m.
         normal: f64,
-        /// Width less twice the eccentricity (Meyerhof 1953), m; in plan the area that both leave, m².
+        /// Width minus twice the eccentricity (Meyerhof 1953), m; in plan the area that both eccentricities leave,
+        /// m².
         width: f64,
-        /// Bearing pressure times that, N/m.
+        /// Bearing pressure times this width or area, N/m.
         capacity: f64,
         /// Normal force over capacity.
         ratio: f64,
     },
-    /// The resultant of weight and loads passes through the base, but beyond the middle of its outermost
-    /// element: the traction on an element is constant, so that its resultant is there.
+    /// The resultant of weight and loads passes through the base, but beyond the middle of its outermost element.
+    ///
+    /// The traction on an element is constant, so its resultant is in the middle.
     #[error(
         "the resultant of weight and loads at t = 0 passes at {} = {resultant:.4} m{}, but {}",
         axis.unwrap_or('x'),
@@ -283,18 +287,18 @@ pub enum StabilityError {
     Beyond {
         /// Left and right end of the base of the part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces are then those of the whole body.
+        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
         across: Option<[f64; 2]>,
         /// In plan: axis along which the resultant passes beyond the elements, `x` or `y`.
         axis: Option<char>,
-        /// Number of its elements.
+        /// Number of elements of the base.
         elements: usize,
         /// Coordinate at which the resultant passes, m.
         resultant: f64,
         /// Middles of the first and the last element along that axis, m.
         reach: [f64; 2],
     },
-    /// A bond of the interface breaks, and without it the rest follows.
+    /// A bond of the interface breaks, and this failure follows.
     #[error("the bond of the interface breaks, and without it: {then}")]
     BondBreaks {
         /// Failure that follows.
@@ -306,7 +310,7 @@ pub enum StabilityError {
          the ground does not hold it while it is lifted)"
     )]
     Massless {
-        /// The degrees of freedom that take part in it, ascending.
+        /// The degrees of freedom of that motion, ascending.
         dofs: Vec<usize>,
         /// The structure's own names of them.
         place: String,
@@ -316,7 +320,7 @@ pub enum StabilityError {
         "the structure is a mechanism: with its base at rest nothing resists a motion of {place}"
     )]
     Mechanism {
-        /// The degrees of freedom that take part in it, ascending.
+        /// The degrees of freedom of that motion, ascending.
         dofs: Vec<usize>,
         /// The structure's own names of them.
         place: String,
@@ -357,7 +361,7 @@ pub(crate) fn along(axis: Option<char>) -> String {
     axis.map_or(String::new(), |axis| format!(" along {axis}"))
 }
 
-/// The edge over which it falls, in plan.
+/// The edge over which the structure falls, in plan.
 fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
     match (axis, eccentricity > 0.0) {
         (None, _) => "",
@@ -368,8 +372,7 @@ fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
     }
 }
 
-/// A flexible base on so few contact elements that its static state is another one: shapes between elements are held by
-/// the structure alone.
+/// A flexible base with too few contact elements: between them only the structure resists deformation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed}{}",
@@ -381,10 +384,9 @@ pub struct CoarseBaseError {
     pub foundation: usize,
     /// Elements of the foundation; in plan along its shorter side.
     pub elements: usize,
-    /// About as many as it needs.
+    /// Approximate number of elements needed.
     pub needed: usize,
-    /// Change of its vertical static shape by twice the elements, relative; `None` if the ground does not tell their
-    /// compliance, or if they are too many for a check.
+    /// Relative change of its vertical static shape with twice the elements; `None` if that was not computed.
     pub difference: Option<f64>,
     /// In plan: `x` for elements of a row, `y` for elements of a column.
     pub axis: Option<char>,
