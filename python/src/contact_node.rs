@@ -122,7 +122,7 @@ pub(crate) enum Contact<'py> {
 extracts!(Contact<'py>, object => {
     let line = object.extract().map(Self::Line);
     let line = line.or_else(|_: PyErr| object.extract().map(Self::Faces));
-    // One face may be given by itself.
+    // A single face may be given without a list.
     let line = line.or_else(|_: PyErr| object.extract().map(|face| Self::Faces(vec![face])));
     line.map_err(|_: PyErr| {
         no_such(&object, "a list of ContactNode, or in plan a list of faces, lists of FaceNode")

@@ -33,7 +33,7 @@ pub(crate) fn refine(
     time_step: f64,
     scene: Py<PyAny>,
 ) -> PyResult<Py<PyAny>> {
-    // Names of the first result, if that is a dict.
+    // Names of the first result, if it is a dict.
     let mut names: Option<Vec<String>> = None;
     let mut first = true;
     let results = |elements: usize, time_step: f64| {

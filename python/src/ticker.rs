@@ -122,7 +122,7 @@ pub(crate) fn watched<T>(
         return Err(raised);
     }
     let made = result.or_raise()?;
-    // A line that was begun is ended.
+    // Ends a line that has begun.
     if let Some(Progress { total, .. }) = last
         && ticker.told.is_some_and(|told| told < total)
     {

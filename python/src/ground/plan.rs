@@ -19,7 +19,7 @@ pub(crate) struct PyPlan(pub(super) Plan);
 members! {
     PyPlan, own;
     new(faces: Bound<'_, PyAny>, cells: Count) = {
-        // One face may be given by itself.
+        // A single face may be given without a list.
         let one = |_: PyErr| faces.extract().map(|face| vec![face]);
         let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
         let all = faces.extract().or_else(one);

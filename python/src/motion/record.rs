@@ -47,7 +47,7 @@ pub(crate) fn el_centro_1940() -> PyResult<PyRecord> {
 
 members! {
     PyRecord, own;
-    // Python's own reader of signatures knows ASCII only.
+    // Python's reader of signatures accepts ASCII only.
     #[pyo3(
         signature = (time_step, acceleration, *, unit="m/s²"),
         text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#

@@ -91,7 +91,7 @@ fn turned(
     make: impl Fn() -> basemat::Result<TravellingWave> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
     field(move || {
-        // Along x velocities are exact.
+        // A wave along x has exact velocities.
         if azimuth == 0.0 { make() } else { make()?.with_azimuth(azimuth) }
     })
 }

@@ -272,7 +272,7 @@ impl PySimulation {
             let mut time_series =
                 series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
             if let Some(time_series) = &mut time_series {
-                // A run that its observer ends may take fewer steps than it is given.
+                // A run that its observer ends may take fewer steps than given.
                 time_series.reserve(steps).or_else(|error| match error {
                     basemat::Error::Memory(_) if observe.is_some() => Ok(()),
                     _ => Err(raise(error)),
@@ -379,7 +379,7 @@ impl PySimulation {
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
         take_raised();
         let start = self.start.as_ref().map_err(|reason| reason.clone_ref(py))?;
-        // Its own start, whatever loads and laws of the user's return by now.
+        // The simulation's own start, even if the user's loads and laws return other values by now.
         settled(self.lock()?.resume_changed(start, &Change::ALL))
     }
 

@@ -97,7 +97,7 @@ fn array<'py>(
     }
     let mut entries = Triplets::new(order);
     fill(structure, &mut entries).or_raise()?;
-    // By numpy itself, which raises a MemoryError for what does not fit.
+    // numpy allocates, and raises a MemoryError if the array does not fit.
     let array = py.import("numpy")?.call_method1("zeros", ((order, order),))?;
     let array = array.cast_into::<PyArray2<f64>>()?;
     {

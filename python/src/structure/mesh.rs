@@ -96,7 +96,7 @@ struct Connectivity {
 }
 
 extracts!(Connectivity, object => {
-    // As integers, numpy would cut what is not whole.
+    // Read as floats: as integers, numpy would truncate fractions.
     let Table { columns, rows } = Table::of(&object, "(elements, nodes of each)")?;
     let node = |value: &f64| {
         if *value < 0.0 || value.fract() != 0.0 {
@@ -129,7 +129,7 @@ impl PyMesh {
     ) -> PyResult<()> {
         let elements = elements.collect::<PyResult<Vec<_>>>()?;
         if elements.len() < 2 {
-            // One element alone needs no copy of the mesh.
+            // A single element needs no copy of the mesh.
             return elements.into_iter().try_for_each(|own| self.0.add(own).or_raise().map(drop));
         }
         let mut mesh = self.0.clone();

@@ -128,7 +128,7 @@ impl Hysteresis for UserHysteresis {
         let work = self.work(deformation);
         self.committed = [deformation, self.response(deformation).force, work];
         if self.object.has("commit") {
-            // The step is accepted by now: the exception ends the run after it.
+            // The step is already accepted: the exception ends the run after it.
             ask((), |py| self.object.bind(py).call_method1("commit", (deformation,)).map(|_| ()));
             self.last.set(None);
         }
@@ -160,7 +160,7 @@ impl Hysteresis for UserHysteresis {
     }
 
     fn clone_box(&self) -> Box<dyn Hysteresis> {
-        // An object that cannot be copied is shared, and ends the step.
+        // An object that cannot be copied is shared, and its error ends the step.
         let object =
             ask(self.object.clone(), |py| Ok(self.object.with(copied(self.object.bind(py))?)));
         Box::new(Self { object, last: Cell::new(None), ..*self })

@@ -92,7 +92,7 @@ impl UserLaw {
         let names = match law.getattr_opt("modes")? {
             Some(modes) => returned("modes of the interface law", &modes)?,
             None if object.has("conditions") => return Err(refuse("the law has no `modes`")),
-            // Of a law for grounds in plan alone.
+            // A law without `conditions` and `modes` is for grounds in plan only.
             None => ["stick", "slip", "open"].map(String::from).to_vec(),
         };
         let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
@@ -148,7 +148,7 @@ impl InterfaceLaw for UserLaw {
 
     fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
         if !self.object.has("conditions") {
-            // Never called in plan, where alone such a law acts.
+            // Such a law acts in plan only, where this is never called.
             return [NOTHING; 2];
         }
         ask([NOTHING; 2], |py| {

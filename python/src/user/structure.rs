@@ -196,7 +196,7 @@ impl NonlinearForce for UserStructure {
             let done = Python::attach(|py| {
                 self.object.bind(py).call_method1("commit", argument).map(|_| ())
             });
-            // The step is accepted by now: the exception ends the run after it.
+            // The step is already accepted: the exception ends the run after it.
             done.unwrap_or_else(keep);
         }
     }
