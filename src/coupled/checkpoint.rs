@@ -16,9 +16,9 @@ use crate::interface::{ContactState, Mode, PreviousContact};
 use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
-/// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
+/// Format of [`Checkpoint`]; raise it when the order of its numbers changes.
 const FORMAT: u32 = 9;
-/// Most steps that a checkpoint may stand for: more would not fit into any run.
+/// Largest number of steps of a checkpoint: no run has more.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
@@ -26,10 +26,9 @@ const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
 
 /// A run between two steps: see [`Simulation::checkpoint`](crate::Simulation::checkpoint).
 ///
-/// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers
-/// are written as their bits (integers of 64 bits), so that none is rounded on the way, and a check
-/// sum over all contents goes with them: [`Simulation::resume`](crate::Simulation::resume) returns an error for
-/// whatever has been changed since.
+/// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers are written as
+/// their bits (integers of 64 bits), so that none is rounded. A check sum over all contents is written too:
+/// [`Simulation::resume`](crate::Simulation::resume) returns an error for any later change.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -37,7 +36,7 @@ pub struct Checkpoint {
     format: u32,
     identity: Identity,
     steps: usize,
-    /// Number of each element's mode among all, and whether the element has been open.
+    /// Number of each element's mode in `Mode::ALL`, and whether the element has been open.
     modes: Vec<(usize, bool)>,
     /// State variables of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -48,10 +47,10 @@ pub struct Checkpoint {
     ground: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
-    /// Of each load one if its force was set, else zero, and this force.
+    /// For each load one if its force was set, else zero, and this force.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     set_loads: Vec<f64>,
-    /// Check sum over all of the above; checkpoints of formats before the eighth have none.
+    /// Check sum over all fields above; checkpoints of formats before the eighth have none.
     #[cfg_attr(feature = "serde", serde(default))]
     sum: u64,
 }
@@ -83,10 +82,10 @@ impl Checkpoint {
 }
 
 impl Simulation {
-    /// Saves the state of the run, to be restored by [`Simulation::resume`].
+    /// Saves the state of the run for [`Simulation::resume`].
     ///
-    /// Its size is that of the history: all tractions for exact histories, those of two windows at
-    /// most for the exponentials.
+    /// It contains the history: all tractions of exact histories, the tractions of two windows at most of
+    /// exponentials.
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the
@@ -146,28 +145,31 @@ impl Simulation {
         Ok(checkpoint)
     }
 
-    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, wherever this one is. Further
-    /// steps have the same bits on the same processor.
+    /// Sets the simulation to the state of `checkpoint`, whatever its present state.
     ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the initial
-    /// motion, the numbers that the interface laws return for sample states, the nonlinear force at sample displacements,
-    /// and samples of ground motion and loads in the steps so far. Internal variables that a structure does not
-    /// [save][`save`] are not compared. Forces that were [set](Simulation::set_load) are restored. The transitions, trials and method of the step before the checkpoint are not kept.
+    /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
+    ///
+    /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the
+    /// initial motion, the numbers that the interface laws return for sample states, the nonlinear force at sample
+    /// displacements, and samples of ground motion and loads in the steps so far. Internal variables that a structure
+    /// does not [save][`save`] are not compared. Forces that were [set](Simulation::set_load) are restored. The
+    /// transitions, trials and method of the step before the checkpoint are not kept.
     ///
     /// # Errors
-    /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
-    /// numbers missing or not finite. The simulation is then as it was.
+    /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with numbers missing or
+    /// not finite. The simulation then stays unchanged.
     ///
     /// [`save`]: crate::structure::NonlinearForce::save
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
         self.resume_changed(checkpoint, &[])
     }
 
-    /// Goes to where `checkpoint` was made, as [`Simulation::resume`] does, in a scene in which these `changes` are
-    /// wanted: other friction from there on, say, or another motion.
+    /// Sets the simulation to the state of `checkpoint`, in a scene with these `changes`.
+    ///
+    /// As [`Simulation::resume`] does. For example with other friction from there on, or another motion.
     ///
     /// # Errors
-    /// As for [`Simulation::resume`], for all that differs beside the changes.
+    /// As for [`Simulation::resume`], for any other difference.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -237,7 +239,7 @@ impl Simulation {
             restore_variables(structure, &before)?;
             return Err(error);
         }
-        // From here on nothing fails.
+        // From here on no error can occur.
         state.step = checkpoint.steps;
         state.time = state.step as f64 * scene.time_step;
         (state.trials, state.method) = (0, SearchMethod::ActiveSet);
@@ -262,7 +264,7 @@ fn set_loads(scene: &Scene) -> Vec<f64> {
     scene.loads.iter().flat_map(|load| pair(load.set_value())).collect()
 }
 
-/// Takes over modes and whether elements have been open, from their numbers.
+/// Sets modes and whether elements have been open, from their numbers.
 fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> Result<()> {
     let corrupt = CheckpointError::Corrupt { quantity: "contact modes" };
     if saved.len() != scene.count() {
@@ -278,7 +280,7 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
     Ok(())
 }
 
-/// Every number that a step leaves to the next, for two or three directions, always in this order.
+/// All numbers that a step passes to the next, for two or three directions, always in this order.
 fn numbers<'a>(
     directions: usize,
     state: &'a mut State,

@@ -1,4 +1,4 @@
-//! Condition numbers of a scene: the fraction of double precision that it uses up.
+//! Condition numbers of a scene: how much of double precision it uses.
 
 use crate::coupled::model::operators;
 use crate::coupled::model::operators::Operators;
@@ -9,22 +9,22 @@ use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
 use std::fmt;
 
-/// Conditions up to which the effective stiffness and the Delassus operator are accepted, by the
-/// measurements of `tests/coupled/conditioning.rs`. Displacements err by about thirty roundings times the
-/// condition of the former: a percent is left here. Tractions err where they do not matter (a
-/// light structure feels three of their sums), until nothing is left of the ground in the sum.
+/// Largest accepted conditions of the effective stiffness and the Delassus operator.
+///
+/// From the measurements of `tests/coupled/conditioning.rs`. Displacements have errors of about thirty roundings
+/// times the first condition: a percent at this limit. Tractions have errors that do not matter (a light structure
+/// depends on three of their sums), until the sum contains nothing of the ground.
 const STIFFNESS_LIMIT: f64 = 1e12;
 const DELASSUS_LIMIT: f64 = 1e16;
-/// Share of a condition that a quantity must explain to be named as what makes it so.
+/// Fraction of a condition that a quantity must explain to be named as its cause.
 const EXPLAINED: f64 = 1e-3;
-/// Condition beyond which a matrix is singular to rounding.
+/// Condition beyond which a matrix counts as singular.
 const SINGULAR: f64 = 1e18;
 
-/// Condition numbers of the matrices of a step: a solve loses as many digits as they have.
+/// Condition numbers of the matrices of a step: a solution loses as many digits as they have.
 ///
-/// In the 1-norm, of matrices scaled by the roots of their diagonal, so that they do not depend on
-/// units; estimated from below by Higham's algorithm, nearly always within a factor of three.
-/// Infinite for a singular matrix.
+/// In the 1-norm, of matrices scaled by the roots of their diagonal, so that they do not depend on units. Higham's
+/// algorithm estimates them from below, nearly always within a factor of three. Infinite for a singular matrix.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
@@ -49,15 +49,17 @@ const SINGULAR: f64 = 1e18;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Conditioning {
-    /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state. One for a
-    /// structure that is stepped in its modes, which are not coupled.
+    /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
+    ///
+    /// One for a structure in modal coordinates, in which it is diagonal.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub effective_stiffness: f64,
-    /// Condition of the ground's step compliance G¹. It has no limit: no step solves with G¹ alone.
+    /// Condition of the ground's step compliance G¹. Without a limit, since no step solves with G¹ alone.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub ground: f64,
-    /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its normal part
-    /// alone where there is no friction, with the compliance of a thin layer added.
+    /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A for the interface at rest.
+    ///
+    /// Only its normal part if there is no friction; including the compliance of a thin layer.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub delassus: f64,
 }
@@ -72,8 +74,9 @@ impl fmt::Display for Conditioning {
     }
 }
 
-/// Estimates the condition numbers, with laws at the `start` of the first step; an error if double
-/// precision cannot carry them.
+/// Estimates the condition numbers, with laws at the `start` of the first step.
+///
+/// Returns an error if double precision is insufficient.
 pub(crate) fn conditioning(
     scene: &Scene,
     solver: &mut Solver,
@@ -103,8 +106,8 @@ pub(crate) fn conditioning(
     Err(Error::IllConditioned { matrix, condition, limit, quantity, ratio })
 }
 
-/// Stiffness against inertia where a translation of the structure has little of the latter, or else
-/// stiffness against stiffness.
+/// Stiffness over inertia if a translation of the structure has little inertia, otherwise stiffness over
+/// stiffness.
 fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (&'static str, f64) {
     let (c, model) = (&scene.coefficients, &scene.model);
     let inertia = |vector: &[f64]| c.acceleration[0] * model.mass.form(vector, vector);
@@ -123,7 +126,7 @@ fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (
     ("largest over least stiffness within the structure", ratio)
 }
 
-/// The structure's compliance against the ground's, the ground itself, or the elements.
+/// The structure's compliance over the ground's, the ground itself, or the elements.
 fn cause_of_delassus(
     scene: &Scene,
     operators: &Operators,

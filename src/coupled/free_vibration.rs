@@ -1,12 +1,12 @@
-//! The first mode on a fixed base, and the free vibration of the structure on its ground that begins in its shape.
+//! The first mode on a fixed base, and the structure's free vibration on its ground from that mode's shape.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | φ, ω | mode on the fixed base, circular frequency |
 //! | p = K φ | load that deflects the structure by φ, in balance with the reactions of its base |
-//! | η = pᵀu/(φᵀK φ) | part of the mode in the displacement; rigid motions of the base have none, since K r = 0 |
+//! | η = pᵀu/(φᵀK φ) | part of the mode in the displacement; zero for rigid motions of the base, since K r = 0 |
 //!
-//! Under p the ground carries nothing. When the load is released, inertia takes its place and moves the base.
+//! Under p the ground has no load. When the load is released, inertia replaces it and moves the base.
 
 use std::f64::consts::TAU;
 
@@ -23,26 +23,26 @@ use crate::structure::{
     DofCombination, HeldBase, Structure, base_nodes, check_base_nodes, stiffest,
 };
 
-/// Springs that hold the base, over the largest stiffness.
+/// Stiffness of the springs that hold the base, over the largest stiffness.
 const HELD: f64 = 1e6;
-/// Modes among which the one with the most mass is sought.
+/// Number of modes in which the mode with the most mass is sought.
 const MODES: usize = 12;
-/// Part of the stiffness that springs of the base may have in a mode of the structure.
+/// Largest part of the base's springs in the stiffness of a structural mode.
 const OF_THE_BASE: f64 = 0.5;
-/// Part of the mass that a mode moves at least.
+/// Smallest part of the mass that a mode must move.
 const LEAST_MASS: f64 = 1e-3;
 /// Base shear in the deflected shape, over the weight: small, so that nothing yields.
 const DEFLECTION: f64 = 1e-3;
-/// Steps of the free vibration in a period T, at least.
+/// Smallest number of steps of the free vibration in a period T.
 const STEPS: f64 = 40.0;
-/// Moving averages in a period T.
+/// Number of moving-average windows in a period T.
 const WINDOW: f64 = 6.0;
-/// Half periods that are looked at, and most periods T that they may take.
+/// Number of half periods that are evaluated, and the largest number of periods T that they may take.
 const HALF_PERIODS: usize = 10;
 const MOST_PERIODS: f64 = 60.0;
-/// Amplitude, relative to the first, below which nothing is looked at.
+/// Amplitude, relative to the first, at which the evaluation ends.
 const DECAYED: f64 = 1e-3;
-/// Misfit of one decaying mode, relative to the amplitude, that counts as none.
+/// Misfit of one decaying mode, relative to the amplitude, that is accepted.
 const MISFIT: f64 = 0.1;
 
 /// Vibration mode of a structure with its contact nodes held.
@@ -58,7 +58,7 @@ pub(crate) struct FixedBaseMode {
 }
 
 impl FixedBaseMode {
-    /// The mode of `structure` with the most mass along x (0) or y (1); `None` of one that is rigid.
+    /// The mode of `structure` with the most mass along x (0) or y (1); `None` for a rigid structure.
     pub(crate) fn of(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
         let mass = SparseMatrix::assembled("mass matrix", n, &|m| structure.mass(m))?;
@@ -103,7 +103,7 @@ impl FixedBaseMode {
     }
 }
 
-/// Period (s) and damping ratio of the free vibration on the ground that begins in the shape of `mode`.
+/// Period (s) and damping ratio of the free vibration on the ground from the shape of `mode`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, not negative")]
 pub(crate) fn free_vibration(
     mut builder: SimulationBuilder,
@@ -127,11 +127,11 @@ pub(crate) fn free_vibration(
         .scheme(Midpoint)
         .without_energy_balance();
     let mut simulation = builder.build()?;
-    // Two moving averages leave the pole and take out a light base that rings on its springs.
+    // Two moving averages keep the pole and remove the vibration of a light base on its springs.
     let window = 2 * (mode.period / (2.0 * WINDOW * step)).round().max(1.0) as usize;
-    // Probes are measured from the static state, in which the load acts.
+    // Probes are relative to the static state, in which the load acts.
     let (mut raw, mut once, mut values) = (vec![1.0], Vec::new(), Vec::new());
-    // Steps of the changes of sign, and the largest amplitude since the last.
+    // Steps of the changes of sign, and the largest amplitude since the last one.
     let (mut changes, mut amplitude) = (Vec::new(), 0.0_f64);
     while raw.len() <= most && changes.len() < HALF_PERIODS {
         raw.push(1.0 + simulation.step()?.probes[0]);
@@ -154,17 +154,17 @@ pub(crate) fn free_vibration(
     })
 }
 
-/// Mean of the last `window` values; `None` of fewer.
+/// Mean of the last `window` values; `None` if there are fewer.
 fn mean_of_last(values: &[f64], window: usize) -> Option<f64> {
     let last = values.len().checked_sub(window)?;
     Some(values[last..].iter().sum::<f64>() / window as f64)
 }
 
-/// Period and damping ratio of a decaying vibration, from values at every step and the places where they change sign.
+/// Period and damping ratio of a decaying vibration, from values at every step and the places of sign changes.
 ///
-/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares from `settled` steps after the first change of
-/// sign on: until then the base and the soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), and the midpoint rule has made σ
-/// of the pole s = (2/Δt) tanh(σΔt/2).
+/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares from `settled` steps after the first
+/// change of sign on: until then base and soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), where
+/// the midpoint rule converts the pole s to σ: s = (2/Δt) tanh(σΔt/2).
 fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option<[f64; 2]> {
     let ([first, ..], [.., last]) = (changes, changes) else { return None };
     let halves = changes.len() - 1;
@@ -207,7 +207,7 @@ fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option
 mod tests {
     use super::*;
 
-    /// A vibration as the midpoint rule makes it of its pole, with and without a second one that dies out.
+    /// A vibration as the midpoint rule computes it from its pole, with and without a second one that decays.
     #[test]
     fn a_decaying_vibration_is_read_back() {
         let (step, steps) = (0.01, 2000);

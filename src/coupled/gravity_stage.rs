@@ -6,14 +6,17 @@
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GravityStage {
-    /// The base is placed without friction and without cohesion, and sticks from then on. Bearing pressures, tensile
-    /// strengths and bonds of the laws hold meanwhile. What opens under weight alone starts open.
+    /// The base is placed without friction and cohesion, and sticks from then on.
+    ///
+    /// Bearing pressures, tensile strengths and bonds of the laws hold meanwhile. An element that opens under
+    /// weight alone is open at the start.
     #[default]
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
     Frictional,
-    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
-    /// For a structure that is dropped, or tilted and let go.
+    /// There is no static state: the base starts without pressure, and weight and loads act from t = 0 on.
+    ///
+    /// For a structure that is dropped, or tilted and released.
     ///
     /// ```
     /// use basemat::Simulation;

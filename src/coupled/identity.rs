@@ -1,4 +1,4 @@
-//! Identity of a scene: the numbers by which a checkpoint is told from checkpoints of other scenes.
+//! Identity of a scene: numbers that distinguish checkpoints of different scenes.
 
 use crate::Simulation;
 use crate::coupled::scene::Scene;
@@ -7,28 +7,28 @@ use crate::interface::{Condition, ContactState, InterfaceLaw, Limits, Mode, Prev
 use crate::linalg::{largest, mixed, mixing_weight};
 use crate::text::check_sum::CheckSum;
 
-/// Allowed difference of numbers of the same scene (other processors round differently).
+/// Allowed difference of numbers of the same scene, since other processors round differently.
 const SAME: f64 = 1e-9;
-/// Parts of the run in which ground motion and loads are compared.
+/// Number of parts of the run in which ground motion and loads are compared.
 const SAMPLES: usize = 64;
-/// Entries of the structure's own load that are evaluated; fewer steps are sampled of a larger structure.
+/// Largest number of evaluated entries of the structure's own load; larger structures are sampled at fewer steps.
 const LOAD_ENTRIES: usize = 10_000_000;
 /// Slip rates of sample states, m/s.
 const RATES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
 /// Slips between sample states of a law with state variables, m.
 const SLIPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
-/// Pressure of a sample state where no weight presses, Pa.
+/// Pressure of a sample state if there is no weight, Pa.
 const UNPRESSED: f64 = 1e5;
-/// Number that stands for one that is not finite.
+/// Number that replaces one that is not finite.
 const ENDLESS: f64 = -7.25;
 
-/// A difference to the scene of a checkpoint that is wanted: see [`Simulation::resume_changed`].
+/// An intended difference from the scene of a checkpoint: see [`Simulation::resume_changed`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Change {
-    /// Other parameters of the interface laws; their state variables must be as many.
+    /// Other parameters of the interface laws; the number of their state variables must be the same.
     InterfaceLaw,
     /// Another ground motion.
     GroundMotion,
@@ -48,7 +48,7 @@ words! { pub Change, "change of a scene", {
     InitialMotion = "initial_motion",
 } }
 
-/// Numbers of a scene, by which it is told from others.
+/// Numbers that distinguish a scene from others.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -78,7 +78,7 @@ pub(crate) struct Identity {
     /// Number of the gravity stage, and sums over the initial displacement and velocity.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     start: Vec<f64>,
-    /// Numbers that the laws return for sample states, averaged over the elements.
+    /// Numbers of the laws for sample states, averaged over the elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     law_numbers: Vec<f64>,
     /// Sums over the free field and over the loads, in parts of the steps so far.
@@ -127,7 +127,7 @@ impl Identity {
         }
     }
 
-    /// Error that names the first thing that differs, beside the `changes` that are wanted.
+    /// Error that names the first difference that is not among the `changes`.
     pub(crate) fn check(
         &self,
         own: &Self,
@@ -177,12 +177,12 @@ impl Identity {
 }
 
 impl Simulation {
-    /// Numbers that another simulation of the same scene has too, with samples of these first `steps`.
+    /// Numbers that are equal for simulations of the same scene, with samples of these first `steps`.
     pub(crate) fn identity(&self, steps: usize) -> Result<Identity> {
         let Self { scene, state, .. } = self;
         let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
         let model = &scene.model;
-        // Modes may come with either sign. A nonlinear structure has none, and columns that change.
+        // Modes may have either sign. A nonlinear structure has no modes, and its columns change.
         let columns = self.solver.operators().columns.iter().enumerate().filter(|_| model.linear);
         let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
         let c = scene.coefficients;

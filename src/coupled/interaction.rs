@@ -1,4 +1,4 @@
-//! Soil–structure interaction: a scene on its ground and on a fixed base, and what the ground does to its first mode.
+//! Soil–structure interaction: a scene on its ground and on a fixed base, and its first mode on both.
 
 use std::fmt;
 
@@ -42,7 +42,7 @@ impl SystemMode {
     }
 }
 
-/// A scene on its ground and on a fixed base, made by [`interaction`]. Printed, a table for a report.
+/// A scene on its ground and on a fixed base, made by [`interaction`]; it prints as a table.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -52,20 +52,20 @@ pub struct Interaction {
     pub on_ground: Run,
     /// The run of the same structure, loads and motion on a fixed base.
     pub on_fixed_base: Run,
-    /// The mode with the most mass along x, in plan also that along y; none of a structure that is rigid.
+    /// The mode with the most mass along x, in plan also along y; empty for a rigid structure.
     pub modes: Vec<SystemMode>,
 }
 
-/// Runs a scene on its ground and on a fixed base, and finds T̃/T and the damping of the soil–structure system.
+/// Runs a scene on its ground and on a fixed base, and computes T̃/T and the system's damping.
 ///
-/// `scene` makes the builder of the same scene whenever it is called; both runs last `duration` (s). The second is that
-/// of [`SimulationBuilder::on_fixed_base`]: its model, loads and motion are the same.
+/// `scene` must make a builder of the same scene at each call; both runs last `duration` (s). The second run uses
+/// [`SimulationBuilder::on_fixed_base`], with the same model, loads and motion.
 ///
-/// T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
-/// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and let
-/// go: they are the period and the decay of the free vibration that follows, by Midpoint steps of T/40 or shorter. The
-/// soil is linear: give it the moduli of the design motion (ASCE 7, table 19.3-2). Springs in series confirm the
-/// period: T̃/T = √(1 + k/k_x + k h²/k_θ).
+/// T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; for a nonlinear
+/// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode
+/// and released: they are the period and the decay of the free vibration that follows, by Midpoint steps of T/40
+/// or shorter. The soil is linear: give it the moduli of the design motion (ASCE 7, table 19.3-2). Springs in
+/// series confirm the period: T̃/T = √(1 + k/k_x + k h²/k_θ).
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -95,9 +95,10 @@ pub struct Interaction {
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`](crate::Error::Input) unless the duration is finite and not negative; [`Error::Scene`](crate::Error::Scene) if the vibration that follows the
-/// deflection is not that of one decaying mode, as under a load of the structure's own; as for
-/// [`SimulationBuilder::build`] and [`Simulation::run`](crate::Simulation::run).
+/// [`Error::Input`](crate::Error::Input) unless the duration is finite and not negative;
+/// [`Error::Scene`](crate::Error::Scene) if the vibration after the deflection is not one decaying mode, for
+/// example under a load of the structure's own; as for [`SimulationBuilder::build`] and
+/// [`Simulation::run`](crate::Simulation::run).
 pub fn interaction(
     duration: f64,
     mut scene: impl FnMut() -> Result<SimulationBuilder>,
@@ -123,19 +124,21 @@ pub fn interaction(
     Ok(Interaction { on_ground, on_fixed_base, modes })
 }
 
-/// Ratio of largest magnitudes; NaN of zeros.
+/// Ratio of largest magnitudes; NaN if both are zero.
 fn ratio([on_ground, fixed]: [&Extremes; 2]) -> f64 {
     on_ground.magnitude() / fixed.magnitude()
 }
 
 impl Interaction {
-    /// Largest magnitude of a quantity on the ground over that on the fixed base; NaN where both are zero.
+    /// Largest magnitude of a quantity on the ground over its value on the fixed base.
+    ///
+    /// NaN if both are zero.
     pub fn ratio(&self, quantity: Quantity) -> f64 {
         let of = |run: &Run| run.whole.extremes(quantity);
         ratio([&of(&self.on_ground), &of(&self.on_fixed_base)])
     }
 
-    /// Largest magnitude of a probe on the ground over that on the fixed base.
+    /// Largest magnitude of a probe on the ground over its value on the fixed base.
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no probe is called `name`.
@@ -143,7 +146,7 @@ impl Interaction {
         Ok(ratio([&self.on_ground.probe(name)?, &self.on_fixed_base.probe(name)?]))
     }
 
-    /// Rows of forces and of probes: name, unit, largest on the ground and on the fixed base, ratio.
+    /// Rows of forces and of probes: name, unit, largest value on the ground and on the fixed base, ratio.
     fn table(&self) -> Table {
         let Self { on_ground, on_fixed_base, .. } = self;
         let in_plan = on_ground.in_plan;

@@ -1,63 +1,60 @@
 //! The coupled nonlinear time integrator.
 //!
-//! [`Simulation::builder`] takes the parts and checks them against each other;
-//! [`Simulation::step`] makes one step, [`Simulation::run`] many.
+//! [`Simulation::builder`] takes the parts and checks them against each other; [`Simulation::step`] makes one
+//! step, [`Simulation::run`] many.
 //!
 //! # A step
 //!
-//! Let y be the mean translation of the free field under a connected part of the structure, R its
-//! influence vectors, and R y + u the displacement: only u, relative to the ground, is stored, so
-//! that a ground that travels far costs no digits. Let τ be the contact tractions of the step as
-//! **changes** against the static state, and s the soil's displacement by them. With the
-//! coefficients that a [`TimeScheme`] gives for a* and v* (total) and u* as functions of the
-//! increment R Δy + Δu,
+//! Let y be the mean translation of the free field under a connected part of the structure, R its influence
+//! vectors, and R y + u the displacement. Only u, relative to the ground, is stored, so that a large displacement
+//! of the ground costs no digits. Let τ be the contact tractions of the step as **changes** against the static
+//! state, and s the soil's displacement by them. A [`TimeScheme`] gives the coefficients of a* and v* (total) and
+//! u* as functions of the increment R Δy + Δu:
 //!
 //! ```text
 //! M a* + C (v* − R v_y) + K u* + f(u*) = p(t*) − Bᵀ A τ
 //! jump = gap₀ + (s_ff − y) + h + G¹ τ − B (u₀ + Δu)
 //! ```
 //!
-//! where B takes degrees of freedom to element means of the base displacement (normal components down), A
-//! holds the element lengths, h is the convolution history of all earlier tractions and `s_ff` the
-//! free field; K R = 0 and B R is a unit translation.
-//! The normal components of the jump are gaps; slip is minus the tangential ones. Eliminating Δu
-//! leaves one linear relation between jumps and tractions,
+//! where B computes element means of the base displacement from degrees of freedom (normal components down), A
+//! holds the element lengths, h is the convolution history of all earlier tractions and `s_ff` the free field. K R
+//! = 0, and B R is a unit translation. The normal components of the jump are gaps; slip is minus the tangential
+//! components. Eliminating Δu leaves one linear relation between jumps and tractions,
 //!
 //! ```text
 //! jump = j_free + W τ,     W = G¹ + B K_eff⁻¹ Bᵀ A     (Delassus operator, 2Q × 2Q)
 //! K_eff = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u),             θ = ½ for the midpoint rule
 //! ```
 //!
-//! [`Simulation::step`] reads in this order:
+//! [`Simulation::step`] computes in this order:
 //!
 //! 1. forcing: free field, its translation y, convolution history, load (`model/load.rs`);
-//! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
+//! 2. predicted increment: one solution with the factors of K_eff (`step/linear.rs`);
 //! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
 //! 4. increment: the response Δu to τ; nothing is committed so far;
-//! 5. energy balance (`energy_accumulator.rs`), state (`advance.rs`), ground and structure take over the increment.
+//! 5. energy balance (`energy_accumulator.rs`), state (`advance.rs`); ground and structure commit the increment.
 //!
-//! For a linear structure W is computed once. For a nonlinear one Newton's method goes around
-//! steps 2 and 3, with a new W whenever the tangent changes.
+//! For a linear structure W is computed once. For a nonlinear structure Newton's method repeats steps 2 and 3,
+//! with a new W whenever the tangent changes.
 //!
 //! # Mode search
 //!
-//! Starting from the modes of the step before: solve the linear system that the modes define, let
-//! each [`crate::interface::InterfaceLaw`] say its next mode, repeat until nothing changes. A mode vector that
-//! comes back is a cycle; then Gauss–Seidel over the elements, each solved exactly by trying its
-//! modes, and at last a path of solutions followed from a known state. [`State::method`] names what was
-//! needed, [`State::trials`] how many linear solves. If nothing converges, the step is an
-//! [`crate::Error::Step`] and the simulation stays at the last accepted one.
+//! The search starts from the modes of the previous step. It solves the linear system for these modes, evaluates
+//! the next mode of each [`crate::interface::InterfaceLaw`], and repeats this until no mode changes. If a mode
+//! vector recurs, the search has a cycle. It then uses Gauss–Seidel over the elements, each solved exactly by
+//! trying its modes, and at last follows a path of solutions from a known state. [`State::method`] names the last
+//! method used, [`State::trials`] the number of linear solutions. If nothing converges, the step returns an
+//! [`crate::Error::Step`] and the simulation stays at the last accepted step.
 //!
 //! # Preload
 //!
-//! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state in stages: the
-//! weight first, placed as [`GravityStage`] says, then the loads at t = 0 with the interface laws, in
-//! increments where elements slide or yield; contact conditions included, with the static compliance
-//! of the ground. Without equilibrium, the error names the cause ([`crate::StabilityError`]).
-//! The structure has no support of its own and the half-plane no static datum, so the search is a
-//! proximal point iteration: weak springs to the last iterate, which pull at nothing once it
-//! converges. An equilibrium need not be stable:
-//! a block that P–Δ would topple is found standing, and falls when the ground shakes.
+//! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state that is computed in stages:
+//! first the weight, as [`GravityStage`] defines, then the loads at t = 0 with the interface laws, in increments
+//! if elements slide or yield. Contact conditions hold, with the static compliance of the ground. Without
+//! equilibrium, the error names the cause ([`crate::StabilityError`]). The structure has no support of its own and
+//! the half-plane no static datum. The search is therefore a proximal point iteration: weak springs to the last
+//! iterate, whose forces vanish at convergence. An equilibrium need not be stable: a block that P–Δ would topple
+//! stands, and falls when the ground shakes.
 //!
 //! # Energy balance
 //!

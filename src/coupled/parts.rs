@@ -1,4 +1,4 @@
-//! Parts of a simulation, each checked by itself.
+//! Parts of a simulation, each checked alone.
 
 use std::sync::Arc;
 
@@ -24,15 +24,18 @@ use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
 use crate::structure::{Structure, is_nonlinear, probe};
 
-/// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of
-/// one.
+/// Tolerance below which a negative eigenvalue of the ground's matrix counts as rounding.
+///
+/// The matrix is scaled to a diagonal of one.
 const ROUNDING: f64 = 1e-9;
 
-/// Rotation of a base at which a run ends unless another is given, rad.
+/// Default rotation of a base at which a run ends, rad.
 const ROTATION_LIMIT: f64 = 1.0;
 
-/// Parts of a [`Simulation`](crate::Simulation): a structure, a ground and an interface law are needed, the rest has
-/// defaults (no motion, standard gravity, midpoint rule, no probes).
+/// Parts of a [`Simulation`](crate::Simulation).
+///
+/// A structure, a ground and an interface law are needed; the rest has defaults (no motion, standard gravity,
+/// midpoint rule, no probes).
 pub struct SimulationBuilder {
     pub(crate) structure: Option<Box<dyn Structure>>,
     pub(crate) ground: Option<Box<dyn Ground>>,
@@ -44,12 +47,12 @@ pub struct SimulationBuilder {
     pub(crate) gravity: f64,
     pub(crate) gravity_stage: GravityStage,
     pub(crate) loads: Vec<Load>,
-    /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
+    /// Displacement and velocity of the degrees of freedom at t = 0; empty for zero.
     pub(crate) displacement: Vec<f64>,
     pub(crate) velocity: Vec<f64>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) moment_center: Option<f64>,
-    /// Steps expected, 0 if unknown.
+    /// Expected number of steps, 0 if unknown.
     pub(crate) steps: usize,
     pub(crate) coordinates: Coordinates,
     pub(crate) energy_balance: bool,
@@ -57,7 +60,7 @@ pub struct SimulationBuilder {
     pub(crate) serviceability: Serviceability,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
-    /// Whether the base is held in place of standing on the ground.
+    /// Whether the base is held instead of standing on the ground.
     pub(crate) held: bool,
 }
 
@@ -75,7 +78,7 @@ short_debug! {
 }
 
 impl SimulationBuilder {
-    /// Settings with this time step, all others default.
+    /// Settings with this time step; all others have defaults.
     pub(crate) fn new(time_step: f64) -> Self {
         Self {
             structure: None,
@@ -102,7 +105,7 @@ impl SimulationBuilder {
         }
     }
 
-    /// Whether weight and loads are there before the run begins.
+    /// Whether weight and loads act before the run begins.
     pub(crate) fn is_static(&self) -> bool {
         self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
     }
@@ -113,25 +116,25 @@ impl SimulationBuilder {
     }
 }
 
-/// All parts of a simulation, and what follows from the ground and the time scheme by themselves.
+/// All parts of a simulation, and operators that depend only on the ground and the time scheme.
 pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
     /// The ground, prepared for steps.
     pub(crate) ground: Box<dyn Ground>,
-    /// The builder, whose structure and ground have gone to the fields above.
+    /// The builder; its structure and ground have moved to the fields above.
     pub(crate) given: SimulationBuilder,
     pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
-    /// Instantaneous operator of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
+    /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) soil: Arc<Thinned>,
     /// Free field at t = 0, 2Q or 3Q.
     pub(crate) start_motion: Vec<f64>,
-    /// Point `[x, y]` about which the base moment is taken.
+    /// Point `[x, y]` of the base moment.
     pub(crate) moment_center: [f64; 2],
 }
 
 impl Parts {
-    /// Checks what was given, each part by itself, and makes the ground ready for steps.
+    /// Checks each part alone, and prepares the ground for steps.
     pub(crate) fn new(
         mut given: SimulationBuilder,
         observer: Option<&mut Observer<'_>>,
@@ -158,7 +161,7 @@ impl Parts {
             (structure, ground) = held(structure, ground.as_ref(), &elements, time_step)?;
         }
         let (layout, count) = (elements.layout(), elements.len());
-        // The laws may count on gravity only where something presses at the start.
+        // The laws may assume gravity only if there is pressure at the start.
         let gravity = if given.is_static() { given.gravity } else { 0.0 };
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         if elements.is_plan() {
@@ -195,7 +198,8 @@ impl Parts {
     }
 }
 
-/// Refuses loads and motions of other degrees of freedom than the structure's, and numbers that are not finite.
+/// Error for loads and motions with degrees of freedom that the structure lacks, and for numbers that are not
+/// finite.
 fn check_motion(given: &SimulationBuilder, dofs: usize) -> Result<()> {
     let mut loads = given.loads.iter().enumerate();
     loads.try_for_each(|(index, load)| load.check(index, dofs))?;
@@ -210,8 +214,10 @@ fn check_motion(given: &SimulationBuilder, dofs: usize) -> Result<()> {
     Ok(())
 }
 
-/// Refuses more degrees of freedom than fit into memory, by themselves or with a response to the traction of
-/// each of the contact elements, `tractions` numbers, twice while they are computed.
+/// Error for more degrees of freedom than fit into memory.
+///
+/// Alone, or with a response to each of the `tractions` contact tractions, which takes twice its memory during
+/// computation.
 fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     matrix::check_order("degrees of freedom of the structure", dofs)?;
     let (responses, dofs) = (16.0 * dofs as f64 * tractions as f64, dofs as f64);
@@ -219,8 +225,9 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     Ok(memory::check(quantity, dofs, responses)?)
 }
 
-/// Step compliance of the ground: with rows weighted by the elements' areas, its symmetric part
-/// must not be negative, or the ground would push back work that it never got.
+/// Step compliance of the ground; an error if it could generate energy.
+///
+/// With rows weighted by the elements' areas, its symmetric part must not be negative.
 fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f64>> {
     const NAME: &str = "instantaneous operator of the ground";
     let (layout, areas) = (elements.layout(), elements.areas());
@@ -251,7 +258,7 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f
     }
 }
 
-/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
+/// Error unless the laws fit the ground's `count` elements, and laws and contact search the scene.
 fn check_laws(
     laws: &[Box<dyn InterfaceLaw>],
     search: ContactSearch,
@@ -266,7 +273,7 @@ fn check_laws(
     laws.iter().try_for_each(|law| law.check(scene))
 }
 
-/// Refuses laws without limits on a ground in plan, and the search of the plane.
+/// Error for laws without limits on a ground in plan, and for the search of the plane.
 fn check_limits(given: &SimulationBuilder) -> Result<()> {
     let needed = "must be the robust one on a ground in plan: the flow chart is of the plane";
     require_part("contact search", given.search == ContactSearch::Robust, needed)?;
@@ -276,8 +283,9 @@ fn check_limits(given: &SimulationBuilder) -> Result<()> {
     })
 }
 
-/// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one
-/// for all elements, one each, or none unless all laws have one.
+/// Coefficients for the factor of safety against sliding: `given` ones or the laws' own.
+///
+/// One for all elements, or one each; empty unless all laws have one.
 fn safety_friction(
     laws: &[Box<dyn InterfaceLaw>],
     given: Vec<f64>,
@@ -293,7 +301,7 @@ fn safety_friction(
         same_length("list of friction coefficients", coefficients.len(), count)?;
     }
     for &value in &coefficients {
-        // Infinity is a coefficient.
+        // Infinity is a valid coefficient.
         require("friction coefficient", value, value >= 0.0, "zero or more")?;
     }
     Ok(coefficients)

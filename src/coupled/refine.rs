@@ -1,4 +1,4 @@
-//! Time step and elements for a scene of the user's own: error against run time, and the longest step that converges.
+//! Error against run time for a scene of the user's own, and the longest time step that converges.
 
 use std::fmt;
 use std::time::Duration;
@@ -10,11 +10,10 @@ use crate::error::{
 };
 use crate::text::table::Table;
 
-/// Orders of convergence that differences are extrapolated with: observed ones beyond are not those
-/// of a method that converges.
+/// Orders of convergence for extrapolation; a convergent method has no others.
 const ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
-/// Mesh and step of each run, in halvings of the element length and of the time step.
+/// Mesh and step of each run, as numbers of halvings of element length and time step.
 const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
 
 /// Setting of a [`Refinement`].
@@ -23,28 +22,30 @@ const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Setting {
-    /// Number of elements; of cells along a side, where the scene takes it as that.
+    /// Number of elements, or of cells along a side if the scene counts these.
     pub elements: usize,
     /// Time step, s.
     pub time_step: f64,
     /// Estimated error of the results, relative to their size (root of the sum of squares).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub error: f64,
-    /// Wall time of building and running, zero where there is no clock (WebAssembly).
+    /// Wall time of building and running, zero without a clock (WebAssembly).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
     pub wall: Duration,
     /// The results.
     pub results: Vec<f64>,
 }
 
-/// Error against run time at six settings, made by [`refine`]. Printed, a table.
+/// Error against run time at six settings, made by [`refine`]; it prints as a table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Refinement {
-    /// The settings: the coarsest, half and a quarter of its step, two and four times its
-    /// elements, and twice the elements with half the step.
+    /// The six settings, coarsest first.
+    ///
+    /// The coarsest, half and a quarter of its step, two and four times its elements, and twice the elements with
+    /// half the step.
     pub settings: Vec<Setting>,
     /// Results extrapolated to infinitely many elements and steps.
     pub extrapolated: Vec<f64>,
@@ -54,34 +55,34 @@ pub struct Refinement {
     /// Observed order of convergence in the time step; NaN if the results do not depend on it.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub step_order: f64,
-    /// Distance of the last setting's results from those that the errors of mesh and step, added,
-    /// foretell, relative to the results' size. Estimates of errors below it say nothing.
+    /// Difference of the last setting's results from a prediction, relative to the results' size.
+    ///
+    /// The prediction adds the errors of mesh and step. Estimated errors below it are not reliable.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub mismatch: f64,
 }
 
-/// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation
-/// (L. F. Richardson, 1911; orders observed from three settings as in P. J. Roache, *Verification
-/// and Validation in Computational Science and Engineering*, 1998, § 5).
+/// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
 ///
-/// `scene` builds and runs with a number of elements and a time step (s), and returns results:
-/// a peak, some peaks, or a time series at times that all settings have (those of the coarsest).
-/// Elements are halved in length by twice their number: in plan it is that of cells along the shorter
-/// side, as [`ElasticGround::under`](crate::bem::ElasticGround::under) has it. Few cells may not resolve
-/// what long steps excite, and then errors of both compensate each other: refine both.
-/// Their error is the root of the sum of squares beside that of the extrapolated results, so
-/// results of different units belong in calls of their own. Time series converge evenly; peaks,
-/// and all that hangs on the instant of an impact, do so less.
+/// L. F. Richardson, 1911; orders observed from three settings as in P. J. Roache, *Verification and Validation in
+/// Computational Science and Engineering*, 1998, § 5.
 ///
-/// The last run, twice the elements with half the step, checks the estimate
-/// ([`Refinement::mismatch`]). An estimate that passes the check may still be too low where the base slides or opens:
-/// 2.4 times for one of six settings of a sliding block. [`sensitivity`](super::sensitivity()) finds peaks that no
-/// setting determines.
+/// `scene` builds and runs with a number of elements and a time step (s), and returns results: a peak, some peaks,
+/// or a time series at the times of the coarsest setting. Twice the number halves the elements' length: in plan it
+/// is the number of cells along the shorter side, as in
+/// [`ElasticGround::under`](crate::bem::ElasticGround::under). Few cells may not resolve the motion excited with
+/// long steps, and errors of both then compensate each other: refine both. The error is the root of the sum of
+/// squares relative to the extrapolated results, so use separate calls for results of different units. Time series
+/// converge evenly; peaks, and quantities that depend on the instant of an impact, less so.
 ///
-/// On layered ground [`Stages::for_profile`](crate::bem::layered::Stages::for_profile) chooses two or three Runge–Kutta
-/// stages by the error at 15 Hz, a frequency that is not scaled with the scene. A refined or rescaled scene may
-/// therefore change its number of stages, and its results then do not converge evenly:
-/// [`with_stages`](crate::bem::ElasticGround::with_stages) keeps it.
+/// The last run, twice the elements with half the step, checks the estimate ([`Refinement::mismatch`]). An
+/// estimate that passes the check may still be too low if the base slides or opens: by a factor of 2.4 for one of
+/// six settings of a sliding block. [`sensitivity`](super::sensitivity()) finds peaks that no setting determines.
+///
+/// On layered ground [`Stages::for_profile`](crate::bem::layered::Stages::for_profile) chooses two or three
+/// Runge–Kutta stages by the error at 15 Hz, a frequency that is not scaled with the scene. A refined or rescaled
+/// scene may therefore change its number of stages, and its results then do not converge evenly:
+/// [`with_stages`](crate::bem::ElasticGround::with_stages) fixes the number.
 ///
 /// [`refine_each`](super::refine_each) estimates the errors of several peaks in one call.
 ///
@@ -117,8 +118,8 @@ pub struct Refinement {
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) unless there is an element and the time step is above zero,
-/// [`Error::Size`](crate::Error::Size) unless every run gives as many results, at least one,
-/// [`Error::NotFinite`](crate::Error::NotFinite) if one of them is not finite, and whatever `scene` returns.
+/// [`Error::Size`](crate::Error::Size) unless every run returns the same number of results, at least one,
+/// [`Error::NotFinite`](crate::Error::NotFinite) if one of them is not finite, and any error of `scene`.
 pub fn refine(
     elements: usize,
     time_step: f64,
@@ -127,7 +128,7 @@ pub fn refine(
     settings(elements, time_step, &mut scene).map(Refinement::of)
 }
 
-/// Runs the scene at the six settings, their errors still unknown.
+/// Runs the scene at the six settings; their errors are not yet set.
 pub(crate) fn settings(
     elements: usize,
     time_step: f64,
@@ -153,11 +154,11 @@ pub(crate) fn settings(
     Ok(settings)
 }
 
-/// Errors of three results, the length halved from each to the next, and their order.
+/// Errors of three results, each with half the length of the previous one, and their order.
 fn errors(results: [&[f64]; 3]) -> ([Vec<f64>; 3], f64) {
     let [first, second, third] = results;
     let order = (distance(first, second) / distance(second, third)).log2();
-    // The finest is what infinitely many halvings of this order would still change.
+    // The error of the finest result is the change by infinitely many halvings with this order.
     let used = if order.is_nan() { 1.0 } else { order.clamp(*ORDERS.start(), *ORDERS.end()) };
     let factor = (used.exp2() - 1.0).recip();
     let error = |values: &[f64]| {
@@ -171,7 +172,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     norm(a.iter().zip(b).map(|(a, b)| a - b))
 }
 
-/// Root of the sum of squares, of numbers of any size.
+/// Root of the sum of squares, for numbers of any size.
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::hypot)
 }
@@ -202,8 +203,10 @@ impl Refinement {
         Self { settings, extrapolated, mesh_order, step_order, mismatch }
     }
 
-    /// Whether the estimate can be trusted: both orders between a half and four (or the results
-    /// independent), and the coarsest error above the mismatch.
+    /// Whether the estimate is reliable.
+    ///
+    /// Both orders must be between a half and four (or the results independent), and the coarsest error above the
+    /// mismatch.
     pub fn is_regular(&self) -> bool {
         let regular = |order: f64| order.is_nan() || ORDERS.contains(&order);
         let coarsest = self.settings.first().map_or(0.0, |setting| setting.error);
@@ -212,7 +215,7 @@ impl Refinement {
 }
 
 impl Refinement {
-    /// Orders of convergence, and the advice of an irregular one.
+    /// Orders of convergence, and advice if they are irregular.
     pub(crate) fn notes(&self) -> String {
         let Self { mesh_order, step_order, mismatch, .. } = self;
         let mut notes = format!(
@@ -227,7 +230,7 @@ impl Refinement {
     }
 }
 
-/// Settings in rows, with value and error of each refinement; a name for each.
+/// Settings in rows, with value and error of each named refinement.
 pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
     let mut heading = ["elements", "step, s", "run time, s"].map(String::from).to_vec();
     let settings = refinements.first().map_or(&[][..], |(_, first)| &first.settings);
@@ -240,7 +243,7 @@ pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
     let mut last = vec!["extrapolated".to_owned(), String::new(), String::new()];
     let mut has_values = false;
     for (name, refinement) in refinements {
-        // A time series has no place in a cell.
+        // A time series does not fit into a cell.
         if let [extrapolated] = refinement.extrapolated[..] {
             has_values = true;
             heading.push((*name).to_owned());
@@ -267,18 +270,20 @@ impl fmt::Display for Refinement {
     }
 }
 
-// Which time step gets a scene through, when a longer one has steps without solution.
+// The longest time step that converges, for a scene whose longer steps have no solution.
 
-/// Halvings that are tried.
+/// Largest number of halvings.
 const HALVINGS: usize = 10;
 
-/// The longest step, `time_step` (s) or that halved once or more, with which the simulation that
-/// `make` builds runs for `duration` (s) without [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`];
-/// `None` if the tenth halving fails, too.
+/// The longest step with which a scene runs without a failed step.
 ///
-/// A simulation cannot change its step: the soil's convolution weights and its history belong to one. So
-/// this runs whole simulations, each twice as long as the one before. Give the time of the failed step
-/// as `duration`.
+/// It tries `time_step` (s) and up to ten halvings of it, and runs the simulation that `make` builds for
+/// `duration` (s). A failed step is [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`]. `None`
+/// if the tenth halving fails too.
+///
+/// A simulation cannot change its step, since the soil's convolution weights and its history belong to one step.
+/// This function therefore runs whole simulations, each with twice the steps. Use the time of the failed step as
+/// `duration`.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Grading, Strip};
@@ -306,8 +311,8 @@ const HALVINGS: usize = 10;
 /// ```
 ///
 /// # Errors
-/// Those of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is
-/// finite and above zero and `duration` finite and not negative.
+/// Errors of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is finite and
+/// above zero and `duration` finite and not negative.
 pub fn largest_convergent_step(
     time_step: f64,
     duration: f64,

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::coupled::refine::{Refinement, Setting, settings, table};
 use crate::error::{Error, Result, at_least, same_length};
 
-/// Error against run time of several peaks, made by [`refine_each`]. Printed, one table.
+/// Error against run time of several peaks, made by [`refine_each`]; it prints as one table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -15,12 +15,12 @@ pub struct Refinements {
     pub peaks: Vec<(String, Refinement)>,
 }
 
-/// Names of a scene's peaks, which every run must give in the same order.
+/// Names of a scene's peaks, the same and in the same order for every run.
 #[derive(Default)]
 pub(crate) struct Names(pub(crate) Vec<String>);
 
 impl Names {
-    /// Values of the peaks of one run, whose names are checked against the names of the first run.
+    /// Values of one run's peaks; an error if the names differ from the first run's.
     pub(crate) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
         const NAME: &str = "list of a scene's peaks";
         at_least(NAME, peaks.len(), 1)?;
@@ -45,8 +45,8 @@ impl Names {
 
 /// Estimates the errors of several peaks of a scene from six settings, as [`refine`](super::refine()) does for one.
 ///
-/// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each is
-/// extrapolated by itself, so that units may differ and a peak that converges is not spoilt by one that does not.
+/// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each peak is
+/// extrapolated alone: units may differ, and a peak that does not converge does not affect the others.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -74,8 +74,8 @@ impl Names {
 /// ```
 ///
 /// # Errors
-/// As for [`refine`](super::refine()); [`Error::DuplicateName`] for a name that comes twice, [`Error::Name`] for one
-/// that another setting did not give.
+/// As for [`refine`](super::refine()); [`Error::DuplicateName`] for a name that occurs twice, [`Error::Name`] for
+/// a name that another setting did not return.
 pub fn refine_each<N: Into<String>>(
     elements: usize,
     time_step: f64,
@@ -88,7 +88,7 @@ pub fn refine_each<N: Into<String>>(
 }
 
 impl Refinements {
-    /// The results of a refinement, each refined by itself and called by one of the `names`.
+    /// Splits a refinement into its results, each with one of the `names` and an error of its own.
     ///
     /// # Errors
     /// [`Error::Size`] unless there are as many names as results.
@@ -108,7 +108,7 @@ impl Refinements {
     /// The refinement of a peak, by its name.
     ///
     /// # Errors
-    /// [`Error::Name`] if no peak has it.
+    /// [`Error::Name`] if no peak has this name.
     pub fn peak(&self, name: &str) -> Result<&Refinement> {
         let found = self.peaks.iter().find(|(own, _)| own == name);
         let unknown = || Error::no_name("peak", name, self.peaks.iter().map(|(own, _)| own));

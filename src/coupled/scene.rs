@@ -1,4 +1,4 @@
-//! A scene: all that does not change while a simulation runs.
+//! A scene: all data that stay constant during a run.
 
 use std::sync::Arc;
 
@@ -21,45 +21,45 @@ use crate::linalg::mixed;
 use crate::structure::probe::Probe;
 use crate::structure::sample_forces;
 
-/// Structure, base, laws and static state as a step sees them, read-only once built.
+/// Structure, base, laws and static state for steps; read-only once built.
 ///
-/// The parts that have a state of their own stand beside it: structure, ground and motion.
+/// Structure, ground and motion have a state of their own and are separate.
 pub(crate) struct Scene {
     pub(crate) time_step: f64,
     pub(crate) coefficients: SchemeCoefficients,
-    /// Whether the scheme takes no energy of its own.
+    /// Whether the scheme conserves energy.
     pub(crate) conserves_energy: bool,
     pub(crate) model: Model,
     pub(crate) base: Base,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
-    /// Limits that runs are held against.
+    /// Limits of serviceability, against which runs are checked.
     pub(crate) serviceability: Serviceability,
     pub(crate) static_state: StaticState,
-    /// External loads beside the structure's own.
+    /// External loads in addition to the structure's own.
     pub(crate) loads: Vec<SteppedLoad>,
-    /// Weight as a load, in stepped coordinates, where the run begins without a static state; else empty.
+    /// Weight as a load, in stepping coordinates, if the run begins without a static state; otherwise empty.
     pub(crate) weight: Vec<f64>,
     /// Parts that the nonlinear force joins with others.
     pub(crate) joined: Vec<bool>,
-    /// Instantaneous operator of the ground, 2Q × 2Q.
+    /// Step compliance of the ground, 2Q × 2Q.
     pub(crate) soil: Arc<Thinned>,
-    /// Free field at t = 0, from which it is measured, 2Q.
+    /// Free field at t = 0, which is subtracted from it later, 2Q.
     pub(crate) start_motion: Vec<f64>,
     /// Displacement, velocity and acceleration of each probe.
     pub(crate) probe_rows: Vec<ProbeRows>,
-    /// Number of the gravity stage, and sums over the initial displacement and velocity: compared with the numbers in
-    /// a checkpoint.
+    /// Number of the gravity stage, and sums over the initial displacement and velocity, for comparison with a
+    /// checkpoint.
     pub(crate) start: [f64; 3],
-    /// Samples of the structure's nonlinear force before the run, compared likewise; empty without one.
+    /// Samples of the structure's nonlinear force before the run, also for comparison; empty for a linear structure.
     pub(crate) nonlinear_samples: Vec<f64>,
-    /// Data that results of the scene's states need.
+    /// Shared data for results of the scene's states.
     pub(crate) context: Arc<Context>,
 }
 
-/// A probe in the coordinates that are stepped.
+/// A probe in stepping coordinates.
 pub(crate) struct ProbeRows {
     pub(crate) rows: [Weights; 3],
-    /// Displacement by a translation of 1 m of each part `[right, up, away]`, where it is absolute.
+    /// Displacement of an absolute probe by a translation of 1 m of each part `[right, up, away]`.
     pub(crate) carried: Vec<[f64; 3]>,
 }
 
@@ -74,7 +74,7 @@ impl ProbeRows {
 }
 
 impl Scene {
-    /// Takes over what steps need of the parts.
+    /// Collects the data that steps need from the parts.
     pub(crate) fn new(
         parts: &mut Parts,
         model: Model,
@@ -146,9 +146,8 @@ impl Scene {
 
     /// Subtracts the mean translation of each part's base from a displacement, before K acts on it.
     ///
-    /// A translation strains nothing, but in degrees of freedom K would only find that out by cancellation,
-    /// with an error that grows with the stiffness times the displacement. In modes it has no
-    /// stiffness to begin with.
+    /// A translation strains nothing. In degrees of freedom, K would give zero only by cancellation, with an error
+    /// that grows with stiffness times displacement. In modes it has no stiffness.
     pub(crate) fn subtract_base(&self, displacement: &mut [f64], means: &mut [f64]) {
         if let Transformation::Identity = self.model.transformation {
             self.base.means(displacement, means);
@@ -158,10 +157,12 @@ impl Scene {
         }
     }
 
-    /// Makes of a relative displacement the one that a nonlinear force sees: each part's measured
-    /// from the mean translation of its base, so that it stays small. Parts that the force joins are
-    /// measured from that of the first of them, with the distances between them as they are. The static
-    /// displacement is added. `translations` are those of the parts' free fields.
+    /// Subtracts from each part's displacement the mean translation of its base; nonlinear forces receive the
+    /// result.
+    ///
+    /// The result stays small. From all parts that the force joins, the mean translation of the first of them is
+    /// subtracted, so that the distances between them stay. The static displacement is added. `translations`: of
+    /// the parts' free fields.
     pub(crate) fn seen_by_force(
         &self,
         displacement: &mut [f64],
@@ -184,7 +185,7 @@ impl Scene {
         }
     }
 
-    /// Displacement in a motion that the nonlinear force depends on.
+    /// Displacement of a motion as the nonlinear force receives it.
     pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
         let mut seen = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);
@@ -192,21 +193,21 @@ impl Scene {
         seen
     }
 
-    /// Whether [`Scene::add_loads`] has anything to add.
+    /// Whether [`Scene::add_loads`] adds anything.
     pub(crate) fn has_loads(&self) -> bool {
         !(self.weight.is_empty() && self.loads.is_empty())
     }
 
-    /// Adds the weight and the external loads at `time`, less those of the static state, to `force`,
-    /// up to a load that is not finite: its number and its value.
+    /// Adds the weight and the external loads at `time`, minus the loads of the static state, to `force`.
+    ///
+    /// Stops at a load that is not finite, and returns its number and value.
     pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> Option<(usize, f64)> {
         force.iter_mut().zip(&self.weight).for_each(|(force, weight)| *force += weight);
         let mut added = self.loads.iter().map(|load| load.add(time, force)).enumerate();
         added.find(|(_, value)| !value.is_finite())
     }
 
-    /// Whether any law stores energy in its elements, or may do so once its state variables have
-    /// changed.
+    /// Whether any law stores energy in its elements, or may do so with other state variables.
     pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
         let mut compliant = false;
         for element in 0..self.count() {

@@ -1,4 +1,4 @@
-//! Digits of a scene's peaks that hold: the run beside twins that should give the same.
+//! Reliable digits of a scene's peaks, by comparison with similar runs that should give the same peaks.
 
 use std::fmt;
 
@@ -6,9 +6,9 @@ use crate::coupled::refine_each::Names;
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
-/// Time step of the first twin over the run's.
+/// Time step of the first twin over the run's time step.
 const SHORTER: f64 = 0.99;
-/// Most digits of a peak that twins may vouch for.
+/// Largest number of digits that twins may confirm.
 const MOST_DIGITS: u32 = 6;
 
 /// Value of a peak in a run and in its twins.
@@ -36,8 +36,9 @@ impl PeakTwins {
         twins.into_iter().fold(0.0, |most, twin| f64::max(most, (twin - self.value).abs()))
     }
 
-    /// Significant digits that hold: half a unit of the last one is the spread or more. Six at most; with none, twins
-    /// do not agree on the first digit.
+    /// Number of significant digits that hold, six at most.
+    ///
+    /// Half a unit of the last digit is the spread or more. Zero if twins do not agree on the first digit.
     pub fn digits(&self) -> u32 {
         let spread = self.spread();
         if spread == 0.0 {
@@ -51,7 +52,7 @@ impl PeakTwins {
         digits
     }
 
-    /// The value in as many digits as hold; "–" with none.
+    /// The value in as many digits as hold; "–" for zero digits.
     fn quoted(&self) -> String {
         match self.digits() {
             0 => "–".to_owned(),
@@ -60,7 +61,7 @@ impl PeakTwins {
     }
 }
 
-/// Peaks of a run and of its twins, made by [`sensitivity`]. Printed, a table.
+/// Peaks of a run and of its twins, made by [`sensitivity`]; it prints as a table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -70,16 +71,18 @@ pub struct Sensitivity {
     pub peaks: Vec<PeakTwins>,
 }
 
-/// Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
-/// and half of the elements.
+/// Compares a scene's peaks with the peaks of three similar runs, its twins.
 ///
-/// `scene` builds and runs for a duration with a number of elements (in plan of cells along the shorter side) and
-/// a time step (s), and returns peaks by name, as for [`refine_each`](super::refine_each). Where a peak converges, its
-/// twins differ from it by about its error. A body that rocks on its corners, and twists on them, may lose the memory
-/// of its start: a change too small to matter decides on which corner it lands. Its peaks then belong to one motion
-/// out of many, and no finer setting makes them converge; quote the range over many motions. The twins cost less than
-/// two further runs, in plan about one and a half, where the six settings of `refine_each` cost tens of them. Changes in
-/// the last bits of a scene alone take many impacts to grow, and show less.
+/// The twins have a time step shorter by 1 %, three quarters of the elements, and half of the elements. `scene`
+/// builds and runs for a duration with a number of elements (in plan: of cells along the shorter side) and a time
+/// step (s), and returns peaks by name, as for [`refine_each`](super::refine_each).
+///
+/// If a peak converges, its twins differ from it by about its error. The motion of a body that rocks on its
+/// corners, and twists on them, may become independent of its start: a change too small to matter decides on which
+/// corner it lands. Its peaks then belong to one motion out of many, and no finer setting makes them converge;
+/// state the range over many motions. The twins take less time than two further runs, in plan about one and a
+/// half; the six settings of `refine_each` take tens of them. Changes in the last bits of a scene need many
+/// impacts to grow, and show less.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
@@ -104,10 +107,10 @@ pub struct Sensitivity {
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`] unless there are two elements or more and the time step is above zero, [`Error::Size`] unless every
-/// run gives as many peaks, at least one, [`Error::NotFinite`] if one of them is not finite, [`Error::DuplicateName`]
-/// for a name that comes twice, [`Error::Name`] for one that a twin gives and the run does not, and whatever `scene`
-/// returns.
+/// [`Error::Input`] unless there are two elements or more and the time step is above zero, [`Error::Size`] unless
+/// every run returns the same number of peaks, at least one, [`Error::NotFinite`] if one of them is not finite,
+/// [`Error::DuplicateName`] for a name that occurs twice, [`Error::Name`] for a name that only a twin returns, and
+/// any error of `scene`.
 pub fn sensitivity<N: Into<String>>(
     elements: usize,
     time_step: f64,
@@ -139,7 +142,7 @@ impl Sensitivity {
     /// A peak and its twins, by its name.
     ///
     /// # Errors
-    /// [`Error::Name`] if no peak has it.
+    /// [`Error::Name`] if no peak has this name.
     pub fn peak(&self, name: &str) -> Result<&PeakTwins> {
         let found = self.peaks.iter().find(|own| own.name == name);
         found.ok_or_else(|| Error::no_name("peak", name, self.peaks.iter().map(|own| &own.name)))

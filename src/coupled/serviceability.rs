@@ -4,13 +4,13 @@ use crate::coupled::State;
 use crate::error::{Result, positive, require};
 use crate::geometry::resultant;
 
-/// Response of a base that a service requirement limits.
+/// Response of a base with a serviceability limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Criterion {
-    /// Slip averaged over a foundation, m, either way and in plan any way; tangential motion of open elements counts.
+    /// Slip averaged over a foundation, m, in any direction; tangential motion of open elements counts.
     Slip,
     /// Gap of an element, m.
     Gap,
@@ -47,7 +47,7 @@ impl Criterion {
         }
     }
 
-    /// The value of a state that is furthest from zero, of several foundations or elements.
+    /// The value furthest from zero among all foundations or elements of a state.
     pub(crate) fn of(self, state: &State) -> f64 {
         let furthest = |far: f64, value: f64| if value.abs() > far.abs() { value } else { far };
         let foundations = state.foundations.iter();
@@ -64,9 +64,10 @@ impl Criterion {
     }
 }
 
-/// Limits that service sets to the motion of a base: give them to
-/// [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability), and
-/// each [`Run`](crate::results::Run) says whether they were kept.
+/// Serviceability limits of a base's motion.
+///
+/// Set them by [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability); each
+/// [`Run`](crate::results::Run) states whether they were met.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
@@ -123,7 +124,7 @@ validated! {
 }
 
 impl Serviceability {
-    /// Returns the limits, if all of them are valid.
+    /// Returns the limits if all of them are valid.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless slip, gap and rotation are finite and above zero, and the fraction

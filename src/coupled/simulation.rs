@@ -1,4 +1,4 @@
-//! The simulation: the loop over steps, and what its observer returns.
+//! The simulation: the loop over steps, and the values that its observer returns.
 
 use std::ops::ControlFlow;
 
@@ -20,10 +20,10 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 
-/// A structure on a ground, ready to march.
+/// A structure on a ground, ready for time steps.
 ///
-/// Made by [`Simulation::builder`]. The caller may own the loop ([`step`](Simulation::step)) or hand
-/// it over ([`run`](Simulation::run)).
+/// [`Simulation::builder`] makes it. Write your own loop with [`step`](Simulation::step), or use
+/// [`run`](Simulation::run).
 pub struct Simulation {
     pub(crate) scene: Scene,
     pub(crate) structure: Box<dyn Structure>,
@@ -32,7 +32,7 @@ pub struct Simulation {
     pub(crate) forcing: Forcing,
     pub(crate) solver: Solver,
     pub(crate) increment: Increment,
-    /// The energy balance, unless it is left out.
+    /// The energy balance; `None` if it is omitted.
     pub(crate) books: Option<EnergyAccumulator>,
     pub(crate) state: State,
     pub(crate) conditioning: Conditioning,
@@ -60,12 +60,12 @@ impl Simulation {
     /// Makes one step and returns the new state.
     ///
     /// # Errors
-    /// [`Error::Step`] if the step could not be solved; the simulation is then as it was before.
+    /// [`Error::Step`] if the step could not be solved; the simulation then stays unchanged.
     pub fn step(&mut self) -> Result<&State> {
         let step = self.state.step + 1;
         let time = step as f64 * self.scene.time_step;
         self.solve(time).map_err(|source| Error::Step { step, time, source })?;
-        // From here on nothing fails.
+        // From here on no error can occur.
         let Self { scene, structure, ground, forcing, increment, state, warnings, .. } = self;
         if let Some(taken) = increment.stand_in {
             Warning::count_friction(warnings, taken);
@@ -85,7 +85,7 @@ impl Simulation {
         Ok(&self.state)
     }
 
-    /// Free field, convolution history and the increment in response; nothing is committed.
+    /// Computes free field, convolution history and the increment; commits nothing.
     fn solve(&mut self, time: f64) -> std::result::Result<(), StepError> {
         let Self { scene, structure, ground, motion, forcing, solver, increment, state, .. } = self;
         let structure = structure.as_ref();
@@ -109,8 +109,10 @@ impl Simulation {
         self.scene.base.elements()
     }
 
-    /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
-    /// its own type it is what was given to the builder (the box, if that was a box).
+    /// The structure in its present state, with internal variables.
+    ///
+    /// It is [`Any`](std::any::Any). Downcast it to the type you passed to the builder (to `Box<…>` if you passed
+    /// a box).
     ///
     /// ```
     /// use std::any::Any;
@@ -135,13 +137,15 @@ impl Simulation {
         self.structure.as_ref()
     }
 
-    /// The structure alone, after a run: as [`Simulation::structure`], by value.
+    /// The structure after a run, as [`Simulation::structure`], by value.
     pub fn into_structure(self) -> Box<dyn Structure> {
         self.structure
     }
 
-    /// The ground as it is now. It is [`Any`](std::any::Any): of its own type it is what was given
-    /// to the builder (the box, if that was a box).
+    /// The ground in its present state.
+    ///
+    /// It is [`Any`](std::any::Any). Downcast it to the type you passed to the builder (to `Box<…>` if you passed
+    /// a box).
     ///
     /// ```
     /// use std::any::Any;
@@ -165,10 +169,10 @@ impl Simulation {
         self.ground.as_ref()
     }
 
-    /// Sets the force of the load number `index` (from 0, in the order given to the builder) for all steps from now on.
+    /// Sets the force of load number `index` (from 0, in the order of the builder) for all further steps.
     ///
-    /// `value` is the whole force, the static one included, in place of the load's function of time; `None` returns to
-    /// that function. A controller computes it from the last state and sets it before each step:
+    /// `value` is the whole force, including the static one; it replaces the load's function of time. `None`
+    /// restores that function. A controller computes the force from the last state and sets it before each step:
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -204,11 +208,11 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// A checkpoint holds the value. [`resume_changed`](Simulation::resume_changed) with
-    /// [`Change::Load`](crate::coupled::Change::Load) returns every load to its own function.
+    /// A checkpoint contains the value. [`resume_changed`](Simulation::resume_changed) with
+    /// [`Change::Load`](crate::coupled::Change::Load) restores every load's own function.
     ///
     /// # Errors
-    /// [`Error::Index`] unless the builder was given such a load, [`Error::NotFinite`] for a value that is not finite.
+    /// [`Error::Index`] for a load that does not exist, [`Error::NotFinite`] for a value that is not finite.
     pub fn set_load(&mut self, index: usize, value: impl Into<Option<f64>>) -> Result<()> {
         let (bound, value) = (self.scene.loads.len(), value.into());
         in_bounds("load", index, bound)?;
@@ -224,48 +228,50 @@ impl Simulation {
         &self.scene.context.probes
     }
 
-    /// Static displacement of the structure's degrees of freedom under weight and loads at t = 0, m and rad. Its rigid
-    /// settlement has no meaning on a half-plane, which has no datum in two dimensions.
+    /// Static displacement of the degrees of freedom under weight and loads at t = 0, m and rad.
+    ///
+    /// Its rigid settlement has no meaning on a half-plane, which has no datum in two dimensions.
     pub fn static_displacement(&self) -> &[f64] {
         &self.scene.static_state.displacement
     }
 
-    /// Number of steps that last `duration` (s), rounded up; none for a negative one or NaN.
+    /// Number of steps for `duration` (s), rounded up; zero for a negative duration or NaN.
     pub fn steps_for(&self, duration: f64) -> usize {
-        // A duration that is a whole number of steps but for rounding is that number.
+        // Rounding must not add a step to a duration of a whole number of steps.
         let steps = (duration / self.scene.time_step * (1.0 - 1e-12)).ceil();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = steps as usize;
         steps
     }
 
-    /// Computes the ground's convolution weights for `steps` further steps with an observer, so that a run of as many
-    /// begins at once; the results are those of such a run without. [`Observer`] has an example.
+    /// Computes the ground's convolution weights for `steps` further steps, with an observer.
+    ///
+    /// A run of as many steps then begins at once, with unchanged results. [`Observer`] has an example.
     ///
     /// # Errors
-    /// [`Error::Stopped`] by the observer, and the simulation is as it was; as for [`Ground::history`].
+    /// [`Error::Stopped`] by the observer, and the simulation stays unchanged; as for [`Ground::history`].
     pub fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         self.ground.expect_steps(self.state.step.saturating_add(steps), Some(observer))
     }
 
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
-    /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see
-    /// [`Observed`]. It may feed [`TimeSeries`](crate::results::TimeSeries), and a [`Run`] that spans
-    /// several calls or outlives a failure ([`Simulation::begin_run`]).
+    /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see [`Observed`].
+    /// It may pass the state to [`TimeSeries`](crate::results::TimeSeries), and to a [`Run`] that spans several
+    /// calls or outlives a failure ([`Simulation::begin_run`]).
     ///
-    /// The run ends after the step in which a base turns beyond the
-    /// [`rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit), with
-    /// [`Warning::Overturned`]; a further call goes on from there. What convolution weights the ground lacks are
-    /// computed before the first step, unseen: [`Simulation::precompute`] does it before, with an observer.
+    /// The run ends after the step in which a base exceeds the
+    /// [`rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit), with [`Warning::Overturned`]; a
+    /// further call continues from there. Missing convolution weights are computed before the first step, without
+    /// an observer: [`Simulation::precompute`] computes them before, with one.
     ///
     /// The first run chooses the ground's history for its number of steps, unless
-    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) has: without that, two runs of half as many
-    /// steps may differ from one in the last bits.
+    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) was set. Without it, two runs of half
+    /// as many steps may differ from one run in the last bits.
     ///
     /// # Errors
-    /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error; the
-    /// simulation stays at the last accepted step, and [`Simulation::state`] shows it.
+    /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error; the simulation stays
+    /// at the last accepted step, which [`Simulation::state`] returns.
     pub fn run<R: Observed>(
         &mut self,
         steps: usize,
@@ -287,9 +293,10 @@ impl Simulation {
         Ok(self.end_run(run))
     }
 
-    /// Empty run that begins at the present state, for a loop of your own: with
-    /// [`Run::record`] after every step and [`Simulation::end_run`] it becomes what
-    /// [`Simulation::run`] returns. As an observer it spans several calls of that.
+    /// Starts an empty run at the present state, for a loop of your own.
+    ///
+    /// Call [`Run::record`] after every step and [`Simulation::end_run`] at the end to get the result of
+    /// [`Simulation::run`]. As an observer the run may span several calls of `run`.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -319,9 +326,9 @@ impl Simulation {
         Run::start(state, &self.scene.serviceability, resolution)
     }
 
-    /// Closes a run of this simulation: its warnings and wall time.
+    /// Closes a run of this simulation: adds its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
-        // A base that is held is meant to be pulled.
+        // A held base may be in tension.
         let held = holds(self.ground.as_ref());
         let opens = |element| held || self.scene.law(element).modes().contains(&Mode::Open);
         let (ground, motion) = (self.ground.as_ref(), self.motion.as_ref());
@@ -335,8 +342,9 @@ impl Simulation {
     }
 }
 
-/// Answer of an observer of [`Simulation::run`](crate::Simulation::run): nothing,
-/// [`ControlFlow`] to stop after a step, or a [`Result`] of either, whose error ends the run.
+/// Return value of an observer of [`Simulation::run`](crate::Simulation::run).
+///
+/// Nothing, [`ControlFlow`] to stop after a step, or a [`Result`] of either, whose error ends the run.
 ///
 /// ```
 /// use std::ops::ControlFlow::{Break, Continue};
@@ -362,7 +370,7 @@ impl Simulation {
 /// # Ok::<(), Error>(())
 /// ```
 pub trait Observed {
-    /// Whether the run goes on.
+    /// Whether the run continues.
     ///
     /// # Errors
     /// The observer's own.

@@ -1,16 +1,17 @@
-//! Flexible bases: whether contact elements are short enough for the shapes that loads give them.
+//! Check of flexible bases: whether contact elements are short enough for the base's static shape.
 //!
-//! Elements see means of the base displacement. A shape of zero means is held by the structure alone, and by the soil in
-//! reality.
+//! The ground receives the mean base displacement of each element. Only the structure resists a shape with zero
+//! means; in reality the soil resists it too.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | S | stiffness of the soil for displacements against the means of the elements |
-//! | ρ | least φᵀKφ / φᵀSφ of all shapes φ with zero means |
+//! | ρ | smallest φᵀKφ / φᵀSφ of all shapes φ with zero means |
 //!
-//! Of a mat 20 m wide with two columns on the half-plane, the settlement of these against the middle is off by a factor of
-//! 12 to 21, by 136 to 500 %, by 2 to 51 % and by 0.3 to 0.5 % at ρ = 0.06, 0.5, 3 and 29, as the columns stand. Of a slab 12 m
-//! square with one column in the middle it is off by 77, 16, 6 and 2 % at ρ = 0.2, 0.9, 2.4 and 11.
+//! Measured error of the settlement of columns relative to the middle of the base. Mat 20 m wide with two columns
+//! on the half-plane: a factor of 12 to 21, 136 to 500 %, 2 to 51 % and 0.3 to 0.5 % at ρ = 0.06, 0.5, 3 and 29,
+//! depending on the columns' places. Slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2,
+//! 0.9, 2.4 and 11.
 
 use super::static_stages;
 use crate::coupled::base::Base;
@@ -24,36 +25,37 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
 use crate::structure::{FaceNode, Triplets};
 
 const NAME: &str = "stiffness matrix with its contact elements held";
-/// ρ from which on elements are short enough.
+/// Smallest ρ at which elements are short enough.
 const STIFF: f64 = 6.0;
-/// Difference of the static shapes of a base by as many and by twice as many elements, relative, above which a solid warns,
-/// and above which it is an error.
+/// Relative difference of static shapes with as many and with twice as many elements: limits of a warning for
+/// solids, and of an error.
 const DIFFERENCE: f64 = 0.03;
 const ANOTHER: f64 = 0.3;
-/// ρ below which the static shape is another one, where twice the elements are not known.
+/// ρ below which the static shape is wrong, if the shape with twice the elements is unknown.
 const SOFT: f64 = 0.3;
-/// Increase of ρ with half the length of the elements, as a power of two: of beams and plates 3, of solids 0.
+/// Increase of ρ when elements are halved, as a power of two: 3 for beams and plates, 0 for solids.
 const POWERS: [f64; 2] = [1.0, 3.0];
-/// Springs that hold element means, relative to the soil.
+/// Stiffness of springs that hold element means, relative to the soil.
 const HELD: f64 = 1e4;
-/// Order of the largest matrix of twice the elements.
+/// Largest order of a matrix with twice the elements.
 const MOST: usize = 3600;
-/// Asymmetry of K that is rounding.
+/// Asymmetry of K that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// Power iterations for ρ at most, and the change that ends them.
+/// Largest number of power iterations for ρ, and the change at which they end.
 const ITERATIONS: usize = 20;
 const CONVERGED: f64 = 0.01;
 
-/// The softest shape of a base that its elements do not see.
+/// The softest shape of a base with zero mean displacement on every element.
 struct UnseenShape {
     /// ρ.
     ratio: f64,
-    /// Foundation that takes part most.
+    /// Foundation with the largest part in the shape.
     foundation: usize,
 }
 
-/// Warning of a flexible base on too few elements; `None` for a rigid base, which costs nothing, and for enough.
-/// `at_rest` is the static state.
+/// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
+///
+/// `at_rest`: the static state. A rigid base costs nothing.
 pub(crate) fn check(
     parts: &Parts,
     assembled: &Assembled,
@@ -68,7 +70,7 @@ pub(crate) fn check(
     let Some(UnseenShape { ratio, mut foundation }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = finer(parts, base) {
-        // Without a shape that twice the elements do not see, they are enough.
+        // If twice the elements leave no such shape, they are enough.
         let next = UnseenShape::of(assembled, &finer, &soil);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
@@ -89,7 +91,7 @@ pub(crate) fn check(
     if let Some((worst, _)) = difference {
         foundation = worst;
     }
-    // Solids, which more elements hardly stiffen, bridge the gaps between them.
+    // Solids, which more elements hardly stiffen, are stiff enough between elements.
     if power <= POWERS[0] && !is_off {
         return Ok(None);
     }
@@ -105,8 +107,9 @@ pub(crate) fn check(
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
 }
 
-/// Base on twice the elements, four times in plan, and their static compliance; `None` where it is not known, or too
-/// large for a check.
+/// Base on twice the elements, four times in plan, and their static compliance.
+///
+/// `None` if the compliance is unknown, or too large for a check.
 fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
     let patch = base.elements();
     let times = if patch.is_plan() { 4 } else { 2 };
@@ -122,8 +125,9 @@ fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
     Some((Base::of(parts.structure.as_ref(), &finer).ok()?, soil))
 }
 
-/// The foundation whose vertical static shape differs most between two static states, and by how much: root mean
-/// squares over the nodes, relative to the shape of the second state, best rigid motions left out.
+/// The foundation with the largest difference of vertical shape between two static states, and the difference.
+///
+/// Root mean squares over the nodes, relative to the shape of the second state, without the best rigid motions.
 fn largest_difference(base: &Base, one: &StaticState, other: &StaticState) -> (usize, f64) {
     let differences = base.foundations().map(|(nodes, _)| {
         let shape = |state: &StaticState| -> Vec<f64> {
@@ -138,7 +142,7 @@ fn largest_difference(base: &Base, one: &StaticState, other: &StaticState) -> (u
     differences.enumerate().fold((0, 0.0), worst)
 }
 
-/// Norm of values at the nodes without their best linear fit; NaN becomes infinite.
+/// Norm of values at the nodes minus their best linear fit; NaN becomes infinite.
 fn bent(nodes: &[FaceNode], values: Vec<f64>) -> f64 {
     let count = nodes.len() as f64;
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -165,7 +169,7 @@ fn bent(nodes: &[FaceNode], values: Vec<f64>) -> f64 {
     if norm.is_nan() { f64::INFINITY } else { norm / count.sqrt() }
 }
 
-/// Elements of a foundation, in plan those along its shorter side, with the name of that.
+/// Number of elements of a foundation; in plan along its shorter side, with the name of that axis.
 fn count(base: &Base, foundation: usize) -> (Option<char>, usize) {
     let patch = base.elements();
     let own = base.foundations().nth(foundation).map_or(0..0, |(_, own)| own);
@@ -186,8 +190,9 @@ fn count(base: &Base, foundation: usize) -> (Option<char>, usize) {
 }
 
 impl UnseenShape {
-    /// The shape with the least ρ on elements of this static compliance; `None` without one, and for a
-    /// structure whose stiffness is not symmetric.
+    /// The shape with the smallest ρ on elements of this static compliance.
+    ///
+    /// `None` if there is no such shape, or the structure's stiffness is not symmetric.
     fn of(assembled: &Assembled, base: &Base, soil: &[f64]) -> Option<Self> {
         let stiffness = assembled.stiffness_at_rest();
         let n = assembled.dofs();
@@ -209,7 +214,8 @@ impl UnseenShape {
         }
         let springs = SparseMatrix::new(NAME, &springs).ok()?;
         let mut factor = SparseFactor::new(NAME, &seen).ok()?;
-        // Power iteration from a vector of all signs and sizes: a quotient above the least one by some per cent.
+        // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the
+        // smallest.
         let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         let mut ratio = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -246,8 +252,9 @@ impl UnseenShape {
     }
 }
 
-/// Stiffness of the soil under each element in each component, Pa/m, for tractions that change sign from an element to
-/// its neighbour: as waves twice as long as the elements meet it.
+/// Stiffness of the soil under each element in each component, Pa/m.
+///
+/// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements.
 fn moduli(base: &Base, soil: &[f64]) -> Vec<f64> {
     let (layout, size) = (base.layout(), base.layout().len());
     let entry = |i: usize, j: usize| soil[i * size + j];

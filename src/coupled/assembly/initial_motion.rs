@@ -1,4 +1,4 @@
-//! Motion at t = 0: displacement and velocity against the static state, and what the base does with them.
+//! Motion at t = 0 relative to the static state, and the contact state that follows.
 
 use crate::coupled::parts::SimulationBuilder;
 use crate::coupled::scene::Scene;
@@ -13,8 +13,9 @@ use crate::structure::{Structure, massless, nonlinear_state};
 /// Gap relative to the largest displacement below which an element is closed.
 const CLOSED: f64 = 1e-12;
 
-/// Sets `state`, which is at rest, and the structure's internal variables in motion; `mass` is that of
-/// the degrees of freedom.
+/// Sets `state`, which is at rest, and the structure's internal variables to the initial motion.
+///
+/// `mass`: mass matrix of the degrees of freedom.
 pub(crate) fn set_in_motion(
     given: &SimulationBuilder,
     mass: &SparseMatrix,
@@ -49,7 +50,7 @@ pub(crate) fn set_in_motion(
     Ok(())
 }
 
-/// Gaps, slips and modes of the displaced base.
+/// Sets gaps, slips and modes of the displaced base.
 fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
     let layout = scene.layout();
     let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; layout.len()]);
@@ -91,7 +92,7 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     Ok(())
 }
 
-/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
+/// Acceleration a from M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let (model, at_rest) = (&scene.model, &scene.static_state);
     let mut force = vec![0.0; model.coordinates];
@@ -114,15 +115,16 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     Ok(force)
 }
 
-/// Force on a degree of freedom without mass, relative to the largest force, that counts as none.
+/// Force on a massless degree of freedom, relative to the largest force, that counts as zero.
 const BALANCED: f64 = 1e-9;
 
-/// Square of a time, s², that is short to every structure.
+/// Square of a time, s², that is short for every structure.
 const SMALL: f64 = 1e-20;
 
-/// Replaces `force` by the acceleration that it gives a structure at rest. Degrees of freedom without mass
-/// follow the others by their stiffness, so small that it resists nothing; with Lagrange multipliers it
-/// is the constraint of the accelerations.
+/// Replaces `force` by the acceleration that it gives a structure at rest.
+///
+/// Massless degrees of freedom follow the others by their stiffness, scaled so small that it resists nothing. For
+/// Lagrange multipliers this stiffness is the constraint of the accelerations.
 fn accelerate(mass: &SparseMatrix, stiffness: &SparseMatrix, force: &mut [f64]) -> Result<()> {
     let largest = largest(force);
     if largest == 0.0 {

@@ -3,12 +3,12 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | F | rows of degrees of freedom where forces act or probes read |
-//! | σ | shifts, beginning with that of the scheme, √(a/k): 2/Δt for the midpoint rule |
+//! | σ | shifts, starting with the scheme's shift √(a/k): 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for others |
 //!
-//! The space holds rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on, one power more of every shift in each
-//! round (Ruhe 1984; Grimme 1997). Each power of K_eff makes two more steps after a change of traction
-//! exact. Lower shifts serve the modes there, of which they soon have all; one above serves what a
+//! The space holds rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on: each round adds one power of every shift (Ruhe
+//! 1984; Grimme 1997). Each power of K_eff makes two more steps after a change of traction exact. Lower shifts
+//! represent modes at lower frequencies, of which few are soon complete; one higher shift represents motion that a
 //! step cannot follow.
 
 use crate::coupled::assembly::step_response::{Rows, StepResponses};
@@ -22,27 +22,29 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::structure::{FaceNode, HeldBase, stiffest};
 
-/// Ratio of a shift to the one before.
+/// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
-/// Directions are left out if the fraction of them that is new is below this, and below this multiple of the root of
-/// the tolerance: their part of the responses is its square.
+/// A direction is left out if the new fraction of it is below this, and below this multiple of the root of the
+/// tolerance.
+///
+/// The responses depend on the square of that fraction.
 const NEW: f64 = 1e-2;
 const NEW_BY_ROOT: f64 = 10.0;
-/// Least fraction of a direction that must be new, in the end.
+/// Smallest new fraction of a direction, in the last rounds.
 const LEAST_NEW: f64 = 1e-7;
-/// The next round changes this much less than the last, at best.
+/// Smallest ratio of a round's change to the previous round's in the prediction.
 const FASTEST: f64 = 0.1;
-/// Rounds after which the tolerance is given up, after half of them if it cannot be expected.
+/// Largest number of rounds; half of them if the tolerance cannot be expected.
 const ROUNDS: usize = 16;
-/// The lowest shift over the scheme's, at least.
+/// Smallest ratio of the lowest shift to the scheme's.
 const LOWEST: f64 = 1e-6;
-/// Steps over which responses are compared, at most.
+/// Largest number of steps over which responses are compared.
 const LONGEST: usize = 10_000;
 
-/// Times at which the structure's own load is sampled.
+/// Number of times at which the structure's own load is sampled.
 const SAMPLES: u32 = 16;
 
-/// All that a reduction looks at. Rows have an entry for every degree of freedom.
+/// Input of a reduction. Rows have an entry for every degree of freedom.
 pub(crate) struct Reduction<'a> {
     assembled: &'a Assembled,
     coefficients: &'a SchemeCoefficients,
@@ -52,15 +54,16 @@ pub(crate) struct Reduction<'a> {
     held: &'a SparseFactor,
     /// Steps of the run.
     steps: usize,
-    /// Rows of the probes, none of them zero.
+    /// Rows of the probes that are not zero.
     rows: Rows,
     /// Displacements that the modes must contain.
     motions: Vec<f64>,
 }
 
 impl<'a> Reduction<'a> {
-    /// Gathers what acts on a structure, by the factors of its effective stiffness and of its stiffness with its base
-    /// held.
+    /// Collects forces and probes of a structure.
+    ///
+    /// `factor`: of its effective stiffness. `held`: of its stiffness with the base held.
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
@@ -81,7 +84,7 @@ impl<'a> Reduction<'a> {
             if k == 0 {
                 loaded?;
             } else if loaded.is_err() {
-                // The run may never come so far.
+                // The run may end before that time.
                 continue;
             }
             if load.iter().all(|force| force.is_finite()) {
@@ -122,7 +125,7 @@ impl<'a> Reduction<'a> {
         Ok(Self { assembled, coefficients, factor, held, steps, rows, motions })
     }
 
-    /// The Ritz modes with which the responses to suddenly applied forces err by less than `tolerance`.
+    /// The Ritz modes whose responses to suddenly applied forces are within `tolerance`.
     pub(crate) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
         const NAME: &str = "tolerance of reduced coordinates";
         finite(NAME, tolerance)?;
@@ -152,7 +155,7 @@ impl<'a> Reduction<'a> {
                 if least <= LEAST_NEW {
                     return Ok(space.basis(&space.ritz()?));
                 }
-                // Again, for the little that was left out.
+                // Repeats with a lower limit for the directions that were left out.
                 least = LEAST_NEW.max(NEW * least);
                 blocks.fill(rows.clone());
                 continue;
@@ -168,7 +171,7 @@ impl<'a> Reduction<'a> {
                 if change.is_finite() {
                     rate = (by / change).clamp(FASTEST, 1.0);
                 }
-                // Estimated change by the next round, at the rate of this one.
+                // Estimated change by the next round, at the rate of this round.
                 (change, reached) = (by, by * rate);
             }
             if reached <= tolerance || space.count() == self.assembled.dofs() {
@@ -183,7 +186,7 @@ impl<'a> Reduction<'a> {
         Err(ReducedError::Accuracy { tolerance, reached, vectors: space.count() }.into())
     }
 
-    /// Mass, damping and stiffness, if they can be reduced.
+    /// Mass, damping and stiffness; an error if they cannot be reduced.
     fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
         if !self.assembled.linear {
             return Err(ReducedError::Nonlinear.into());
@@ -202,7 +205,7 @@ impl<'a> Reduction<'a> {
         Ok(matrices)
     }
 
-    /// Factors at one shift above the scheme's and those below it.
+    /// Factors at one shift above the scheme's shift and at the shifts below it.
     fn shifts(
         &self,
         lowest: f64,
@@ -222,8 +225,9 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// Answers to a rotation of each part's base, which are rigid rotations of the parts that stand on
-    /// one level, and about the lowest frequency with the base held (Rayleigh's quotient).
+    /// Responses to a rotation of each part's base, and an estimate of the lowest frequency with the base held.
+    ///
+    /// The responses are rigid rotations of parts that stand on one level. The estimate is Rayleigh's quotient.
     fn held(
         &self,
         translations: &[f64],
@@ -253,7 +257,7 @@ impl<'a> Reduction<'a> {
     }
 }
 
-/// Adds a row, unless it is zero.
+/// Adds a row unless it is zero; returns whether it was added.
 fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
     let kept = row.iter().any(|value| *value != 0.0);
     if kept {

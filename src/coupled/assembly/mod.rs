@@ -1,11 +1,11 @@
 //! Build of a simulation, in the order of [`SimulationBuilder::build`].
 //!
-//! 1. `parts.rs`: the given parts, each checked by itself;
+//! 1. `parts.rs`: the given parts, each checked alone;
 //! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
 //! 3. `static_stages.rs`: weight first, then the loads at t = 0, by the search of `statics/equilibrium.rs`;
-//!    `flexible_base.rs` compares the result with the static state on twice the elements where these may be too few;
-//! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these; `vibration_modes.rs` finds all
-//!    modes, `krylov.rs` Ritz modes;
+//!    `flexible_base.rs` compares the result with the static state on twice the elements if these may be too few;
+//! 4. `stepped.rs`: choice of the coordinates; matrices, base and operators in them; `vibration_modes.rs` computes
+//!    all modes, `krylov.rs` Ritz modes;
 //! 5. `scene.rs`: the scene; `initial_motion.rs`: the motion at t = 0.
 
 mod flexible_base;
@@ -45,7 +45,7 @@ use crate::structure::Structure;
 use crate::structure::probe::Probe;
 
 impl Simulation {
-    /// Begins a simulation with steps of `time_step` seconds.
+    /// Starts a simulation with steps of `time_step` seconds.
     pub fn builder(time_step: f64) -> SimulationBuilder {
         SimulationBuilder::new(time_step)
     }
@@ -59,8 +59,10 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the ground. Contact is where its elements are: a part of the base beyond them is not in contact, and
-    /// elements beyond the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
+    /// Sets the ground.
+    ///
+    /// Its elements define the contact area: a part of the base beyond them is not in contact, and elements beyond
+    /// the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));
@@ -88,7 +90,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the structure's time scheme; [`Midpoint`](crate::coupled::Midpoint) unless given.
+    /// Sets the structure's time scheme; default [`Midpoint`](crate::coupled::Midpoint).
     #[must_use]
     pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
         self.scheme = Box::new(scheme);
@@ -102,25 +104,28 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets gravity g (m/s²), which gives the structure its weight;
-    /// [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY) unless given. The run starts from the static state: weight
-    /// first, then the loads at t = 0 with the interface law. With zero there is no static state: the base starts
-    /// without pressure, so nothing resists uplift and sliding.
+    /// Sets gravity g (m/s²), which gives the structure its weight.
+    ///
+    /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state:
+    /// weight first, then the loads at t = 0 with the interface law. With zero there is no static state: the base
+    /// starts without pressure, so nothing resists uplift and sliding.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
         self.gravity = gravity;
         self
     }
 
-    /// Adds an external load, beside those given before and the structure's own.
+    /// Adds an external load to the previous ones and the structure's own.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
         self
     }
 
-    /// Sets the displacement of the degrees of freedom at t = 0 against the static state. It may move the base only
-    /// with [`GravityStage::Unloaded`], which shows one, and not into the ground.
+    /// Sets the displacement of the degrees of freedom at t = 0 relative to the static state.
+    ///
+    /// It may move the base only with [`GravityStage::Unloaded`], whose static state has no contact forces, and
+    /// not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
         self.displacement = displacement.into();
@@ -155,56 +160,65 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the point (m) along x about which the base moment is taken, in plan the torque too; the middle of the base
-    /// unless given, and along y always.
+    /// Sets the point (m) along x for the base moment, in plan also for the torque.
+    ///
+    /// Default: the middle of the base. Along y it is always the middle.
     #[must_use]
     pub fn moment_center(mut self, x: f64) -> Self {
         self.moment_center = Some(x);
         self
     }
 
-    /// Sets about how many steps will be made: weights and memory are then ready before the first (of up to 100 000),
-    /// and the ground's history and the structure's coordinates are chosen for this number (if not given, for that of
-    /// the first run and for 4 000). A run that ends before the last of them does not warn that it ends early.
+    /// Sets the approximate number of steps that will follow.
+    ///
+    /// Weights and memory are then ready before the first step (for up to 100 000 steps). The ground's history and
+    /// the structure's coordinates are chosen for this number; by default, for the steps of the first run and for
+    /// 4 000. A run that ends before the last of these steps does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
         self
     }
 
-    /// Sets the coordinates in which a linear structure is stepped; [`Coordinates::Auto`] unless given.
+    /// Sets the coordinates in which a linear structure is stepped; default [`Coordinates::Auto`].
     #[must_use]
     pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
         self.coordinates = coordinates;
         self
     }
 
-    /// Keeps no energy balance: its terms and the energy error are then NaN, and a step takes less time.
+    /// Omits the energy balance: its terms and the energy error are NaN, and a step takes less time.
     #[must_use]
     pub fn without_energy_balance(mut self) -> Self {
         self.energy_balance = false;
         self
     }
 
-    /// Sets friction coefficients for the factor of safety against sliding, one for all elements or one each from left
-    /// to right, in place of those of the interface laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base,
-    /// say, which has none. They change nothing else.
+    /// Sets friction coefficients for the factor of safety against sliding.
+    ///
+    /// One for all elements or one each from left to right. They replace the coefficients of the interface laws
+    /// ([`InterfaceLaw::friction_coefficient`]), for example for a bonded base, which has none. They change
+    /// nothing else.
     #[must_use]
     pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
         self.safety_friction = coefficients.into();
         self
     }
 
-    /// Sets limits of slip, gap, uplifted part and rotation that each [`Run`](crate::results::Run) is
-    /// held against; none unless given. They change nothing else.
+    /// Sets limits of slip, gap, uplifted part and rotation; each [`Run`](crate::results::Run) is checked against
+    /// them.
+    ///
+    /// Default: none. They change nothing else.
     #[must_use]
     pub fn serviceability(mut self, limits: Serviceability) -> Self {
         self.serviceability = limits;
         self
     }
 
-    /// Sets the rotation of a base (rad, about a horizontal axis) at which a run ends, 1 unless given: geometry is that of
-    /// small rotations, and what has overturned would turn for ever. Infinite: runs end by their steps alone.
+    /// Sets the rotation of a base (rad, about a horizontal axis) at which a run ends; default 1.
+    ///
+    /// The geometry is valid for small rotations only, and an overturned base would rotate for ever. If infinite,
+    /// runs end by their number of steps only.
     ///
     /// ```
     /// use basemat::Simulation;
@@ -234,10 +248,11 @@ impl SimulationBuilder {
         self
     }
 
-    /// Holds the base: each foundation keeps its shape and moves with the free field under it, as codes and fixed-base
-    /// models have it. Ground and interface law are left out, but for the places of the contact elements; base shear,
-    /// moment and tractions then act on the support. [`interaction`](crate::coupled::interaction()) compares the run
-    /// with that on the ground.
+    /// Holds the base: each foundation keeps its shape and moves with the free field under it.
+    ///
+    /// Codes and fixed-base models assume this. Ground and interface law are ignored, except for the places of the
+    /// contact elements; base shear, moment and tractions then act on the support.
+    /// [`interaction`](crate::coupled::interaction()) compares the run with the run on the ground.
     ///
     /// ```
     /// use basemat::bem::ElasticGround;
@@ -265,27 +280,28 @@ impl SimulationBuilder {
         self
     }
 
-    /// Checks the parts against each other, finds the static state and factors what stays constant.
+    /// Checks the parts against each other, finds the static state and factors constant matrices.
     ///
     /// # Errors
-    /// [`crate::Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
-    /// [`crate::Error::Restrained`] for a structure that is held by more than the ground,
-    /// [`crate::Error::Detached`] for one with a part that is not connected to its base,
-    /// [`crate::Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with
-    /// the base held.
-    /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that is not
-    /// there or a name that comes twice. [`crate::Error::Stability`] if the structure cannot stand under
-    /// weight and the loads at t = 0, [`crate::Error::Preload`] if no equilibrium was found for another
-    /// reason, [`crate::Error::CoarseBase`] for a flexible base on contact elements so few that twice as many
-    /// change its static shape by more than 30 %, [`crate::Error::IllConditioned`] if double precision cannot carry the
-    /// scene,
-    /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
+    /// * the typed error of a part that is wrong, [`crate::Error::Scene`] for a missing part;
+    /// * [`crate::Error::Restrained`] for a structure held by more than the ground, [`crate::Error::Detached`] for
+    ///   one with a part that is not connected to its base, [`crate::Error::Indefinite`] for a negative mass or
+    ///   damping, or a stiffness that is negative with the base held;
+    /// * [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that does
+    ///   not exist or a name that occurs twice;
+    /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0,
+    ///   [`crate::Error::Preload`] if no equilibrium was found for another reason;
+    /// * [`crate::Error::CoarseBase`] for a flexible base on so few contact elements that twice as many change its
+    ///   static shape by more than 30 %;
+    /// * [`crate::Error::IllConditioned`] if double precision is insufficient for the scene;
+    /// * [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
     pub fn build(self) -> Result<Simulation> {
         self.built(None)
     }
 
-    /// Builds as [`SimulationBuilder::build`] does, with an observer of the ground's convolution weights: those of the
-    /// expected steps, or those that the build itself needs.
+    /// Builds as [`SimulationBuilder::build`] does, with an observer of the ground's convolution weights.
+    ///
+    /// They are the weights of the expected steps, or those that the build itself needs.
     ///
     /// # Errors
     /// [`crate::Error::Stopped`] by the observer; as for [`SimulationBuilder::build`].
@@ -329,7 +345,7 @@ impl SimulationBuilder {
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
-            // Last: stiffnesses too far apart for double precision look like a mechanism.
+            // Last, since stiffnesses too far apart for double precision look like a mechanism.
             assembled.at_rest(structure.as_ref()).check(&mut held)?;
         }
         Ok(Simulation {

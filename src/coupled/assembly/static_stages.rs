@@ -1,4 +1,4 @@
-//! The static state in stages, weight first, then the loads at t = 0, and the initial motion.
+//! The static state in stages: weight first, then the loads at t = 0.
 
 use crate::coupled::base::influence::UP;
 use crate::coupled::gravity_stage::GravityStage;
@@ -14,23 +14,24 @@ use crate::interface::{
 use crate::linalg::largest;
 use crate::structure::{Structure, nonlinear_state};
 
-/// Increments of a load under which elements slide: friction makes their path matter.
+/// Number of load increments if elements slide, since friction depends on the path.
 const INCREMENTS: usize = 10;
 
-/// Passes in which state variables of laws settle.
+/// Largest number of passes until state variables of laws are constant.
 const PASSES: usize = 10;
 
-/// Relative change of a state variable in the last pass that is taken for rounding.
+/// Relative change of a state variable in the last pass that counts as rounding.
 const UNSETTLED: f64 = 1e-6;
 
-/// Part of the largest pressure and displacement by which a static state may miss the conditions of a law.
+/// Tolerance of a law's conditions in a static state, relative to the largest pressure and displacement.
 const PLACED: f64 = 1e-6;
 
-/// Length of the step that a gravity stage is to the laws, s.
+/// Step length that laws see in a gravity stage, s.
 const TIME_STEP: f64 = 1.0;
 
-/// The state under weight and the loads at t = 0, which the structure's internal variables follow;
-/// trivial without gravity.
+/// The state under weight and the loads at t = 0; trivial without gravity.
+///
+/// Commits the structure's internal variables to it.
 pub(crate) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     if parts.given.is_static() {
@@ -57,8 +58,9 @@ pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
     Ok(soil)
 }
 
-/// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws; internal
-/// variables of the structure stay as they are.
+/// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws.
+///
+/// The structure's internal variables stay unchanged.
 pub(crate) fn under_loads(
     parts: &Parts,
     assembled: &Assembled,
@@ -86,7 +88,7 @@ pub(crate) fn under_loads(
     Ok(StaticState { load: own, ..state })
 }
 
-/// The state under `weight`, placed as chosen, and then under `load`, with the interface laws.
+/// The state under `weight` by the chosen gravity stage, and then under `load` with the interface laws.
 fn in_stages(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -96,7 +98,7 @@ fn in_stages(
     let layout = stage.assembled.base.layout();
     let count = layout.elements();
     let is_placed = gravity_stage == GravityStage::Frictionless;
-    // In plan the laws' own limits hold, all but friction and cohesion.
+    // In plan the laws' own limits apply, without friction and cohesion.
     let by_limits = is_placed && layout.is_plan();
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
@@ -115,8 +117,8 @@ fn in_stages(
     if is_smooth {
         check_placed(laws, &state, &start)?;
     }
-    // A frictionless law with as many state variables is the same law. Others begin anew, and so do elements to whose
-    // law nothing happened.
+    // A frictionless law with as many state variables is the same law and keeps them. Other laws start with new
+    // ones, and so do elements whose state variables have not changed.
     let keeps = |e: usize, own: &[f64]| {
         let is_same = own.len() == law_of(laws, e).state_variables();
         is_same && !(by_limits && own == first.state_variables_of(e))
@@ -130,7 +132,7 @@ fn in_stages(
     if load.iter().all(|force| *force == 0.0) {
         return Ok(state);
     }
-    // From here on the base sticks where it was placed.
+    // From now on the base sticks at its place.
     state.modes = state.modes_with(laws);
     let placed: Vec<_> = (0..count)
         .map(|e| {
@@ -161,8 +163,9 @@ fn in_stages(
     }
 }
 
-/// Refuses a static state, found without friction, that the law of a closed element does not hold: a law with a bearing
-/// pressure or a compliance, say, whose frictionless law has none.
+/// Error for a static state, found without friction, that the law of a closed element cannot hold.
+///
+/// Example: a law with a bearing pressure or a compliance whose frictionless law has none.
 fn check_placed(
     laws: &[Box<dyn InterfaceLaw>],
     state: &StaticState,
@@ -202,8 +205,9 @@ fn check_placed(
     Ok(())
 }
 
-/// Equilibrium under `load` from where `start` and `state` are, and where it leaves them: with laws
-/// with state variables is found again until these no longer change.
+/// Equilibrium under `load`, starting from `start` and `state`; returns the final state.
+///
+/// With state variables it is repeated until these are constant.
 fn settle(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -217,7 +221,7 @@ fn settle(
         (state, contact) = stage.equilibrium(laws, &start, state, load)?;
         let mut seen = contact.clone();
         if stage.frictionless {
-            // To a law the base sticks where it is placed.
+            // Laws see a base that sticks at its place.
             state.modes.iter_mut().for_each(|mode| *mode = mode.sticking());
             for (e, own) in seen.iter_mut().enumerate() {
                 let ContactState { slip, slip_across, .. } = *start.state(e);
@@ -238,7 +242,7 @@ fn settle(
     Ok((state, start))
 }
 
-/// Refuses state variables that change at rest by more than rounding.
+/// Error for state variables that change at rest by more than rounding.
 fn check_settled(before: &[f64], now: &[f64]) -> Result<()> {
     let changes = before.iter().zip(now).map(|(before, now)| {
         let size = before.abs().max(now.abs());

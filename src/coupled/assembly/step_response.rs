@@ -1,29 +1,30 @@
-//! Responses of a structure in its modes to unit forces that are suddenly applied, as the time scheme
-//! steps them: by these, two sets of Ritz modes are compared.
+//! Responses of modes to suddenly applied unit forces, by the time scheme; they serve to compare two sets of Ritz
+//! modes.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | f | row in terms of the modes, with f K_eff⁻¹ fᵀ = 1 |
 //! | u, v, a | displacement, velocity, acceleration of the modes under a unit force on each |
 //!
-//! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows steadily,
-//! accelerations are the velocities v, and velocities the displacements u, of a constant one. Loads may
-//! jump: what a probe reads then is its sum of u, v and a.
+//! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows at a constant rate,
+//! the accelerations are the velocities v under a constant force, and the velocities the displacements u. Loads
+//! may jump: the value of a probe is then its sum of u, v and a.
 
 use crate::coupled::assembly::subspace::Ritz;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::linalg::{largest, row_products};
 
-/// Rounding of a response, relative to the largest of all.
+/// Rounding of a response, relative to the largest response.
 const ROUNDING: f64 = 1e-13;
 
-/// Rows of degrees of freedom that forces act on and that probes read.
+/// Rows of degrees of freedom with forces, and rows of probes.
 pub(crate) struct Rows {
-    /// Loads, other forces, displacements and velocities, accelerations: an entry for every degree of freedom.
+    /// Rows of loads, other forces, displacements and velocities, accelerations: an entry for every degree of
+    /// freedom.
     pub(crate) all: Vec<f64>,
-    /// Loads, all forces, and all but accelerations.
+    /// Number of loads, of all forces, and of all rows except accelerations.
     pub(crate) counts: [usize; 3],
-    /// Rows of displacements, velocities and accelerations that each probe sums.
+    /// Row numbers of displacements, velocities and accelerations that each probe sums.
     pub(crate) probes: Vec<[Option<usize>; 3]>,
 }
 
@@ -32,7 +33,7 @@ pub(crate) struct StepResponses {
     /// Displacements and velocities at some steps: forces × outputs each.
     values: [Vec<f64>; 2],
     outputs: usize,
-    /// Outputs from this one on are accelerations.
+    /// Number of the first output that is an acceleration.
     accelerations: usize,
     /// Values of the probes at these steps: loads × probes.
     read: Vec<f64>,
@@ -40,7 +41,7 @@ pub(crate) struct StepResponses {
 }
 
 impl StepResponses {
-    /// Responses over `steps` steps of `rows`, whose `shares` in the modes these are.
+    /// Responses over `steps` steps of `rows`; `shares`: the rows in terms of the modes.
     pub(crate) fn new(
         modes: &Ritz,
         mut shares: Vec<f64>,
@@ -68,7 +69,7 @@ impl StepResponses {
             .collect();
         let mut states = vec![0.0; times.len() * 3 * count];
         for (j, (k, d)) in modes.stiffness.iter().zip(&modes.damping).enumerate() {
-            // Rigid motions are in every set.
+            // Every set contains the rigid motions.
             if *k == 0.0 {
                 continue;
             }
@@ -109,11 +110,13 @@ impl StepResponses {
         Self { values, outputs: sizes.len(), accelerations, read, probes: rows.probes.len() }
     }
 
-    /// Largest difference to `other` of any output, relative to the largest value of that output; at least rounding.
+    /// Largest difference of any output from `other`, relative to the largest value of that output.
+    ///
+    /// At least rounding.
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
         let [u, v] = [0, 1].map(|kind| [&self.values[kind][..], &other.values[kind]]);
         let (first, all) = (self.accelerations, self.outputs);
-        // What a probe reads has a unit of its own.
+        // The value of a probe has a unit of its own.
         let rounding = ROUNDING / tolerance;
         let floors = [u, v].map(|[own, _]| rounding * largest(own));
         let looks = [
@@ -147,13 +150,14 @@ impl StepResponses {
     }
 }
 
-/// A step of one mode under a unit force: rows of the new displacement, velocity and acceleration in terms of the old
-/// ones and of 1.
+/// A step of one mode under a unit force.
+///
+/// Rows of the new displacement, velocity and acceleration in terms of the old ones and of 1.
 #[derive(Clone, Copy)]
 struct Step([[f64; 4]; 3]);
 
 impl Step {
-    /// Step of a mode of this effective stiffness, damping and stiffness.
+    /// Step of a mode with this effective stiffness, damping and stiffness.
     fn new(c: &SchemeCoefficients, [effective, damping, stiffness]: [f64; 3]) -> Self {
         let known =
             |i: usize| c.acceleration[i] + damping * c.velocity[i] + stiffness * c.displacement[i];
@@ -171,7 +175,7 @@ impl Step {
         self.0.map(|[u, v, a, one]| u * state[0] + v * state[1] + a * state[2] + one)
     }
 
-    /// The step made twice.
+    /// Two steps in one.
     fn twice(&self) -> Self {
         let own = &self.0;
         Self(own.map(|row| {
@@ -182,7 +186,7 @@ impl Step {
         }))
     }
 
-    /// States after as many steps as `times` says, ascending, from rest: by powers of two of the step.
+    /// States from rest after the numbers of steps `times`, ascending; computed by powers of two of the step.
     fn states(self, times: &[usize]) -> impl Iterator<Item = [f64; 3]> {
         let mut powers = vec![self];
         let (mut state, mut now) = ([0.0; 3], 0);

@@ -1,4 +1,4 @@
-//! The structure in the coordinates that are stepped: the choice between degrees of freedom, modes and Ritz modes.
+//! The structure in its stepping coordinates: the choice between degrees of freedom, modes and Ritz modes.
 
 use super::vibration_modes::vibration_modes;
 use crate::coupled::assembly::krylov::Reduction;
@@ -15,26 +15,26 @@ use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::{Structure, Tangent};
 
-/// Steps that modes have to pay for themselves in, unless given otherwise.
+/// Default number of steps within which computing the modes must save time.
 const STEPS: usize = 4_000;
 
 /// Needs of [`Coordinates::Modes`].
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
 
-/// Times in nanoseconds that choose the coordinates, as measured by `benches/studies/benches/step.rs`.
+/// Times in nanoseconds for the choice of coordinates, as measured by `benches/studies/benches/step.rs`.
 mod cost {
-    /// Per entry of a sparse factor or matrix and use.
+    /// Per entry of a sparse factor or matrix, and use.
     pub(crate) const SPARSE_ENTRY: f64 = 1.0;
-    /// Per mode and step, more than a degree of freedom costs.
+    /// Per mode and step, in addition to a degree of freedom.
     pub(crate) const MODE: f64 = 4.0;
-    /// Per mode, contact component and step, more than degrees of freedom cost.
+    /// Per mode, contact component and step, in addition to degrees of freedom.
     pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
-    /// Per squared and per cubed number of modes, once.
+    /// Per squared and per cubed number of modes, for computing them.
     pub(crate) const MODES: [f64; 2] = [60.0, 0.45];
 }
 
-/// Matrices, base and operators of a structure, all in the coordinates that are stepped.
+/// Matrices, base and operators of a structure, in the stepping coordinates.
 pub(crate) struct Stepped {
     pub(crate) model: Model,
     pub(crate) base: Base,
@@ -42,8 +42,10 @@ pub(crate) struct Stepped {
 }
 
 impl Stepped {
-    /// Chooses the coordinates, and factors the effective stiffness in them. That of the degrees of freedom is
-    /// factored only where it is stepped or the choice needs it; `held` is the factored stiffness with its base held.
+    /// Chooses the coordinates, and factors the effective stiffness in them.
+    ///
+    /// The effective stiffness of the degrees of freedom is factored only if they are stepped or the choice needs
+    /// it. `held`: factored stiffness with the base held.
     pub(crate) fn choose(
         parts: &Parts,
         assembled: &Assembled,
@@ -68,7 +70,7 @@ impl Stepped {
             }
             Coordinates::Modes => {
                 let Some(modes) = vibration_modes(assembled) else {
-                    // What is singular says so first.
+                    // A singular matrix is reported first.
                     factored()?;
                     return Err(Error::Scene { quantity: "modal coordinates", needed: NEEDED });
                 };
@@ -94,13 +96,13 @@ impl Stepped {
     }
 }
 
-/// Coordinates, with what choosing them has left.
+/// Coordinates, and the matrices already computed for them.
 enum Chosen {
     Physical(Box<SparseFactor>),
     Modes(ModalBasis),
 }
 
-/// Cause of `error`, that the effective stiffness has no factors.
+/// Cause of `error`: the reason why the effective stiffness cannot be factored.
 fn cause(
     assembled: &Assembled,
     structure: &dyn Structure,
@@ -115,8 +117,9 @@ fn cause(
     found.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// The modes, if stepping in them takes less time, their computation included; `factor` is the number
-/// of entries of the sparse factor.
+/// The modes, if stepping in them takes less time, including their computation.
+///
+/// `factor`: number of entries of the sparse factor.
 fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
     let (n, steps) = (assembled.dofs() as f64, steps as f64);
     let contact = assembled.base.layout().len();

@@ -1,25 +1,25 @@
-//! A subspace of a structure's displacements and the structure's matrices in it (Galerkin).
+//! A subspace of a structure's displacements, and the structure's matrices in it (Galerkin).
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | V | vectors, V M Vᵀ = 1 |
 //! | F | rows of degrees of freedom: where forces act and displacements are read |
 //!
-//! All are rows. The first vectors are rigid translations, which K does not resist: their products
-//! with K are zero, not rounding.
+//! All are rows. The first vectors are rigid translations, which K does not resist: their products with K are set
+//! to zero.
 
 use crate::coupled::base::transformation::ModalBasis;
 use crate::error::{ReducedError, Result};
 use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
 
-/// Residual of the eigenproblem, and of damping taken for diagonal, relative to its terms.
+/// Residual of the eigenproblem, and of damping that counts as diagonal, relative to its terms.
 pub(crate) const DECOUPLED: f64 = 1e-10;
-/// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
+/// Eigenvalues below this, relative to the largest, count as zero.
 const ZERO: f64 = 1e-13;
-/// Least eigenvalue besides zero, relative to the largest: between the two nothing is certain.
+/// Smallest eigenvalue above zero, relative to the largest: between the two limits it is uncertain.
 const LEAST: f64 = 1e-10;
 
-/// Least part of a translation that others do not have.
+/// Smallest independent part of a translation.
 const INDEPENDENT: f64 = 1e-7;
 
 /// V and the matrices in it.
@@ -68,12 +68,13 @@ impl<'a> Subspace<'a> {
         &self.momenta[first * self.order()..]
     }
 
-    /// Adds the directions of `block` of which, with rows scaled to a length of one, more than `least`
-    /// is outside.
+    /// Adds the directions of `block` with more than the fraction `least` outside the subspace.
+    ///
+    /// Rows are scaled to a length of one.
     pub(crate) fn extend(&mut self, mut block: Vec<f64>, least: f64) {
         let (n, before) = (self.order(), self.count());
         let mut momenta = Vec::new();
-        // Twice is enough.
+        // Two passes remove rounding.
         for pass in 0..2 {
             let count = block.len() / n;
             let shares = row_products(&self.momenta, &block, n);
@@ -203,9 +204,10 @@ impl<'a> Subspace<'a> {
     }
 }
 
-/// Weights, a row each, of orthonormal combinations of vectors with these scalar products: Gram and
-/// Schmidt's, the longest remainder first, while its square exceeds `least`. Vectors of separate parts
-/// stay separate.
+/// Weights, a row each, of orthonormal combinations of vectors with these scalar products.
+///
+/// Gram–Schmidt, the longest remainder first, while its square exceeds `least`. Vectors of separate parts stay
+/// separate.
 fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
     let mut rest: Vec<Vec<f64>> =
         (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();

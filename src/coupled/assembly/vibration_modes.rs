@@ -1,4 +1,4 @@
-//! All vibration modes of a linear structure, if its matrices are diagonal in them.
+//! All vibration modes of a linear structure with matrices that are diagonal in them.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -6,22 +6,21 @@
 //! | c | modal damping, Φᵀ C Φ = diag(c) |
 //! | R | influence vectors |
 //!
-//! The rigid translations are modes of their own, exactly: R spans the first ones, and no deforming
-//! mode has a part in it.
+//! The rigid translations are exact modes: R spans the first modes, and deforming modes have no part of them.
 
 use crate::coupled::assembly::subspace::{DECOUPLED, transpose};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::linalg::{Partition, dot, generalised_modes, largest};
 
-/// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
+/// Eigenvalues below this, relative to the largest, count as zero.
 const ZERO: f64 = 1e-11;
-/// Smallest eigenvalue besides zero, relative to the largest: between the two nothing is certain.
+/// Smallest eigenvalue above zero, relative to the largest: between the two limits it is uncertain.
 const SMALLEST: f64 = 1e-8;
 /// Rigid motions in a plane, and in three dimensions.
 const RIGID_MOTIONS: [usize; 2] = [3, 6];
 
-/// Modes that diagonalise mass, damping and stiffness; `None` if there are none, or not well enough.
+/// Modes that diagonalise mass, damping and stiffness; `None` if they do not exist or are not accurate.
 pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let matrices = assembled.matrices();
     if !assembled.linear || matrices.iter().any(|matrix| matrix.asymmetry() > 1e-13) {
@@ -33,7 +32,7 @@ pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let top = largest(&values);
     let noise = ZERO * top;
     let rigid = values.iter().filter(|value| value.abs() <= noise).count();
-    // Below its noise an eigenvalue is a rigid motion's, unless there are too many of them.
+    // An eigenvalue below the noise belongs to a rigid motion, unless there are too many of them.
     let smallest = values.iter().map(|v| v.abs()).filter(|v| *v > noise);
     let mut parts = Partition::new(n);
     for matrix in matrices {
@@ -78,8 +77,9 @@ pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     decoupled.then(|| ModalBasis::of(squares, dampings, transpose(&modes, n)))
 }
 
-/// An orthonormal basis of the rigid modes `still`, as vectors and their momenta: the influence vectors
-/// first, whose number comes with it.
+/// An orthonormal basis of the rigid modes `still`, as vectors and their momenta.
+///
+/// The influence vectors come first; the second value is their number.
 fn rigid_basis(
     assembled: &Assembled,
     still: &mut [Vec<f64>],
@@ -107,7 +107,7 @@ fn rigid_basis(
     }
     let separated = basis.len();
     while basis.len() < still.len() {
-        // The one with most left over.
+        // The vector with the largest remainder.
         for vector in still.iter_mut() {
             project(vector, &basis);
         }
@@ -120,9 +120,9 @@ fn rigid_basis(
     (basis.len() == still.len()).then_some((basis, separated))
 }
 
-/// Takes what the basis has of it out of a vector.
+/// Subtracts from a vector its part in the basis.
 fn project(vector: &mut [f64], basis: &[[Vec<f64>; 2]]) {
-    // Twice is enough.
+    // Two passes remove rounding.
     for [own, momentum] in basis.iter().chain(basis) {
         let share = dot(momentum, vector);
         vector.iter_mut().zip(own).for_each(|(v, b)| *v -= share * b);

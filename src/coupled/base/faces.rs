@@ -1,4 +1,4 @@
-//! A base in plan: its faces, and the mean of its displacement over a contact element.
+//! A base in plan: its faces, and its mean displacement over a contact element.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use crate::error::{Error, Result, require};
 use crate::geometry::Patch;
 use crate::structure::FaceNode;
 
-/// Distance of the points of Gauss' rule from the middle of an interval, of its length: 1/(2√3).
+/// Distance of a Gauss point from the middle of an interval, relative to its length: 1/(2√3).
 pub(crate) const GAUSS: f64 = 0.288_675_134_594_812_9;
-/// Area of a triangle that is none, relative to the square of its longest side.
+/// Area below which a triangle counts as degenerate, relative to the square of its longest side.
 const NO_AREA: f64 = 1e-12;
 
 impl Base {
-    /// The base of these faces: each mat of faces that touch is a foundation.
+    /// The base of these faces: faces that touch form one mat, and each mat is a foundation.
     pub(crate) fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
         let mats = mats(faces)?;
         let nodes = mats.concat().concat();
@@ -27,7 +27,7 @@ impl Base {
         for mat in &mats {
             let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
             let [rise, about_x, twist] = FaceNode::mean_rotations(&nodes[own.clone()]);
-            // By the right-hand rule about y a rise to the right is negative.
+            // By the right-hand rule a rise to the right is a negative rotation about y.
             let rotations = [-rise, about_x, twist];
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
             first = own.end;
@@ -56,7 +56,9 @@ impl Base {
     }
 }
 
-/// Adds an element to those of a mat, which must follow one another; `one` if no other mat stands on it.
+/// Adds an element to the elements of a mat; an error unless they are consecutive and `one` is true.
+///
+/// `one`: whether no other mat stands on the element.
 fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
     let value = e as f64;
     let needed = "elements under one mat each";
@@ -75,7 +77,7 @@ fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
     Ok(())
 }
 
-/// All faces, in triangles and quadrilaterals.
+/// All faces, divided into triangles and quadrilaterals.
 struct Faces<'a> {
     nodes: &'a [FaceNode],
     /// Corners of each piece, in order.
@@ -83,7 +85,7 @@ struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// Faces with these numbers of corners, whose `nodes` follow one another.
+    /// `faces`: number of corners of each face; `nodes`: the corners of all faces, one face after the other.
     fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
         let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
         for (number, &count) in faces.iter().enumerate() {
@@ -111,8 +113,10 @@ impl<'a> Faces<'a> {
         side([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
     }
 
-    /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points. A point outside all faces continues the
-    /// displacement of the nearest one; one that is farther off than half a side is an error.
+    /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points.
+    ///
+    /// A point outside all faces moves with the continued displacement of the nearest face. A point farther off
+    /// than half a side is an error.
     fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
         let sides = patch.sides(element);
         let reach = 0.5 * sides[0].max(sides[1]);
@@ -129,14 +133,15 @@ impl<'a> Faces<'a> {
         Ok(weights)
     }
 
-    /// (node, share) of the displacement of a point, and its distance from the faces, m.
+    /// (node, weight) of the displacement of a point, and its distance from the faces, m.
     fn shares(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
         let (piece, corners, distance) = self.nearest(point);
         (piece.iter().copied().zip(shares(&corners, point)).collect(), distance)
     }
 
-    /// Points for integrals over the elements of a mat: Gauss' rule on its faces, or the rule of 2 × 2 in an element that
-    /// has fewer.
+    /// Points for integrals over the elements of a mat.
+    ///
+    /// Gauss points of its faces; 2 × 2 Gauss points of an element that contains fewer than four of these.
     fn points(&self, mat: &Outline, patch: &Patch) -> Vec<BasePoint> {
         let mut found = vec![Vec::new(); mat.elements.len()];
         for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {
@@ -187,7 +192,7 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The faces of each mat, by their corners: those that touch are of one.
+/// The faces of each mat, by their corners; faces that touch belong to one mat.
 fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
     let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
     let checked = faces.iter().map(corners).enumerate();
@@ -205,7 +210,7 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> 
     let mut sorted: Vec<Point> = nodes.map(FaceNode::place).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut hull: Vec<Point> = Vec::new();
-    // From left to right below, and back above.
+    // From left to right along the lower side, and back along the upper.
     let mut half = |points: &mut dyn Iterator<Item = &Point>| {
         let first = hull.len();
         for point in points {
@@ -224,14 +229,14 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> 
     hull
 }
 
-/// The points of Gauss' rule of 2 × 2 on an element.
+/// The 2 × 2 Gauss points of an element.
 fn gauss_points(element: usize, patch: &Patch) -> [Point; 4] {
     let ([x, y], sides) = (patch.middle(element), patch.sides(element));
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     signs.map(|[right, away]| [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]])
 }
 
-/// Shares of the corners of a triangle or a quadrilateral in the displacements of points of Gauss' rule on it.
+/// Weights of the corners of a triangle or a quadrilateral in the displacements of its Gauss points.
 fn face_points(corners: usize) -> Vec<Vec<f64>> {
     if corners == 3 {
         let share = |is_own: bool| if is_own { 2.0 / 3.0 } else { 1.0 / 6.0 };
@@ -250,7 +255,7 @@ mod tests {
         corners.iter().map(|&place| FaceNode::rigid(place, [0.0; 2], [0, 1, 2, 3, 4, 5])).collect()
     }
 
-    /// Mean of a field, given at the corners, over a cell.
+    /// Mean over a cell of a field given at the corners.
     fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
         let [left, right, front, back] = cell;
         let cell = ContactElement { left, right };
@@ -269,7 +274,7 @@ mod tests {
         let triangle = [[0.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
         let distorted = [[0.0, 0.0], [1.0, 3.0], [5.0, 4.0], [4.0, -1.0]];
         let pentagon = [[0.0, 0.0], [2.0, -1.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
-        // Two corners on one line with the first.
+        // Two corners on a line with the first corner.
         let straight = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
         for corners in [&triangle[..], &distorted, &pentagon, &straight] {
             for cell in [[0.5, 1.5, 0.5, 1.0], [-0.2, 1.0, -0.3, 0.8], [2.0, 3.5, 0.4, 1.4]] {

@@ -1,4 +1,4 @@
-//! The base held: a rigid base on a ground that does not give way.
+//! The held base: a rigid base on an almost rigid ground.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -17,9 +17,9 @@ use crate::structure::{
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
 const GROUND: f64 = 1e6;
-/// Stiffness that keeps the shape of a base, over the structure's largest.
+/// Stiffness that keeps the shape of a base, over the structure's largest stiffness.
 const SHAPE: f64 = 1e5;
-/// Part of a node's displacement that is rounding.
+/// Part of a node's displacement that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The structure with a base that keeps its shape, and the ground that holds it.
@@ -43,7 +43,7 @@ pub(crate) fn held(
     factor.solve(&mut along);
     let total: f64 = elements.areas().iter().sum();
     let resistance = 4.0 * mass.form(&along, &along) / (time_step * time_step);
-    // A structure without mass is held by its stiffness.
+    // A massless structure: the reference is its stiffness.
     let resistance = if resistance > 0.0 { resistance } else { stiffest(&stiffness) };
     let held = HeldGround {
         elements: ground.elements().to_vec(),
@@ -64,13 +64,13 @@ pub(crate) fn held(
     Ok((structure, Box::new(held)))
 }
 
-/// Whether the ground is one that holds a base.
+/// Whether the ground is a held one.
 pub(crate) fn holds(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
     ground.is::<HeldGround>()
 }
 
-/// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all motions of its nodes but rigid ones.
+/// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all but rigid motions of its nodes.
 fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
     let Some(directions) = nodes.first().map(FaceNode::directions) else { return };
     // Components of a node: along x, up, along y.
@@ -106,7 +106,7 @@ fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
             rigid.push(own);
         }
     }
-    // Rows of N in the degrees of freedom of the base, and what rigid motions leave of them.
+    // Rows of N in the degrees of freedom of the base, and their remainders without rigid motions.
     let rows: Vec<_> =
         nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
     let mut dofs: Vec<usize> = nodes.iter().flat_map(FaceNode::dofs).collect();
@@ -215,7 +215,7 @@ impl Ground for HeldGround {
         self.fill(matrix)
     }
 
-    /// A traction leaves nothing behind.
+    /// A traction has no effect on later steps.
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         displacement.fill(0.0);
         Ok(())

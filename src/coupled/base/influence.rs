@@ -1,4 +1,4 @@
-//! Influence vectors: the degrees of freedom when a connected part of the structure translates rigidly by 1 m.
+//! Influence vectors: displacements when a connected part of the structure translates by 1 m.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -15,7 +15,7 @@ use crate::structure::FaceNode;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Influence {
     parts: Vec<ConnectedPart>,
-    /// Directions in which they translate: right, up and, in plan, away.
+    /// Number of directions of translation: right, up and, in plan, away.
     directions: usize,
 }
 
@@ -25,14 +25,15 @@ pub(crate) const UP: usize = 1;
 /// A connected part of the structure and the elements under it.
 #[derive(Debug, Clone)]
 pub(crate) struct ConnectedPart {
-    /// R to the right, upwards and away; without terms for what cannot move that way.
+    /// R to the right, upwards and away; empty in directions in which the part cannot move.
     pub(crate) vectors: [Terms; 3],
     elements: Vec<usize>,
 }
 
 impl Influence {
-    /// Splits the rigid translations of the whole structure into those of its parts; `roots` has the
-    /// same number for the degrees of freedom of one part.
+    /// Splits the rigid translations of the whole structure into translations of its parts.
+    ///
+    /// `roots`: the same number for all degrees of freedom of one part.
     pub(crate) fn split(base: &Base, translations: &[Vec<f64>], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, ConnectedPart)> = Vec::new();
         for (nodes, elements) in base.foundations() {
@@ -55,7 +56,7 @@ impl Influence {
         Self { parts, directions: translations.len() }
     }
 
-    /// The connected parts, from left to right by their leftmost foundation.
+    /// The connected parts, ordered by their leftmost foundation.
     pub(crate) fn parts(&self) -> &[ConnectedPart] {
         &self.parts
     }
@@ -69,7 +70,7 @@ impl Influence {
         Self { parts, directions: self.directions }
     }
 
-    /// Adds factor · R y to `displacement`, y the translation `[right, up, away]` of each part.
+    /// Adds factor · R y to `displacement`; y: translation `[right, up, away]` of each part.
     pub(crate) fn translate(
         &self,
         factor: f64,
@@ -127,8 +128,10 @@ impl ConnectedPart {
         [0, 1, 2].map(|k| self.vectors[k].iter().map(|&(i, r)| r * force[i]).sum())
     }
 
-    /// Mean translation `[right, up, away]` of contact displacements (normal components down) over
-    /// this part's elements; zero where the part cannot follow. Exact if all are equal.
+    /// Mean translation `[right, up, away]` of contact displacements over this part's elements.
+    ///
+    /// Normal components count down. Zero in directions in which the part cannot move. Exact if all displacements
+    /// are equal.
     pub(crate) fn mean(&self, base: &Base, displacement: &[f64]) -> [f64; 3] {
         let Some(&first) = self.elements.first() else { return [0.0; 3] };
         let [down, along, across] = base.layout().split(displacement);

@@ -1,4 +1,4 @@
-//! A base in the plane: a line of nodes, the mean of its displacement over a contact element, and its chord.
+//! A base in the plane: a line of nodes, its mean displacement over a contact element, and its chord.
 
 use super::faces::GAUSS;
 use super::transformation::{Terms, Weights, accumulate};
@@ -9,8 +9,9 @@ use crate::geometry::Patch;
 use crate::structure::{FaceNode, foundation_nodes, from_the_left};
 
 impl Base {
-    /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
-    /// and at the last node.
+    /// Averages the piecewise straight base over each element.
+    ///
+    /// A foundation ends at each of `ends`, and at the last node.
     pub(crate) fn on_line(nodes: Vec<FaceNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
         check_order(&nodes)?;
         let mut foundations = Vec::with_capacity(ends.len() + 1);
@@ -54,12 +55,12 @@ impl Base {
     }
 }
 
-/// Returns [`Error::Input`] for nodes out of order.
+/// Error for nodes out of order.
 fn check_order(nodes: &[FaceNode]) -> Result<()> {
     nodes.windows(2).try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
 }
 
-/// Refuses an element that is not wholly under the foundation with these nodes.
+/// Error unless an element is wholly under the foundation with these nodes.
 fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
@@ -89,7 +90,7 @@ fn chord_rotation(nodes: &[FaceNode]) -> Terms {
 /// The pieces of `element` between neighbouring nodes: number of the segment, and both ends.
 fn pieces(nodes: &[FaceNode], element: &ContactElement) -> impl Iterator<Item = (usize, [f64; 2])> {
     let segments = nodes.windows(2).enumerate().map(|(k, pair)| {
-        // The outermost segments also carry what rounding leaves outside them.
+        // The outermost segments also include a part outside them by rounding.
         let from = if k == 0 { element.left } else { element.left.max(pair[0].x) };
         let to = if k + 2 == nodes.len() { element.right } else { element.right.min(pair[1].x) };
         (k, [from, to])
@@ -110,7 +111,7 @@ fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64
     weights
 }
 
-/// Points of Gauss' rule on each piece of `element`: length that a point stands for, m, and shares of the nodes.
+/// Gauss points on each piece of `element`: length (m) and node weights of each point.
 fn gauss_points(nodes: &[FaceNode], element: &ContactElement) -> Vec<(f64, Vec<(usize, f64)>)> {
     let points = pieces(nodes, element).flat_map(|(k, [from, to])| {
         let (x0, x1) = (nodes[k].x, nodes[k + 1].x);

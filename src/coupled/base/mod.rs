@@ -1,4 +1,4 @@
-//! The base as the ground sees it: element means of the base displacement, and their transpose.
+//! The base's element means of displacement, and their transpose.
 
 pub(crate) mod faces;
 pub(crate) mod held;
@@ -15,15 +15,14 @@ use crate::geometry::{ContactLayout, Patch, axis_name, far_ends, span};
 use crate::linalg::dot;
 use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_base_nodes};
 
-/// Part of a foundation's length that may reach beyond the elements.
+/// Fraction of a foundation's length that may extend beyond the elements.
 const UNCOVERED: f64 = 0.1;
 
-/// B, which takes coordinates to element means of the base displacement (normal components down),
-/// and BᵀA, which takes tractions to forces on the coordinates: the structure's degrees of freedom, or those
-/// that are [stepped](Base::stepped).
+/// B, from coordinates to element means of the base displacement, and BᵀA, from tractions to forces.
 ///
-/// For elements between neighbouring nodes the means are the T matrix of halves of Patel &
-/// Spyrakos, eq. 14, and its transpose is their eq. 15. In plan they are those of `faces.rs`.
+/// Normal components count down. The coordinates are the structure's degrees of freedom or its stepping
+/// coordinates ([`stepped`](Base::stepped)). For elements between neighbouring nodes the means are the T matrix of
+/// halves of Patel & Spyrakos, eq. 14, and the transpose is their eq. 15. `faces.rs` computes the means in plan.
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
     /// Rows, component by component.
@@ -31,7 +30,7 @@ pub(crate) struct Base {
     foundations: Vec<Outline>,
     elements: Patch,
     nodes: Vec<FaceNode>,
-    /// Points under flexible foundations, for integrals over elements; none of a base that is stepped.
+    /// Points under flexible foundations, for integrals over elements; empty in stepping coordinates.
     points: Vec<BasePoint>,
 }
 
@@ -39,14 +38,16 @@ pub(crate) struct Base {
 #[derive(Debug, Clone)]
 pub(crate) struct BasePoint {
     pub(crate) element: usize,
-    /// Area that the point stands for, m²; in the plane a length.
+    /// Area of the point in integrals, m²; in the plane a length.
     pub(crate) area: f64,
-    /// Nodes, and their shares in its displacement.
+    /// Nodes, and their weights in the point's displacement.
     pub(crate) shares: Vec<(usize, f64)>,
 }
 
-/// Foundation: its nodes, its elements, its settlement and the rotation of its chord; in plan the rotations about the
-/// other axes too, and the corners of its convex outline.
+/// Foundation: its nodes, elements, settlement, rotations and outline.
+///
+/// In the plane it has the rotation of its chord; in plan also the rotations about the other axes, and the corners
+/// of its convex outline.
 #[derive(Debug, Clone)]
 pub(crate) struct Outline {
     pub(crate) nodes: Range<usize>,
@@ -80,7 +81,7 @@ impl Base {
         }
     }
 
-    /// A base of these foundations, by the (node, weight) of the mean over each element.
+    /// A base of these foundations; `weights`: (node, weight) of the mean over each element.
     pub(crate) fn from_weights(
         nodes: Vec<FaceNode>,
         foundations: Vec<Outline>,
@@ -99,13 +100,14 @@ impl Base {
         Self { rows: Rows::Sparse(rows), foundations, elements, nodes, points }
     }
 
-    /// Whether a foundation can take other shapes than flat ones.
+    /// Whether a foundation can bend.
     pub(crate) fn is_flexible(&self) -> bool {
         !self.points.is_empty()
     }
 
-    /// Points under flexible foundations, each with its displacement against the mean over its element, component by
-    /// component.
+    /// Points under flexible foundations, each with its displacement minus the mean over its element.
+    ///
+    /// Component by component.
     pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
         let layout = self.layout();
         self.points.iter().map(move |point| {
@@ -117,7 +119,9 @@ impl Base {
         })
     }
 
-    /// Component `i` of the element means as a weighted sum of degrees of freedom; none of a base that is stepped.
+    /// Component `i` of the element means as a weighted sum of degrees of freedom.
+    ///
+    /// Empty in stepping coordinates.
     pub(crate) fn mean_row(&self, i: usize) -> DofCombination {
         match &self.rows {
             Rows::Sparse(rows) => rows[i].iter().copied().collect(),
@@ -125,7 +129,7 @@ impl Base {
         }
     }
 
-    /// This base in the coordinates that are stepped.
+    /// This base in stepping coordinates.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
         for footing in &mut foundations {
@@ -150,13 +154,14 @@ impl Base {
         self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
     }
 
-    /// Corners of the convex outline of each foundation in plan, counter-clockwise; none in the plane.
+    /// Corners of the convex outline of each foundation in plan, counter-clockwise; empty in the plane.
     pub(crate) fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + '_ {
         self.foundations.iter().map(|footing| &footing.corners[..])
     }
 
-    /// The foundations that reach beyond the ground's elements by more than their longest side there or a tenth of the
-    /// foundation, along which axis in plan, and how far (m).
+    /// Foundations that extend too far beyond the ground's elements, the axis in plan, and how far (m).
+    ///
+    /// Too far: more than their longest side there or a tenth of the foundation.
     pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
         let ground = &self.elements;
         let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
@@ -193,7 +198,7 @@ impl Base {
         self.elements.layout()
     }
 
-    /// Area that goes with contact component `i`.
+    /// Area of contact component `i`.
     pub(crate) fn area(&self, i: usize) -> f64 {
         self.areas()[self.layout().origin(i)[1]]
     }
@@ -203,7 +208,9 @@ impl Base {
         self.rows.multiply(u, out);
     }
 
-    /// Mean `[right, up, away]` of contact displacements over the whole base; nothing moves away in the plane.
+    /// Mean `[right, up, away]` of contact displacements over the whole base.
+    ///
+    /// Nothing moves away in the plane.
     pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
         let [down, along, across] = self.layout().split(displacement);
         let areas = self.areas();
@@ -217,8 +224,9 @@ impl Base {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation (counter-clockwise), from the chord between its ends; in plan the rotations about y,
-    /// about x and about the vertical, by the right-hand rule.
+    /// Rotation of a foundation (counter-clockwise), from the chord between its ends.
+    ///
+    /// In plan: the rotations about y, about x and about the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }
@@ -228,8 +236,9 @@ impl Base {
         self.foundations[foundation].settlement.of(u)
     }
 
-    /// Largest error of N r for translations of 1 to the right, 1 up and 1 away, N the displacements of the
-    /// contact nodes. A component without terms belongs to nothing that could move.
+    /// Largest error of N r for translations of 1 to the right, 1 up and 1 away.
+    ///
+    /// N: displacements of the contact nodes. Components without terms are ignored.
     pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
         let mut worst = 0.0_f64;
         for (direction, translation) in translations.iter().enumerate() {
@@ -240,8 +249,9 @@ impl Base {
         worst
     }
 
-    /// Moves `translation` (to the right: 0; upwards: 1; away: 2) by the little that the contact nodes miss
-    /// of 1 m.
+    /// Corrects `translation` so that the contact nodes move by exactly 1 m.
+    ///
+    /// Directions: 0 to the right, 1 upwards, 2 away.
     pub(crate) fn translate_nodes(&self, direction: usize, translation: &mut [f64]) {
         for _ in 0..4 {
             for (terms, needed) in self.node_components(direction) {
@@ -278,7 +288,7 @@ pub(crate) fn mean_settlement(nodes: &[FaceNode]) -> Weights {
     Weights::Sparse(terms)
 }
 
-/// Displacement by (node, weight) terms down, along x, and in plan along y.
+/// Displacement by (node, weight) terms: down, along x, and in plan along y.
 fn components(nodes: &[FaceNode], weights: &[(usize, f64)], layout: ContactLayout) -> Vec<Terms> {
     let mut components = vec![Terms::new(); layout.components()];
     for &(node, weight) in weights {
@@ -291,7 +301,7 @@ fn components(nodes: &[FaceNode], weights: &[(usize, f64)], layout: ContactLayou
     components
 }
 
-/// Refuses a foundation without elements.
+/// Error for a foundation without elements.
 pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
     let quantity = "list of contact elements under a foundation";
     foundations.iter().try_for_each(|own| at_least(quantity, own.elements.len(), 1))

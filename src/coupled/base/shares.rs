@@ -1,23 +1,24 @@
-//! Shares of the corners of a face in the displacement of a point.
+//! Weights of the corners of a face in the displacement of a point.
 
 use crate::bem::plan::faces::side;
 
-/// Newton's steps to the coordinates of a point within a quadrilateral, and their last, relative to its size.
+/// Largest number of Newton steps to the coordinates of a point in a quadrilateral; final step, relative to its
+/// size.
 const ITERATIONS: usize = 50;
 const CONVERGED: f64 = 1e-14;
 pub(crate) type Point = [f64; 2];
 
-/// Shares of the corners in the displacement of a point: linear over a triangle, bilinear over a quadrilateral, and
-/// continued beyond.
+/// Weights of the corners in the displacement of a point.
 ///
-/// Where the bilinear displacement has no continuation, that is the one of the nearest point within, continued by its
-/// slopes there; at a corner without an angle, the one of the largest triangle. On a rigid base all of these are the
-/// same.
+/// Linear over a triangle, bilinear over a quadrilateral, and continued beyond. If the bilinear displacement has
+/// no continuation, the displacement of the nearest point within is continued by its slopes there; at a corner
+/// without an angle, the displacement of the largest triangle is continued. On a rigid base all of these are
+/// equal.
 pub(crate) fn shares(corners: &[Point], p: Point) -> Vec<f64> {
     let [a, b, c, d] = *corners else {
         return in_triangle([corners[0], corners[1], corners[2]], p).into();
     };
-    // From a corner: coordinates of a site are far larger than a face.
+    // Relative to a corner, since coordinates of a site are far larger than a face.
     let from = |q: Point| [q[0] - a[0], q[1] - a[1]];
     let face = Quadrilateral([from(b), from(c), from(d)]);
     if let Some(place) = face.coordinates(from(p)) {
@@ -43,12 +44,12 @@ fn in_triangle([a, b, c]: [Point; 3], p: Point) -> [f64; 3] {
     [one, two, 1.0 - one - two]
 }
 
-/// Shares of the corners of a quadrilateral at coordinates s, t from 0 to 1 within.
+/// Weights of the corners of a quadrilateral at coordinates s, t, which are from 0 to 1 within.
 pub(crate) fn bilinear([s, t]: Point) -> [f64; 4] {
     [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]
 }
 
-/// Quadrilateral by its corners but for the first, which is the origin.
+/// Quadrilateral by its last three corners; the first is the origin.
 struct Quadrilateral([Point; 3]);
 
 impl Quadrilateral {
@@ -81,7 +82,7 @@ impl Quadrilateral {
         None
     }
 
-    /// Shares at a point `p` from those at the nearest point `within` and their slopes there.
+    /// Weights at a point `p`, from the weights at the nearest point `within` and their slopes there.
     fn continued(&self, within: Point, p: Point) -> Option<[f64; 4]> {
         let place = self.coordinates_within(within)?;
         let [ds, dt] = self.step(place, p)?;
@@ -90,7 +91,7 @@ impl Quadrilateral {
         Some([0, 1, 2, 3].map(|k| shares[k] + ds * by_s[k] + dt * by_t[k]))
     }
 
-    /// Coordinates of a point within, by the quadratic equation of t.
+    /// Coordinates of a point within the quadrilateral, by the quadratic equation of t.
     fn coordinates_within(&self, p: Point) -> Option<Point> {
         let [b, c, d] = self.0;
         let twist = [0, 1].map(|k| c[k] - b[k] - d[k]);
@@ -149,8 +150,8 @@ fn nearest_within(corners: &[Point], p: Point) -> Point {
 mod tests {
     use super::*;
 
-    /// Convex quadrilaterals of all shapes, near the origin and at coordinates of a site: linear displacements are exact
-    /// within and beyond, where bilinear ones often have no continuation.
+    /// Convex quadrilaterals of all shapes, near the origin and at coordinates of a site: linear displacements are
+    /// exact within and beyond, where bilinear ones often have no continuation.
     #[test]
     fn linear_displacements_are_exact_on_all_convex_faces() {
         let mut state = 1_u64;
@@ -187,7 +188,7 @@ mod tests {
         assert!(without > 20, "{without}");
     }
 
-    /// Within, both ways lead to the same coordinates, however the face lies.
+    /// Within, both methods give the same coordinates for any position of the face.
     #[test]
     fn coordinates_within_are_the_bilinear_ones() {
         let face = Quadrilateral([[4.0, -1.0], [5.0, 4.0], [1.0, 3.0]]);

@@ -1,5 +1,4 @@
-//! Transformations from a structure's degrees of freedom to the coordinates that are stepped, and back; vibration
-//! modes.
+//! Transformations between a structure's degrees of freedom and its stepping coordinates; vibration modes.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -60,7 +59,7 @@ impl Transformation {
         }
     }
 
-    /// Coordinates of a motion of the degrees of freedom, which have this mass: q = Φᵀ M u.
+    /// Coordinates q = Φᵀ M u of a motion of the degrees of freedom; M is their mass.
     pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
         match self {
             Self::Identity => dofs.to_vec(),
@@ -94,7 +93,7 @@ impl Weights {
         }
     }
 
-    /// Adds `factor` times the weights to `force`: what a force on the sum does to the coordinates.
+    /// Adds `factor` times the weights to `force`: the effect of a force on the sum.
     pub(crate) fn add(&self, factor: f64, force: &mut [f64]) {
         match self {
             Self::Sparse(terms) => {
@@ -118,7 +117,7 @@ pub(crate) enum Rows {
 }
 
 impl Rows {
-    /// out ← the sums at coordinates `x`.
+    /// Writes the sums at coordinates `x` to `out`.
     pub(crate) fn multiply(&self, x: &[f64], out: &mut [f64]) {
         match self {
             Self::Sparse(rows) => {
@@ -133,7 +132,7 @@ impl Rows {
         }
     }
 
-    /// Adds factor · rowsᵀ (scale ∘ x) to `force`, `scale` by the number of the row.
+    /// Adds factor · rowsᵀ (scale ∘ x) to `force`; `scale` depends on the number of the row.
     pub(crate) fn add_transposed(
         &self,
         factor: f64,
@@ -167,9 +166,9 @@ impl Rows {
 
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
 ///
-/// In modes every matrix of the equation of motion is diagonal, Φᵀ M Φ = 1, Φᵀ K Φ = diag(λ), Φᵀ C Φ = diag(c): a step
-/// costs a few operations per mode, and as many per mode and contact component to meet the ground. A step evaluates
-/// only the rows of Φ that the ground or a probe sees.
+/// In modes every matrix of the equation of motion is diagonal: Φᵀ M Φ = 1, Φᵀ K Φ = diag(λ), Φᵀ C Φ = diag(c). A
+/// step costs a few operations per mode, and as many per mode and contact component for contact. A step evaluates
+/// only the rows of Φ of the base and of probes.
 #[derive(Debug)]
 pub(crate) struct ModalBasis {
     /// λ.
@@ -181,8 +180,9 @@ pub(crate) struct ModalBasis {
 }
 
 impl ModalBasis {
-    /// The modes with these λ, c and Φ (row-major, a row per degree of freedom), rigid translations of λ = 0
-    /// among them.
+    /// The modes with these λ, c and Φ (row-major, a row per degree of freedom).
+    ///
+    /// They include rigid translations with λ = 0.
     pub(crate) fn of(stiffness: Vec<f64>, damping: Vec<f64>, vectors: Vec<f64>) -> Self {
         Self { stiffness, damping, vectors }
     }
@@ -203,7 +203,7 @@ impl ModalBasis {
         self.stiffness.len()
     }
 
-    /// Adds Φᵀ f to `modal`; degrees of freedom without force cost nothing.
+    /// Adds Φᵀ f to `modal`; skips degrees of freedom without force.
     pub(crate) fn project(&self, force: &[f64], modal: &mut [f64]) {
         for (row, force) in self.vectors.chunks_exact(self.count()).zip(force) {
             if *force != 0.0 {
@@ -220,7 +220,7 @@ impl ModalBasis {
         modal
     }
 
-    /// Modal coordinates of a rigid translation, M its mass matrix: only rigid modes have a part in it.
+    /// Modal coordinates of a rigid translation with mass matrix M: only rigid modes have a part in it.
     pub(crate) fn translation(
         &self,
         vector: &[(usize, f64)],

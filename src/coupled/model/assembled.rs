@@ -23,9 +23,9 @@ use crate::structure::{
     check_stiffness, stiffest,
 };
 
-/// Passes that refine the influence vectors.
+/// Number of passes that refine the influence vectors.
 const REFINEMENTS: usize = 3;
-/// Time (s) in which springs under the base move its inertia, at most: a stiffness that is rounding has no say.
+/// Longest time (s) in which springs under the base move its inertia; it excludes stiffnesses that are rounding.
 const SWAY: f64 = 0.1;
 
 /// Matrices, base and influence vectors of a structure in its own degrees of freedom.
@@ -34,15 +34,17 @@ pub(crate) struct Assembled {
     pub(crate) mass: SparseMatrix,
     pub(crate) damping: SparseMatrix,
     pub(crate) stiffness: SparseMatrix,
-    /// K with the tangent of the nonlinear force at rest, where there is one.
+    /// K with the tangent of the nonlinear force at rest; `None` for a linear structure.
     at_rest: Option<SparseMatrix>,
     pub(crate) base: Base,
     pub(crate) influence: Arc<Influence>,
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong
-    /// signs, parts that nothing holds, supports beside the ground, and mechanisms that cannot be factored.
+    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held.
+    ///
+    /// Returns an error for wrong signs, parts that nothing holds, supports other than the ground, and mechanisms
+    /// that cannot be factored.
     pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
         let base = Base::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
@@ -68,7 +70,7 @@ impl Assembled {
         let influence = Arc::default();
         let own = Self { linear, mass, damping, stiffness, at_rest, base, influence };
         check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
-        // A mechanism fails in one way or another, as rounding has it, but never by its sign.
+        // Rounding decides how a mechanism fails, but it never fails by its sign.
         let (influence, held) = own.find_influence().map_err(|error| match error {
             Error::Indefinite { .. } => error,
             _ => own.at_rest(structure).behind(error),
@@ -93,9 +95,11 @@ impl Assembled {
         [&self.mass, &self.damping, &self.stiffness]
     }
 
-    /// Period on a fixed base, s: Rayleigh's quotient of the deflection under the weight along x, in plan the longer of
-    /// that and the one along y. `held` is the factored stiffness with springs at the base; of the work that the weight
-    /// does, theirs is left out (1 % off). NaN for a structure without mass.
+    /// Period on a fixed base, s; NaN for a structure without mass.
+    ///
+    /// Rayleigh's quotient of the deflection under the weight along x, in plan the longer one of x and y. `held`:
+    /// factored stiffness with springs at the base; their part in the work of the weight is neglected (an error of
+    /// 1 %).
     pub(crate) fn period_on_fixed_base(&self, held: &mut SparseFactor) -> f64 {
         let directions: &[usize] = if self.base.layout().is_plan() { &[0, 2] } else { &[0] };
         directions.iter().map(|&k| self.period(k, held)).fold(f64::NAN, f64::max)
@@ -117,7 +121,7 @@ impl Assembled {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
     }
 
-    /// The structure at rest, for a search for mechanisms; `structure` gives the names of its degrees of freedom.
+    /// The structure at rest, for a search for mechanisms; `structure` names its degrees of freedom.
     pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
         let stiffness = self.stiffness_at_rest();
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
@@ -129,8 +133,9 @@ impl Assembled {
         self.mass.form(&up, &up) / self.base.areas().iter().sum::<f64>()
     }
 
-    /// Damping of a translation along the ground over the mass that it moves, r·C r / r·M r, the largest of all parts and
-    /// directions, 1/s.
+    /// Largest damping of a translation along the ground over the mass that it moves, r·C r / r·M r, 1/s.
+    ///
+    /// Of all parts and directions.
     pub(crate) fn drag(&self) -> f64 {
         let parts = self.influence.parts().iter();
         let vectors = parts.flat_map(|part| [&part.vectors[0], &part.vectors[2]]);
@@ -142,7 +147,7 @@ impl Assembled {
         drags.fold(0.0, f64::max)
     }
 
-    /// Largest inertia (kg) that a displacement of a contact node meets by itself.
+    /// Largest inertia (kg) against the displacement of a single contact node.
     fn base_inertia(&self) -> f64 {
         let masses = self.mass.diagonal();
         let rows = self.base.nodes().iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty());
@@ -155,10 +160,9 @@ impl Assembled {
 
     /// The influence vectors, and the factored stiffness with its base held.
     ///
-    /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
-    /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the degrees of freedom mean.
-    /// Displacements are stepped relative to rigid translations, so R has to be exact where the ground
-    /// sees it: N R is 1 or 0 to rounding, and then so is B R.
+    /// A rigid translation leaves K u = 0 and moves the contact nodes by one. It is therefore the solution r of (K
+    /// + γ NᵀN) r = γ Nᵀ 1 for every γ, whatever the degrees of freedom mean. Displacements are stepped relative
+    /// to rigid translations, so R must be exact at the base: N R is 1 or 0 to rounding, and then so is B R.
     fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
         let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
         let stiffest = stiffest(stiffness);

@@ -9,16 +9,17 @@ use std::fmt;
 
 /// A force that acts on a structure from outside: wind, machinery, blast, impact.
 ///
-/// The force of every degree of freedom is its weight in `row` times the load's value at the time, so that the
-/// load does the work value × Δ(row): for the [`DofCombination`] of a displacement a force (N per metre of
-/// thickness), for that of a rotation a moment. Its value at t = 0 belongs to the static state, after
-/// the weight; what acts suddenly is zero there.
+/// The force on every degree of freedom is its weight in `row` times the load's value. The load thus does the work
+/// value × Δ(row): for the [`DofCombination`] of a displacement the value is a force (N per metre of thickness),
+/// for a rotation a moment. The value at t = 0 belongs to the static state, after the weight; a sudden load is
+/// zero at t = 0.
 ///
-/// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once, at
-/// the time at which the scheme writes the equation of motion: t + Δt/2 for [`Midpoint`](crate::coupled::Midpoint) and
-/// [`DissipativeMidpoint`](crate::coupled::DissipativeMidpoint), t + Δt for [`Newmark`](crate::coupled::Newmark). The iterations of a
-/// nonlinear structure use this one value; a step that failed and is tried again evaluates the load again. A force that
-/// follows from the state, as a controller's does, is [set](crate::Simulation::set_load) between the steps.
+/// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once,
+/// at the time at which the scheme writes the equation of motion: t + Δt/2 for
+/// [`Midpoint`](crate::coupled::Midpoint) and [`DissipativeMidpoint`](crate::coupled::DissipativeMidpoint), t + Δt
+/// for [`Newmark`](crate::coupled::Newmark). The iterations of a nonlinear structure use this one value; a step
+/// that failed and is tried again evaluates the load again. A force that follows from the state, for example of a
+/// controller, is [set](crate::Simulation::set_load) between the steps.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -64,21 +65,23 @@ impl Load {
         Self::new(row, move |_| force)
     }
 
-    /// A `force` of the static state that is gone from the first step on (snap-back). Without a static
-    /// state (no gravity, or [`GravityStage::Unloaded`](crate::coupled::GravityStage::Unloaded)) it never acts.
+    /// A `force` of the static state that is zero from the first step on (snap-back).
+    ///
+    /// Without a static state (no gravity, or [`GravityStage::Unloaded`](crate::coupled::GravityStage::Unloaded))
+    /// it never acts.
     pub fn released(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }
 
-    /// `force` times the samples of a record, linear between them and zero beyond its ends. The
-    /// samples are in m/s² whatever they stand for.
+    /// `force` times the samples of a record, linear between them and zero beyond its ends.
+    ///
+    /// The samples count in m/s², whatever their meaning.
     pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
         let record = record.clone();
         Self::new(row, move |time| force * record.at(time).acceleration)
     }
 
-    /// `forces` at `times` (s, ascending), linear between them; zero before the first and after the
-    /// last.
+    /// `forces` at `times` (s, ascending), linear between them and zero outside.
     ///
     /// # Errors
     /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers
@@ -118,8 +121,10 @@ impl Load {
         (self.value)(time)
     }
 
-    /// Refuses a row with other degrees of freedom than the structure's, and a value at t = 0 that is not finite;
-    /// `index` is the load's number.
+    /// Error for a row with degrees of freedom that the structure lacks, and for a value at t = 0 that is not
+    /// finite.
+    ///
+    /// `index`: the load's number.
     pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
         self.row.check("degree of freedom of a load", dofs)?;
         let (quantity, value) = ("external load at t = 0", self.value(0.0));
@@ -133,13 +138,13 @@ impl fmt::Debug for Load {
     }
 }
 
-/// A load in the coordinates that are stepped.
+/// A load in stepping coordinates.
 pub(crate) struct SteppedLoad {
     load: Load,
     row: Weights,
     /// Force in the static state.
     at_start: f64,
-    /// Force that was set in place of the load's own.
+    /// Force that replaces the load's own.
     set: Option<f64>,
 }
 
@@ -155,19 +160,19 @@ impl SteppedLoad {
         self.set = value;
     }
 
-    /// Force that was set in place of the load's own, if one was.
+    /// Force that replaces the load's own; `None` if none was set.
     pub(crate) fn set_value(&self) -> Option<f64> {
         self.set
     }
 
-    /// Value at `time` times a sum over the weights of its row, by which loads are told apart.
+    /// Value at `time` times a sum over the weights of its row, to distinguish loads.
     pub(crate) fn mixed_value(&self, time: f64) -> f64 {
         let row = self.load.row.iter();
         let sum: f64 = row.map(|&(i, weight)| mixing_weight(i) * weight).sum();
         self.load.value(time) * sum
     }
 
-    /// Adds the force at `time`, less that of the static state, to `force`; returns its value.
+    /// Adds the force at `time`, minus the force in the static state, to `force`; returns its value.
     pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
         let value = self.set.unwrap_or_else(|| self.load.value(time)) - self.at_start;
         if value != 0.0 {

@@ -1,28 +1,28 @@
-//! Mechanisms: structures with a motion that nothing resists while their base is at rest, or nothing at
-//! all.
+//! Mechanisms: structures with a motion that nothing resists, at all or while their base is at rest.
 
 use crate::coupled::base::Base;
 use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
 use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
 
-/// Mass that keeps mechanisms regular, relative to what makes it as large as the stiffness.
+/// Mass that keeps mechanisms regular, relative to a mass as large as the stiffness.
 const REGULAR: f64 = 1e-12;
-/// Work of a mechanism on the stiffness, relative to that of its largest entries.
+/// Work of a mechanism on the stiffness, relative to the work of its largest entries.
 const FREE: f64 = 1e-12;
-/// Work of a mechanism relative to the largest entries where no failed factorization speaks for one. Elements added up
-/// leave 3e-17; a column of a thousand beams one above the other has 1e-12.
+/// Relative work of a mechanism if no factorization has failed.
+///
+/// Elements added up leave 3e-17; a column of a thousand beams one above the other has 1e-12.
 const SURELY_FREE: f64 = f64::EPSILON;
-/// Work of the softest displacement from which on it is none, whatever rounding does.
+/// Relative work of the softest displacement above which there is no mechanism.
 const FIRM: f64 = 1e-6;
-/// Share of the largest displacement from which on a degree of freedom takes part in a mechanism.
+/// Fraction of the largest displacement above which a degree of freedom takes part in a mechanism.
 const TAKES_PART: f64 = 0.1;
-/// Independent mechanisms that are reported, at most.
+/// Largest number of independent mechanisms that are reported.
 const MOST_MOTIONS: usize = 32;
-/// Passes of inverse iteration for each.
+/// Number of inverse iterations for each.
 const ITERATIONS: usize = 3;
 
-/// Stiffness (tangent of the nonlinear force at rest included), mass and base of a structure.
+/// Stiffness (including the tangent of the nonlinear force at rest), mass and base of a structure.
 #[derive(Clone, Copy)]
 pub(crate) struct AtRest<'a> {
     pub(crate) structure: &'a dyn Structure,
@@ -32,8 +32,9 @@ pub(crate) struct AtRest<'a> {
 }
 
 impl AtRest<'_> {
-    /// Refuses a mechanism, also where the loads do not set it in motion. `held` is the factored stiffness with
-    /// its base held, by which most structures pass without another factor.
+    /// Error for a mechanism, even if the loads do not set it in motion.
+    ///
+    /// `held`: factored stiffness with the base held, which suffices for most structures.
     pub(crate) fn check(&self, held: &mut SparseFactor) -> Result<()> {
         let regular = Regular::held(self).1;
         let softest = regular.softest(held, &[]);
@@ -43,17 +44,17 @@ impl AtRest<'_> {
         self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
     }
 
-    /// The mechanism behind a failure, if there is one.
+    /// The mechanism that causes a failure; `None` if there is none.
     pub(crate) fn mechanism(&self) -> Option<StabilityError> {
         self.motion(FREE)
     }
 
-    /// Cause of `error`, that the structure has no equilibrium or no factors.
+    /// Cause of `error`, for a structure without equilibrium or factors.
     pub(crate) fn behind(&self, error: Error) -> Error {
         self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
     }
 
-    /// Displacements with the base at rest that do work of at most `free` on the stiffness.
+    /// Error for displacements with the base at rest whose work on the stiffness is at most `free`.
     fn motion(&self, free: f64) -> Option<StabilityError> {
         if self.base.dofs().is_empty() {
             return None;
@@ -81,12 +82,12 @@ pub(crate) fn unresisted(
     Some(StabilityError::Massless { dofs, place })
 }
 
-/// The structure's own names of degrees of freedom, or their numbers.
+/// The structure's names of degrees of freedom, or their numbers.
 fn place(structure: &dyn Structure, dofs: &[usize]) -> String {
     structure.describe(dofs).unwrap_or_else(|| unknown_numbers(dofs))
 }
 
-/// A stiffness, and what keeps it regular.
+/// A stiffness, and terms that keep it regular.
 pub(crate) struct Regular {
     matrix: Triplets,
     spring: f64,
@@ -102,7 +103,7 @@ impl Regular {
         Self::held_by(at_rest, 1.0)
     }
 
-    /// The stiffness at rest with springs under the contact nodes, this many times as stiff as its largest entry.
+    /// The stiffness at rest with springs under the contact nodes, `factor` times as stiff as its largest entry.
     pub(crate) fn held_by<'a>(at_rest: &AtRest<'a>, factor: f64) -> (HeldBase<'a>, Self) {
         let AtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
@@ -112,8 +113,9 @@ impl Regular {
         (held, regular)
     }
 
-    /// A matrix whose largest entry is about `spring`, kept regular by `mass`, or by what stands on its
-    /// diagonal where there is none; Lagrange multipliers have neither and stay as they are.
+    /// A matrix with a largest entry of about `spring`, kept regular by `mass`.
+    ///
+    /// Without mass, its diagonal is used instead. Lagrange multipliers have neither and stay as they are.
     fn new(matrix: Triplets, spring: f64, mass: &[f64]) -> Self {
         let heaviest = largest(mass);
         let mut diagonal = vec![0.0; matrix.order()];
@@ -140,17 +142,17 @@ impl Regular {
         Self { matrix, spring, added, absent }
     }
 
-    /// The factors of what is regular.
+    /// Factors of the regular matrix.
     pub(crate) fn factor(&self) -> Option<SparseFactor> {
         let mut sum = self.matrix.clone();
         self.added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
         SparseFactor::new(HeldBase::NAME, &sum).ok()
     }
 
-    /// The degrees of freedom that take part in displacements which do work of at most `free`, ascending.
+    /// The degrees of freedom that take part in displacements with work of at most `free`, ascending.
     ///
-    /// All such displacements together: by the length of their rows in a basis that the regular part
-    /// makes orthonormal, so that neither its choice nor the numbering of degrees of freedom matters.
+    /// All such displacements together: by the length of their rows in a basis that the regular part makes
+    /// orthonormal, so that neither the choice of the basis nor the numbering of degrees of freedom matters.
     fn free_dofs(&self, free: f64) -> Option<Vec<usize>> {
         let (n, mut factor) = (self.added.len(), self.factor()?);
         let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -167,9 +169,9 @@ impl Regular {
         (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
     }
 
-    /// The softest displacement beside those of `basis`, by a factored stiffness.
+    /// The softest displacement independent of `basis`, by a factored stiffness.
     fn softest(&self, factor: &mut SparseFactor, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
-        // Inverse iteration from a vector of all signs and sizes.
+        // Inverse iteration from a vector of mixed signs and sizes.
         let mut motion: Vec<f64> =
             (0..self.added.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         for _ in 0..ITERATIONS {
@@ -180,7 +182,7 @@ impl Regular {
                 let share = weighted_dot(&self.added, known, &motion);
                 motion.iter_mut().zip(known).for_each(|(u, known)| *u -= share * known);
             }
-            // First by the largest: squares may overflow.
+            // First divided by the largest entry, since squares may overflow.
             let size = largest(&motion);
             motion = motion.into_iter().map(|u| u / size).collect();
             let size = weighted_dot(&self.added, &motion, &motion).sqrt();
@@ -192,8 +194,9 @@ impl Regular {
         Some(motion)
     }
 
-    /// Work of a displacement on the matrix, relative to that of its largest entries, and to that of a
-    /// spring where there are none: beside such a displacement all others are rounding.
+    /// Work of a displacement on the matrix, relative to the work of its largest entries.
+    ///
+    /// Degrees of freedom without entries count with a spring: beside such a displacement all others are rounding.
     fn share_of_work(&self, motion: &[f64]) -> f64 {
         let mut around: f64 = self.absent.iter().map(|&i| self.spring * motion[i].powi(2)).sum();
         let mut work = 0.0_f64;

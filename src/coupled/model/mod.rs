@@ -1,4 +1,4 @@
-//! A structure in the coordinates that are stepped.
+//! A structure in its stepping coordinates.
 
 pub(crate) mod assembled;
 pub(crate) mod load;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// Matrices, influence vectors and coordinates of a structure.
 pub(crate) struct Model {
-    /// Degrees of freedom of the structure, and the number of coordinates that are stepped.
+    /// Degrees of freedom of the structure, and number of stepping coordinates.
     pub(crate) dofs: usize,
     pub(crate) coordinates: usize,
     pub(crate) mass: Matrix,
@@ -27,13 +27,13 @@ pub(crate) struct Model {
     pub(crate) linear: bool,
     /// Whether any damping coefficient is not zero.
     pub(crate) damped: bool,
-    /// Influence vectors in the coordinates that are stepped.
+    /// Influence vectors in stepping coordinates.
     pub(crate) influence: Arc<Influence>,
     pub(crate) transformation: Transformation,
 }
 
 impl Model {
-    /// Steps the degrees of freedom.
+    /// The structure in its degrees of freedom.
     pub(crate) fn new(assembled: &Assembled) -> Self {
         let [mass, damping, stiffness] =
             assembled.matrices().map(|matrix| Matrix::Sparse(matrix.clone()));
@@ -67,7 +67,7 @@ impl Model {
         }
     }
 
-    /// The three matrices, if they are diagonal.
+    /// The three matrices if they are diagonal, otherwise `None`.
     pub(crate) fn diagonals(&self) -> Option<Diagonals<'_>> {
         match (&self.mass, &self.damping, &self.stiffness) {
             (Matrix::Diagonal(mass), Matrix::Diagonal(damping), Matrix::Diagonal(stiffness)) => {
@@ -78,8 +78,10 @@ impl Model {
         }
     }
 
-    /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`, and returns
-    /// whether there is any; `scratch` has an entry for every degree of freedom. An error is the structure's.
+    /// Adds the external load at `time`, without weight, minus `at_start`, to `load`.
+    ///
+    /// Returns whether there is any load. `scratch` has an entry for every degree of freedom. An error comes from
+    /// the structure.
     pub(crate) fn load(
         &self,
         structure: &dyn Structure,

@@ -1,4 +1,4 @@
-//! Motion of the structure in the coordinates that are stepped.
+//! Motion of the structure in stepping coordinates.
 
 use std::sync::{Arc, OnceLock};
 
@@ -7,15 +7,14 @@ use crate::coupled::base::transformation::Transformation;
 use crate::coupled::model::Model;
 use crate::coupled::scheme::SchemeCoefficients;
 
-/// Mean translation of the free field under a part, `[right, up, away]`; none away in the plane.
+/// Mean translation of the free field under a part, `[right, up, away]`; away is zero in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Translation {
     /// y at the end of the step, m.
     pub(crate) displacement: [f64; 3],
     /// Δy, m.
     pub(crate) increment: [f64; 3],
-    /// Velocity at v*, as the time scheme sees it, so that a structure that translates with the
-    /// ground meets no damping force.
+    /// Velocity at v* of the time scheme, so that a structure moving with the ground has no damping force.
     pub(crate) velocity: [f64; 3],
     /// Velocity and acceleration of the translation at the end of the step.
     pub(crate) new_velocity: [f64; 3],
@@ -23,7 +22,7 @@ pub(crate) struct Translation {
 }
 
 impl Translation {
-    /// The next one, which ends at `displacement`.
+    /// The next translation, which ends at `displacement`.
     pub(crate) fn next(&self, displacement: [f64; 3], c: &SchemeCoefficients) -> Self {
         let increment: [f64; 3] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
         let stepped = |coefficients| -> [f64; 3] {
@@ -42,8 +41,9 @@ impl Translation {
     }
 }
 
-/// Displacement relative to the free field's translation, total velocity and acceleration, and the
-/// degrees of freedom once they have been asked for.
+/// Displacement relative to the free field's translation, total velocity and total acceleration.
+///
+/// It stores the degrees of freedom after their first use.
 #[derive(Clone)]
 pub(crate) struct Motion {
     pub(crate) displacement: Vec<f64>,
@@ -80,7 +80,7 @@ impl Motion {
         }
     }
 
-    /// Forgets the degrees of freedom that were transformed; to be called when coordinates have changed.
+    /// Discards the stored degrees of freedom; call it when coordinates have changed.
     pub(crate) fn changed(&mut self) {
         self.dofs.iter_mut().for_each(|seen| drop(seen.take()));
     }

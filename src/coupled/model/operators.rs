@@ -32,7 +32,7 @@ pub(crate) enum Factor {
 pub(crate) const NAME: &str = "effective stiffness matrix";
 
 impl Operators {
-    /// Condenses the factored K_eff of this tangent.
+    /// Condenses the factored K_eff with this tangent.
     pub(crate) fn new(
         model: &Model,
         base: &Base,
@@ -47,7 +47,7 @@ impl Operators {
         Self { tangent, factor, columns, delassus }
     }
 
-    /// Reciprocals of K_eff in modes; empty in degrees of freedom.
+    /// Reciprocals of K_eff in modal coordinates; empty in degrees of freedom.
     pub(crate) fn reciprocals(&self) -> &[f64] {
         match &self.factor {
             Factor::Diagonal(values) => values,
@@ -121,7 +121,7 @@ impl Factor {
         Err(Error::Singular { matrix: NAME, order: model.coordinates })
     }
 
-    /// Overwrites many right-hand sides, one after the other.
+    /// Solves for many right-hand sides, one after the other, and overwrites them.
     fn solve_many(&self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
@@ -134,8 +134,9 @@ impl Factor {
     }
 }
 
-/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA; `solve` overwrites many right-hand
-/// sides, one after the other.
+/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
+///
+/// `solve` overwrites many right-hand sides, one after the other.
 pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
     base: &Base,

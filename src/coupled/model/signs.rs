@@ -1,17 +1,18 @@
-//! Whether a symmetric stiffness is negative where the base is held.
+//! Check that a symmetric stiffness is not negative with the base held.
 
 use crate::coupled::base::Base;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseMatrix, indefinite_row};
 use crate::structure::{HeldBase, Triplets, stiffest};
 
-/// Springs that hold the base and constraints where they must not give way, relative to the largest
-/// stiffness.
+/// Stiffness of springs that hold the base and of constraints, relative to the largest stiffness.
+///
+/// So large that base and constraints do not move.
 pub(crate) const FIRMLY: f64 = 1e6;
 /// Remainder of a zero after assembly and factors, relative to the diagonal and to the largest stiffness.
 const ROUNDING: f64 = 1e-12;
 
-/// Refuses a symmetric K that is not positive semi-definite where the base is held.
+/// Error for a symmetric K that is not positive semi-definite with the base held.
 pub(crate) fn check_signs(
     base: &Base,
     [mass, damping, stiffness]: [&SparseMatrix; 3],
@@ -32,9 +33,10 @@ pub(crate) fn check_signs(
     }
 }
 
-/// Marks of the degrees of freedom that are Lagrange multipliers: forces that enter others' equations and whose own
-/// equation is a constraint. Zeros are exact: a multiplier with the least mass m, on a coupling c with a mass M, grows
-/// at the rate √(c / √(m M)).
+/// Marks the degrees of freedom that are Lagrange multipliers.
+///
+/// Multipliers are forces in others' equations, and their own equation is a constraint. Zeros are exact: a
+/// multiplier with the smallest mass m, on a coupling c with a mass M, grows at the rate √(c / √(m M)).
 fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool> {
     let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
     for (row, column, value) in others.into_iter().flat_map(SparseMatrix::entries) {
@@ -45,8 +47,9 @@ fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool
     multipliers
 }
 
-/// A symmetric matrix with a spring of stiffness `penalty` in place of each Lagrange multiplier, on
-/// the sum of degrees of freedom that this keeps at zero.
+/// A symmetric matrix with a spring of stiffness `penalty` in place of each Lagrange multiplier.
+///
+/// The spring acts on the sum of degrees of freedom that the multiplier keeps at zero.
 fn constrain(matrix: &SparseMatrix, multipliers: &[bool], penalty: f64) -> Result<SparseMatrix> {
     let mut constrained = Triplets::new(matrix.order());
     let mut constraints = vec![Vec::new(); matrix.order()];

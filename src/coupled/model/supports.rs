@@ -1,16 +1,16 @@
-//! Whether a structure translates freely: no stiffness to a fixed point.
+//! Check that a structure translates freely, without stiffness to a fixed point.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | r | displacements when the contact nodes are pulled along by 1 m and the rest follows |
-//! | s | r in whole numbers: 1 for what moves along, 0 for what does not, if that is what r is like |
-//! | lag | by how much the contact nodes stay behind, pulled by the largest stiffness |
+//! | r | displacements when the contact nodes are pulled by 1 m and all else follows |
+//! | s | r in whole numbers, if r is close to these: 1 for a coordinate that moves along, else 0 |
+//! | lag | distance by which the contact nodes stay behind, pulled by the largest stiffness |
 //!
-//! A support shows in r in two ways: it holds the contact nodes back with a force, and it bends the
-//! structure. Where the force is no longer large beside the largest stiffness (a weak support, or
-//! one on top of a slender tower), K s is the sharper test: row by row it compares the support with
-//! the stiffness around it. What is left there in a free structure is the rounding of the entries.
-//! Measured on walls of quadrilaterals, as fractions of the row, with the largest |r − s|:
+//! A support affects r in two ways: it holds the contact nodes back with a force, and it bends the structure. If
+//! the force is small relative to the largest stiffness (a weak support, or one on top of a slender tower), K s is
+//! the sharper test: row by row it compares the support with the stiffness around it. In a free structure it
+//! contains only the rounding of the entries. Measured on walls of quadrilaterals, as fractions of the row, with
+//! the largest |r − s|:
 //!
 //! | | row | r − s |
 //! |---|---|---|
@@ -20,10 +20,10 @@
 //! | a spring of 1e-9 of the largest stiffness on a block | 4e-10 | 4e-9 |
 //! | the same on a wall 200 times as high as wide | 7e-10 | 0.09 |
 //!
-//! The reduced walls meet a force of 2e-10 of the largest stiffness in all, the springs one of 1e-9.
-//! A support is what is above all of the limits below, and lets the structure sway to a fixed point with a period that a
-//! run could notice: r·K r over r·M r, which no scaling of coordinates changes, tells it from rounding in a stiffness
-//! of a rigid base alone, where there is nothing stiff to compare with.
+//! The reduced walls meet a total force of 2e-10 of the largest stiffness, the springs one of 1e-9. A support
+//! exceeds all of the limits below, and gives the structure a period of sway that a run could notice. The measure
+//! r·K r over r·M r, which no scaling of coordinates changes, distinguishes it from rounding in the stiffness of a
+//! rigid base alone, which contains no stiffness to compare with.
 
 use crate::coupled::base::Base;
 use crate::coupled::base::influence::Influence;
@@ -32,19 +32,19 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{Structure, Tangent, UNNOTICED};
 
-/// Largest lag: far above rounding, and what a weight may be off.
+/// Largest lag: far above rounding, and the largest error of a weight.
 const LAG: f64 = 1e-6;
-/// Largest work r·K r, relative to the largest stiffness, that is ignored.
+/// Largest ignored work r·K r, relative to the largest stiffness.
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
 const ROW: f64 = 3e-10;
 /// Largest force of a row of K s relative to the diagonal, for rows in which all entries are rounding.
 const DIAGONAL: f64 = 1e-13;
-/// Work r·K r that is rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
+/// Work r·K r that counts as rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
 const WORK: f64 = 1e-15;
-/// Largest |r − s| that bends nothing.
+/// Largest |r − s| that counts as no bending.
 const BENT: f64 = 1e-9;
-/// Largest |r − s| with which r is taken to be s.
+/// Largest |r − s| at which r is replaced by s.
 const WHOLE: f64 = 0.25;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
@@ -55,9 +55,11 @@ const TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 /// Names of the translations.
 const DIRECTIONS: [&str; 3] = ["to the right", "upwards", "along y"];
 
-/// Refuses a structure that does not translate freely, and rounds its translations (to the right,
-/// upwards, in plan away) to whole numbers where these are what they are meant to be, exactly so at the contact
-/// nodes. `stiffness` without what ties these, springs `firmer` times as stiff as its largest entry on the diagonal.
+/// Error unless a structure translates freely; rounds its translations to whole numbers.
+///
+/// `translations`: to the right, upwards, in plan away. They are rounded where whole numbers are meant, and made
+/// exact at the contact nodes. `stiffness`: without the springs at the contact nodes, which are `firmer` times as
+/// stiff as its largest entry on the diagonal.
 pub(crate) fn check(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
@@ -90,10 +92,10 @@ pub(crate) fn check(
     Ok(())
 }
 
-/// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
+/// Error for a part whose base does not translate as a whole: B R must be 1 where it moves.
 pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
-    // A mean is a sum over the nodes above an element, each of which may be rounded.
+    // A mean is a sum over the nodes above an element, and each may be rounded.
     let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
@@ -115,9 +117,10 @@ pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Re
     Ok(())
 }
 
-/// Refuses a nonlinear force that resists a translation of the whole structure from the static
-/// state: it is tied to a fixed point. Returns which parts it joins with others: those that it does
-/// not let translate alone.
+/// Error for a nonlinear force that resists a translation of the whole structure from the static state.
+///
+/// Such a force is tied to a fixed point. Returns which parts the force joins with others, so that they cannot
+/// translate alone.
 pub(crate) fn joined_by_force(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
@@ -207,16 +210,18 @@ impl Resistance {
         }
     }
 
-    /// Whether the structure is held, at contact nodes that stay behind by `lag` under springs `firmer` times as stiff as
-    /// its largest stiffness.
+    /// Whether the structure is held.
+    ///
+    /// Its contact nodes stay behind by `lag` under springs `firmer` times as stiff as its largest stiffness.
     fn holds(&self, lag: f64, firmer: f64) -> bool {
         let is_rounding = self.reaction <= FORCE || firmer * self.bent <= BENT || self.is_free;
         self.work > WORK && (firmer * lag > LAG || !is_rounding)
     }
 }
 
-/// The largest stiffness between two degrees of freedom, to which a support adds nothing; of any where there is
-/// none.
+/// The largest stiffness between two degrees of freedom, to which a support adds nothing.
+///
+/// Without such entries, the largest on the diagonal.
 fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
     let between = stiffness.entries().filter(|(row, column, _)| row != column);
     let most = between.fold(0.0_f64, |most, entry| most.max(entry.2.abs()));

@@ -1,5 +1,4 @@
-//! The base after a step, as a whole or one foundation of it, and over a run: distance slid and slip events, uplift,
-//! extremes of its elements.
+//! The base after a step, as a whole or one foundation: sums, means and extremes over its elements.
 
 use std::ops::Range;
 
@@ -8,7 +7,7 @@ use crate::coupled::{Foundation, State};
 use crate::geometry::far_ends;
 use crate::interface::{ContactState, Mode};
 
-/// The base as a whole, or the foundation of this number.
+/// The whole base, or one foundation of it.
 #[derive(Clone, Copy)]
 pub(crate) struct BaseView<'a> {
     pub(crate) state: &'a State,
@@ -20,12 +19,15 @@ impl<'a> BaseView<'a> {
         self.foundation.map(|k| &self.state.foundations[k])
     }
 
-    /// Value of the whole base, or that of the foundation.
+    /// Value of the whole base, or of the foundation.
     pub(crate) fn pick(&self, whole: f64, own: fn(&Foundation) -> f64) -> f64 {
         self.own().map_or(whole, own)
     }
 
-    /// Sum over all foundations, each with its middle from the point of the base moment; or the foundation's own.
+    /// Sum over all foundations, or the foundation's own value.
+    ///
+    /// `value` receives a foundation and its middle relative to the point of the base moment; for a single
+    /// foundation zeros.
     pub(crate) fn sum(&self, value: impl Fn(&Foundation, [f64; 2]) -> f64) -> f64 {
         let each = || self.state.foundations.iter().zip(&self.state.context.footings);
         match self.own() {
@@ -34,14 +36,14 @@ impl<'a> BaseView<'a> {
         }
     }
 
-    /// The largest of all foundations, or the foundation's own.
+    /// The value of largest magnitude among all foundations, or the foundation's own.
     pub(crate) fn largest(&self, value: fn(&Foundation) -> f64) -> f64 {
         let larger = |far: f64, own: f64| if own.abs() > far.abs() { own } else { far };
         let all = || self.state.foundations.iter().map(value).fold(0.0, larger);
         self.own().map_or_else(all, value)
     }
 
-    /// Mean over the area; zero of numbers that a state does not have.
+    /// Mean over the area; zero if a state has no such numbers.
     pub(crate) fn mean(&self, value: fn(&ContactState) -> f64) -> f64 {
         let each = self.areas().iter().zip(self.contact());
         let sums =
@@ -53,7 +55,7 @@ impl<'a> BaseView<'a> {
         self.own().map_or(0..self.state.contact.len(), |own| own.elements.clone())
     }
 
-    /// Contact of its elements. The lists of a state are public: they may have been cut.
+    /// Contact states of its elements. The lists of a state are public and may have been shortened.
     pub(crate) fn contact(&self) -> &'a [ContactState] {
         self.state.contact.get(self.elements()).unwrap_or_default()
     }
@@ -66,7 +68,7 @@ impl<'a> BaseView<'a> {
         self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
     }
 
-    /// Left and right, front and back end: of its elements in the plane, of its outline in plan.
+    /// Left and right, front and back end: of the elements in the plane, of the outline in plan.
     pub(crate) fn ends(&self) -> [[f64; 2]; 2] {
         let footings = &self.state.context.footings;
         let own = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
@@ -74,7 +76,7 @@ impl<'a> BaseView<'a> {
         [0, 1].map(|axis| far_ends(own.iter().map(|own| own.ends[axis])))
     }
 
-    /// The least factor of safety of its foundations; NaN where none is known.
+    /// The smallest factor of safety of its foundations; NaN if none is known.
     pub(crate) fn least(&self, factor: fn(&Derived) -> f64) -> f64 {
         let all = || self.state.foundations.iter().map(|own| factor(&own.derived));
         self.own().map_or_else(|| all().fold(f64::NAN, f64::min), |own| factor(&own.derived))

@@ -7,7 +7,7 @@ use crate::coupled::{State, Warning};
 use crate::geometry::Patch;
 use crate::interface::ContactState;
 
-/// Envelopes of one contact element; tractions are means over it.
+/// Envelopes of one contact element; tractions are means over the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -38,8 +38,9 @@ pub struct ElementEnvelope {
     pub slip_across: Peak,
 }
 
-/// Warning of the largest tension under a base with static pressures, among elements that cannot open; `None` below the
-/// limit.
+/// Warning of the largest tension under elements that cannot open.
+///
+/// `None` if it is below the limit, or without static pressures.
 pub(crate) fn tension(
     envelope: &[ElementEnvelope],
     in_plan: bool,
@@ -76,7 +77,7 @@ pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
     elements.iter().zip(elements.depths()).zip(&state.contact).map(envelope).collect()
 }
 
-/// Extends the envelopes by a step of length `step`.
+/// Extends the envelopes by a step of duration `step`.
 pub(crate) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
     let modes = state.modes.iter();
     for ((envelope, contact), mode) in envelopes.iter_mut().zip(&state.contact).zip(modes) {

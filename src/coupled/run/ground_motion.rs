@@ -1,4 +1,4 @@
-//! The ground motion of a run, as its page states it.
+//! The ground motion of a run, for its page.
 
 use std::fmt;
 
@@ -11,20 +11,22 @@ use crate::text::column::number;
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 #[non_exhaustive]
 pub struct GroundMotion {
-    /// Largest component of the acceleration, m/s²: of the records, at a sample; without records of the free field under
-    /// the base, at the run's steps.
+    /// Largest component of the acceleration, m/s².
+    ///
+    /// Of the records at their samples; without records, of the free field under the base at the run's steps.
     pub peak: f64,
     /// Time of the last sample of the longest record, s; `None` without records.
     pub duration: Option<f64>,
     /// Longest time step of the records, s; `None` without records.
     pub time_step: Option<f64>,
-    /// Fraction of the Arias intensity of the strongest record that had passed at the end of the run; `None` without
-    /// records and for records of zeros.
+    /// Fraction of the strongest record's Arias intensity that had passed at the end of the run.
+    ///
+    /// `None` without records and for records of zeros.
     pub passed: Option<f64>,
 }
 
 impl GroundMotion {
-    /// The motion of a run that ended at `end` (s) and saw the acceleration `seen` (m/s²).
+    /// The motion of a run that ended at `end` (s); `seen`: largest acceleration at its steps (m/s²).
     pub(crate) fn new(motion: &dyn FreeField, end: f64, seen: f64) -> Self {
         let records = motion.records();
         let largest = |of: fn(&Record) -> f64| records.iter().map(|own| of(own)).reduce(f64::max);
@@ -64,7 +66,7 @@ impl fmt::Display for GroundMotion {
     }
 }
 
-/// A time in s without the zeros at its end.
+/// A time in s without trailing zeros.
 pub(crate) fn seconds(time: f64) -> String {
     if time < 1e-4 {
         return number(time);

@@ -37,15 +37,16 @@ use crate::error::Result;
 use crate::motion::FreeField;
 use crate::structure::probe::probe_index;
 
-/// Steps whose contact modes the first search did not find, see
-/// [`SearchMethod`](crate::contact::SearchMethod).
+/// Steps whose contact modes the first search did not find, by method.
+///
+/// See [`SearchMethod`](crate::contact::SearchMethod).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Fallbacks {
     /// Steps that Gauss–Seidel over the elements solved.
     pub gauss_seidel: usize,
-    /// Steps that needed a path of solutions to be followed.
+    /// Steps that needed a path of solutions.
     pub path: usize,
     /// In plan: steps that needed Newton's method.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -56,21 +57,20 @@ pub struct Fallbacks {
 }
 
 impl Fallbacks {
-    /// Steps that needed any of them.
+    /// Steps that needed any of these methods.
     pub fn total(&self) -> usize {
         self.gauss_seidel + self.path + self.newton + self.proximal
     }
 }
 
-/// Summary of a run: peaks with their times, envelopes, uplift, slip, energies, warnings. Printed,
-/// a page for a report.
+/// Summary of a run: peaks with their times, envelopes, uplift, slip, energies, warnings.
 ///
-/// Quantities are named and signed as in [`State`]: forces per metre of thickness (in plan, of the whole body), on the
-/// soil.
-/// The state from which the run begins counts as its steps do.
+/// It prints as a page for a report. Quantities are named and signed as in [`State`]: forces per metre of
+/// thickness (in plan, of the whole body), on the soil. The initial state of the run counts as a step.
 ///
-/// With the feature `serde` it is written with all its fields, [numbers](crate#settings-and-results-in-serdes-formats)
-/// that are not finite included; one that was read takes in no more steps.
+/// With the feature `serde` all its fields are written, including
+/// [numbers](crate#settings-and-results-in-serdes-formats) that are not finite. A run that was read ignores
+/// further steps.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -82,7 +82,7 @@ pub struct Run {
     pub start: f64,
     /// Time at its end, s.
     pub end: f64,
-    /// The ground motion; zeros before the run is closed.
+    /// The ground motion; zeros until the run is closed.
     #[cfg_attr(feature = "serde", serde(default))]
     pub ground_motion: GroundMotion,
     /// The time step, s.
@@ -94,12 +94,13 @@ pub struct Run {
     pub is_overturned: bool,
     /// The base as a whole.
     pub whole: Summary,
-    /// The probes, in the order they were given to the builder.
+    /// The probes, in the order of the builder.
     pub probes: Vec<ProbeExtremes>,
-    /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
+    /// Each foundation, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Summary>,
-    /// A check for each limit that the builder was given
-    /// ([`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability)).
+    /// A check for each limit of the builder.
+    ///
+    /// See [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability).
     pub serviceability: Vec<ServiceCheck>,
     /// Envelopes of the contact elements, from left to right.
     pub envelope: Vec<ElementEnvelope>,
@@ -111,26 +112,27 @@ pub struct Run {
     pub rebondings: usize,
     /// The energy balance at the end.
     pub energy_balance: EnergyBalance,
-    /// Largest energy error of the run; NaN if no energy balance is kept.
+    /// Largest energy error of the run; NaN without an energy balance.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub energy_error: f64,
-    /// Linear solves of the mode search, in all.
+    /// Total number of linear solutions of the mode search.
     pub trials: usize,
     /// Steps that the first search for contact modes did not solve.
     pub fallbacks: Fallbacks,
-    /// Warnings; none before the run is closed.
+    /// Warnings; empty until the run is closed.
     pub warnings: Vec<Warning>,
-    /// Wall time, observers included; zero where there is no clock (WebAssembly).
+    /// Wall time, observers included; zero without a clock (WebAssembly).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
     pub wall: Duration,
-    /// Whether the ground is one in plan: forces and energies are then those of the whole body.
+    /// Whether the ground is one in plan: forces and energies are then of the whole body.
     pub in_plan: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
     sequence: Sequence,
-    /// Whether the run ended with the last of the steps that it was given, and of the expected ones: not by an observer
-    /// or a loop of the caller's own.
+    /// Whether the run made all its steps and the expected ones.
+    ///
+    /// `false` if an observer ended it, or the caller's own loop made it.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) ends_by_steps: bool,
     /// Responses that should not be largest at the end, after the last step and before it.
@@ -141,20 +143,20 @@ pub struct Run {
     /// Largest settlement of each foundation, m.
     #[cfg_attr(feature = "serde", serde(skip))]
     settlements: Vec<f64>,
-    /// Least algorithmic energy of the energy balance at any time.
+    /// Smallest algorithmic energy of the energy balance at any time.
     #[cfg_attr(feature = "serde", serde(skip))]
     least_algorithmic: f64,
     #[cfg_attr(feature = "serde", serde(skip))]
     begin: Option<Instant>,
 }
 
-/// The present, where there is a clock: not in bare WebAssembly.
+/// The present time; `None` without a clock (WebAssembly).
 pub(crate) fn clock() -> Option<Instant> {
     (!cfg!(target_family = "wasm")).then(Instant::now)
 }
 
 impl Run {
-    /// Run before its first step, at `state`, which is held against `limits`.
+    /// Run before its first step, at `state`; `limits`: its limits of serviceability.
     pub(crate) fn start(state: &State, limits: &Serviceability, resolution: Resolution) -> Self {
         let time = state.time;
         let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {
@@ -198,8 +200,9 @@ impl Run {
         }
     }
 
-    /// Takes in the next step; [`Simulation::run`](crate::Simulation::run) does it for every step.
-    /// States of another simulation and those that are not later than the last one are ignored.
+    /// Records the next step; [`Simulation::run`](crate::Simulation::run) calls it for every step.
+    ///
+    /// States of another simulation, and states that are not later than the last one, are ignored.
     pub fn record(&mut self, state: &State) {
         if !self.sequence.takes(state) {
             return;
@@ -241,9 +244,10 @@ impl Run {
         }
     }
 
-    /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can;
-    /// `of_scene` are the warnings that the scene itself calls for, `drag` (1/s) its damping of a rigid translation over
-    /// its mass, `rotation_limit` (rad) what ends a run.
+    /// Closes the run; the ground is sampled between steps where these may have missed an extreme.
+    ///
+    /// `opens`: whether an element can open. `of_scene`: warnings of the scene itself. `drag`: damping of a rigid
+    /// translation over its mass, 1/s. `rotation_limit`: rotation that ends a run, rad.
     pub(crate) fn finish(
         &mut self,
         ground: &dyn Ground,
@@ -293,7 +297,7 @@ impl Run {
     /// Smallest and largest value of the probe called `name`.
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if there is none.
+    /// [`Error::Name`](crate::Error::Name) if no probe has this name.
     pub fn probe(&self, name: &str) -> Result<Extremes> {
         probe_index(&self.probes, name, |probe| &probe.name).map(|k| self.probes[k].extremes)
     }
@@ -311,23 +315,23 @@ impl Run {
         1.0 - before / last
     }
 
-    /// Number of slip events, of several foundations those of each.
+    /// Number of slip events of all foundations.
     pub(crate) fn slip_events(&self) -> usize {
         self.foundations.iter().map(|own| own.sliding.events.len()).sum()
     }
 
-    /// Whether all limits of serviceability were kept; `None` without limits.
+    /// Whether all limits of serviceability are met; `None` without limits.
     pub fn is_serviceable(&self) -> Option<bool> {
         let checks = &self.serviceability;
         (!checks.is_empty()).then(|| checks.iter().all(ServiceCheck::is_met))
     }
 
-    /// The criterion with the least margin; `None` without limits.
+    /// The criterion with the smallest margin; `None` without limits.
     pub(crate) fn least_serviceable(&self) -> Option<&ServiceCheck> {
         self.serviceability.iter().min_by(|a, b| a.margin().total_cmp(&b.margin()))
     }
 
-    /// The element with the largest pressure, and that pressure, Pa.
+    /// The element with the largest pressure, and its pressure, Pa.
     pub fn largest_pressure(&self) -> Option<(&ElementEnvelope, Peak)> {
         self.envelope
             .iter()

@@ -11,11 +11,11 @@ use crate::geometry::{middle, span};
 use crate::text::column::{number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
-/// Elements of the pressure envelope beyond which only some are printed.
+/// Number of elements above which the pressure envelope is shortened.
 const MOST_ROWS: usize = 12;
-/// Lever of the outermost elements in plan, of half the width, that needs no advice.
+/// Lever of the outermost elements in plan, over half the width, above which no advice is printed.
 const ENOUGH: f64 = 0.93;
-/// Open part of the base above which small changes of a scene may change its peaks.
+/// Fraction of open base above which small changes of a scene may change its peaks.
 const MOSTLY_OPEN: f64 = 0.5;
 
 impl fmt::Display for Run {
@@ -83,7 +83,7 @@ impl Run {
         Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }
     }
 
-    /// Largest magnitudes, a line for each foundation.
+    /// Largest magnitudes, one line for each foundation.
     fn each_foundation(&self) -> Table {
         let shown: Vec<_> = Quantity::shown(Place::Foundations, self.in_plan).collect();
         let printed = |quantity: &Quantity| quantity.printed(self.in_plan);
@@ -146,8 +146,10 @@ impl Run {
         Ok(())
     }
 
-    /// Distance from the middle of a foundation in plan to the middles of its outermost elements along an axis, over
-    /// half its width; the least of all foundations and both sides.
+    /// Distance from the middle of a foundation in plan to the middles of its outermost elements, over half its
+    /// width.
+    ///
+    /// Along an axis; the smallest of all foundations and both sides.
     fn lever(&self, axis: usize) -> f64 {
         let of = |own: &Summary| {
             let ends = [own.ends, own.depth][axis];
@@ -245,7 +247,7 @@ impl Run {
             ]);
             cells
         };
-        // Whatever is left out, the largest pressure is not.
+        // The line with the largest pressure is always printed.
         let place = |k: &usize| self.envelope[*k].pressure.highest.value;
         let largest = (0..self.envelope.len()).max_by(|a, b| place(a).total_cmp(&place(b)));
         let kept = |k: &usize| k.is_multiple_of(every) || *k == last || Some(*k) == largest;
@@ -263,7 +265,7 @@ impl Run {
             wall / steps * 1e6,
             self.trials as f64 / steps,
         )?;
-        // In plan sweeps are what nearly every step takes.
+        // In plan nearly every step uses sweeps.
         let shown = if self.in_plan {
             [(newton, "Newton's method"), (proximal, "proximal steps")]
         } else {
@@ -286,7 +288,7 @@ impl Run {
         let ending = if fractions.is_some() { ", of which" } else { "" };
         writeln!(f, "\nEnergy: input {input:.4} {unit}{ending}")?;
         for (name, fraction) in fractions.into_iter().flatten() {
-            // Not those that would print as nothing.
+            // Omits terms that would print as zero.
             if fraction.abs() >= 5e-5 {
                 writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * fraction)?;
             }

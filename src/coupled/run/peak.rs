@@ -1,6 +1,6 @@
-//! Extremes of a run and when they occurred.
+//! Extremes of a run, with their times.
 
-/// A value of largest magnitude, with its sign, and when it occurred.
+/// A value of largest magnitude, with its sign and time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -26,8 +26,9 @@ impl Peak {
     }
 }
 
-/// Smallest and largest value, and when they occurred; of equal ones the first. NaN does not count
-/// unless there is nothing else.
+/// Smallest and largest value, with their times; the first of equal values.
+///
+/// NaN is ignored unless there are no other values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -75,6 +76,6 @@ pub struct ProbeExtremes {
     pub name: String,
     /// Unit of the values.
     pub unit: String,
-    /// The values, and when.
+    /// Extremes of the values.
     pub extremes: Extremes,
 }

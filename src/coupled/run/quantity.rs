@@ -1,5 +1,6 @@
-//! The scalar quantities of a result: the one table from which states, summaries, time series, files, pages,
-//! comparisons and pictures read.
+//! The scalar quantities of a result, in one table.
+//!
+//! States, summaries, time series, files, pages, comparisons and pictures read it.
 
 use std::fmt;
 use std::ops::Range;
@@ -13,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::text::column::{column, of_body, printed};
 use crate::text::words::{plain, unknown};
 
-/// Row of the table: how a quantity is called, and where it is shown beside its time series.
+/// Row of the table: name of a quantity, and where it is shown in addition to its time series.
 struct Row {
     word: &'static str,
     name: &'static str,
@@ -23,27 +24,27 @@ struct Row {
     value: fn(&BaseView) -> f64,
 }
 
-/// Scale by which a quantity is drawn and printed.
+/// Scale for drawing and printing a quantity.
 #[derive(Clone, Copy, PartialEq)]
 enum Scale {
     /// Scale of the engineer's unit.
     Unit,
     /// A ratio, in percent.
     Percent,
-    /// A factor of safety, drawn as its inverse beside the limit of one, which has this label.
+    /// A factor of safety, drawn as its inverse with a limit of one; the text is the label of the limit.
     Safety(&'static str),
 }
 
-/// Place where the summary of a quantity is shown.
+/// Place where a summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
-    /// Nowhere but in plan.
+    /// Only in plan.
     Plan,
     /// Extremes on the page of a run.
     Page,
     /// Largest value, in the page's table of foundations.
     Foundations,
-    /// Largest (or least) value in a comparison of runs.
+    /// Largest (or smallest) value in a comparison of runs.
     Comparison,
     /// Time of the value, in a comparison of runs.
     ComparisonTime,
@@ -75,14 +76,15 @@ macro_rules! quantities {
 
         impl Quantity {
             /// All quantities, in the order of columns.
-            /// Those of three directions are the last: [`Quantity::of`] leaves them out in the plane.
+            ///
+            /// Quantities in plan only are the last: [`Quantity::of`] leaves them out in the plane.
             pub const ALL: [Self; WORDS.len()] = [$(Self::$variant),+];
         }
 
         /// Summary of the whole base or of one foundation: extremes with their times, uplift, sliding.
         ///
         /// Quantities are named and signed as in [`State`]. Moments of a foundation are about the middle of its
-        /// own elements, in plan of its outline, so that of several structures each has its own.
+        /// own elements, in plan of its outline, so each of several structures has moments of its own.
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -90,7 +92,7 @@ macro_rules! quantities {
         pub struct Summary {
             /// Elements of the foundation, as indices of all.
             pub elements: Range<usize>,
-            /// Left and right end of the foundation, m; in plan those of its outline.
+            /// Left and right end of the foundation, m; in plan of its outline.
             pub ends: [f64; 2],
             /// Front and back end of the foundation along y, m, in plan; zeros in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
@@ -105,13 +107,14 @@ macro_rules! quantities {
             pub residual_slip_across: f64,
             /// Duration of uplift.
             pub uplift: Uplift,
-            /// Distance and duration of sliding, and the slip events. The base as a whole slides while all
-            /// of its foundations do, by the mean slip of all.
+            /// Distance and duration of sliding, and the slip events.
+            ///
+            /// The whole base slides while all of its foundations slide, by the mean slip of all.
             pub sliding: Sliding,
         }
 
         impl State {
-            /// Appends the values of the whole base, one to each list: of as many quantities as there are lists.
+            /// Appends the values of the whole base, one to each list; as many quantities as there are lists.
             pub(crate) fn append_values(&self, lists: &mut [Vec<f64>]) {
                 let base = self.base(None);
                 $(if let Some(list) = lists.get_mut(Quantity::$variant as usize) {
@@ -122,7 +125,7 @@ macro_rules! quantities {
         }
 
         impl Summary {
-            /// Summary at the start of a run, of the whole base or of its foundation number `foundation`.
+            /// Summary at the start of a run, of the whole base or of one foundation.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
                 let extremes = |value: fn(&BaseView) -> f64| Extremes::of(value(&base), state.time);
@@ -140,8 +143,10 @@ macro_rules! quantities {
                 }
             }
 
-            /// Takes in the first `count` values of a step. Each is called directly: at every step, calls through the
-            /// table cost more than the values.
+            /// Records the first `count` values of a step.
+            ///
+            /// Each value is called directly: at every step, calls through the table would cost more than the
+            /// values.
             fn see_values(&mut self, base: &BaseView, count: usize, time: f64) {
                 $(if (Quantity::$variant as usize) < count {
                     const VALUE: fn(&BaseView) -> f64 = $value;
@@ -179,8 +184,9 @@ quantities! {
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
         |base| base.largest(|own| own.derived.largest_slip);
-    /// Rotation of the base, counter-clockwise, rad, in plan about the axis along y by the right-hand rule; of several
-    /// foundations the largest.
+    /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
+    ///
+    /// In plan about the axis along y, by the right-hand rule.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.pick(base.state.base_rotation, |own| own.base_rotation);
     /// Mean horizontal displacement of the free field under the base, m.
@@ -189,22 +195,24 @@ quantities! {
     /// Mean vertical displacement (up) of the free field under the base, m.
     FreeFieldVertical free_field_vertical, "free field, vertical", "m", Scale::Unit, [],
         |base| base.state.free_field[1];
-    /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
-    /// flight, and throughout if an element's law has no friction coefficient and the builder was
-    /// given none ([`safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
+    /// Resistance of the interface over the base shear: φN/|H|.
     ///
-    /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
-    /// and never falls below. On a bonded base it may, and says what the interface would have lacked.
-    /// Of several foundations the least.
+    /// Infinite without shear, NaN in flight. NaN throughout if an element's law has no friction coefficient and
+    /// [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It is computed from
+    /// the actual tractions: on a base that may slide it reaches one during sliding, and never falls below. On a
+    /// bonded base it may fall below one, and shows the missing resistance. Of several foundations the smallest.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
         |base| base.least(|own| own.sliding);
-    /// Restoring over overturning moment about the edge that the pressure moves to: N times the
-    /// half width, over the moment about the middle of the base. NaN in flight. On a base that may
-    /// open it reaches one when the base stands on its edge, and never falls below. Of several foundations the least.
+    /// Restoring over overturning moment about the edge that the pressure moves to.
     ///
-    /// In plan that over the left or the right edge, N times the distance of the edge from the middle of the outline, of
-    /// a round or many-sided one each edge that faces x more than y. Pressure acts at the middle of the last element at
-    /// most: on n cells along x it stands on them at (n − 0.21)/(n − 1), 1.11 for 8 and 1.05 for 16 cells or graded unions.
+    /// N times the half width, over the moment about the middle of the base. NaN in flight. On a base that may
+    /// open it reaches one when the base stands on its edge, and never falls below. Of several foundations the
+    /// smallest.
+    ///
+    /// In plan over the left or the right edge: N times the distance of the edge from the middle of the outline;
+    /// on a round or many-sided outline, of each edge that faces x more than y. Pressure acts at the middle of the
+    /// last element at most: a base with n cells along x stands on them at (n − 0.21)/(n − 1), 1.11 for 8 and 1.05
+    /// for 16 cells or graded unions.
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
         |base| base.least(|own| own.overturning[0]);
@@ -226,27 +234,29 @@ quantities! {
     /// In plan: slip along y averaged over the base, m.
     MeanSlipAcross mean_slip_across, "mean slip across", "m", Scale::Unit, [Plan, Foundations, Comparison],
         |base| base.mean(|own| own.slip_across);
-    /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad; of several foundations the
-    /// largest.
+    /// In plan: rotation of the base about the axis along x, rad; of several foundations the largest.
+    ///
+    /// By the right-hand rule.
     RotationAcross rotation_across, "base rotation across", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
         |base| base.largest(|own| own.rotation_across);
-    /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad; of several foundations
-    /// the largest.
+    /// In plan: rotation of the base about the vertical, rad; of several foundations the largest.
+    ///
+    /// Counter-clockwise from above.
     Twist twist, "base twist", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
         |base| base.largest(|own| own.twist);
     /// In plan: mean displacement of the free field under the base along y, m.
     FreeFieldAcross free_field_across, "free field, across", "m", Scale::Unit, [Plan],
         |base| base.state.free_field_across;
-    /// In plan: safety against overturning over the front or the back edge, as that over the left or the right one.
+    /// In plan: safety against overturning over the front or the back edge, otherwise as over left and right.
     OverturningSafetyAcross overturning_safety_across, "factor of safety against overturning across", "",
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
         |base| base.least(|own| own.overturning[1]);
 }
 
-/// In the plane this quantity and those after it keep their first value.
+/// In the plane this quantity and the following ones keep their first value.
 const ACROSS: usize = Quantity::ShearAcross as usize;
 
-/// Most slip events of a base that memory is reserved for.
+/// Largest number of slip events of a base that memory is reserved for.
 const EVENTS: usize = 1000;
 
 impl Quantity {
@@ -259,12 +269,12 @@ impl Quantity {
         self.row().name
     }
 
-    /// The name where there is little room.
+    /// A shorter name.
     pub(crate) fn short_name(self) -> String {
         self.name().replace("factor of safety against", "safety,")
     }
 
-    /// The quantities that there are: all on a ground in plan, in the plane those of two directions.
+    /// The quantities of a ground in plan, or of a ground in the plane.
     pub fn of(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
         Self::ALL.into_iter().filter(move |own| in_plan || !own.is_shown(Place::Plan))
     }
@@ -274,13 +284,14 @@ impl Quantity {
         of_body(self.row().unit, in_plan)
     }
 
-    /// Column of the quantity in files: the word and the unit, `base_shear_n_per_m` in the plane and `base_shear_n` in
-    /// plan.
+    /// Column of the quantity in files: its word and unit.
+    ///
+    /// `base_shear_n_per_m` in the plane, `base_shear_n` in plan.
     pub fn column(self, in_plan: bool) -> String {
         column(self.row().word, self.unit(in_plan))
     }
 
-    /// Factor and unit in which it is printed.
+    /// Factor and unit for printing.
     pub(crate) fn printed(self, in_plan: bool) -> (f64, &'static str) {
         let (factor, unit) = match self.row().scale {
             Scale::Percent => (1e2, "%"),
@@ -314,7 +325,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// The word of `Display`, the name, or the column, in upper or lower case.
+/// Parses the word of `Display`, the name, or the column, in upper or lower case.
 impl FromStr for Quantity {
     type Err = Error;
 
@@ -340,7 +351,7 @@ impl State {
 }
 
 impl Summary {
-    /// Takes in the state of a step that began at `begin`; `foundation` as at the start.
+    /// Records a step that began at `begin`; `foundation` as at the start.
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
         let in_plan = state.context.elements.is_plan();
@@ -354,7 +365,7 @@ impl Summary {
         (self.residual_slip, self.residual_slip_across) = (slip, across);
     }
 
-    /// The extreme of `quantity` that matters: the least factor of safety, the furthest value of all else.
+    /// The governing extreme of `quantity`: the smallest factor of safety, or the value furthest from zero.
     pub fn peak(&self, quantity: Quantity) -> Peak {
         let extremes = self.extremes(quantity);
         if quantity.limit().is_some() { extremes.lowest } else { extremes.largest() }

@@ -1,4 +1,4 @@
-//! Whether time step and elements resolve what a run has seen.
+//! Whether time step and elements resolve the motion of a run.
 //!
 //! A series x sampled every Δt that vibrates with ω changes from step to step by
 //!
@@ -6,42 +6,42 @@
 //! r = (Σ (xₙ₊₁ − xₙ)² / Σ (xₙ₊₁ + xₙ)²)^½ = tan(ω' Δt/2)
 //! ```
 //!
-//! where ω' is the frequency in the samples. The midpoint rule turns a free vibration of frequency ω
-//! into one with tan(ω' Δt/2) = ωΔt/2, so that r of the base shear gives back the true period, π Δt/r,
-//! however coarse the step. Two cases differ in what they need:
+//! where ω' is the frequency in the samples. The midpoint rule turns a free vibration of frequency ω into one with
+//! tan(ω' Δt/2) = ωΔt/2. So r of the base shear gives the true period, π Δt/r, however coarse the step. Two cases
+//! differ in their limits:
 //!
 //! | base shear | because | needs |
 //! |---|---|---|
 //! | varies more slowly than the ground's acceleration | the structure vibrates with a period of its own, which the step lengthens | r ≤ 0.25: 12 steps per period |
 //! | follows the ground's acceleration | peaks fall between steps | r ≤ 0.6: 5 steps per period |
 //!
-//! A base shear that varies more than twice as fast as a ground that is resolved rings with vibrations
-//! of the contact that carry little mass; they do not count. Without ground motion nothing distinguishes them
-//! from others, and the time step is not judged.
+//! A base shear that varies more than twice as fast as a resolved ground motion contains vibrations of the contact
+//! with little mass; they do not count. Without ground motion nothing distinguishes them from others, and the time
+//! step is not judged.
 //!
-//! The largest base shear errs by the square of the step. With r of the ground's acceleration for a
-//! measure of the step, the error is estimated as 0.3 r² where the base shear varies as the ground does
-//! (its r within 0.95 and 1.1 of the ground's) and 0.9 r² elsewhere, and runs warn from 5 % on even
-//! within the limits above.
+//! The error of the largest base shear grows with the square of the step. With r of the ground's acceleration as a
+//! measure of the step, the error is estimated as 0.3 r² if the base shear varies as the ground does (its r within
+//! 0.95 and 1.1 of the ground's) and 0.9 r² otherwise. Runs warn from 5 % on, even within the limits above.
 //!
-//! Measured with 108 scenes at six steps from 3 to 100 ms (rigid blocks, shear buildings, walls of finite elements; c_S
-//! 120 to 600 m/s; bonded and with friction 0.5; El Centro and Ricker pulses of 1 and 3 Hz), against halved steps down
-//! to 1.6 ms, extrapolated (Richardson). Where it is more than 3 %, the estimate is half the error or more in nine
-//! cases of ten, within a factor of three in three of four; at the worst the error is 7.5 times as large: in lightly
-//! damped rocking, whose radiation the steps overestimate. Of 579 runs with r below one 213 warn (13 of them err by
-//! less than 2 %, 42 by less than 5 %), 13 that err by more than 10 % do not, nor 6 beyond 15 %. Half the step tells
-//! what no estimate does.
+//! Measured with 108 scenes at six steps from 3 to 100 ms (rigid blocks, shear buildings, walls of finite
+//! elements; c_S 120 to 600 m/s; bonded and with friction 0.5; El Centro and Ricker pulses of 1 and 3 Hz), against
+//! halved steps down to 1.6 ms, extrapolated (Richardson). Where the error is more than 3 %, the estimate is half
+//! the error or more in nine cases of ten, and within a factor of three in three of four. In the worst case the
+//! error is 7.5 times the estimate, in lightly damped rocking, whose radiation the steps overestimate. Of 579 runs
+//! with r below one 213 warn (13 of them with errors below 2 %, 42 below 5 %); 13 runs with errors above 10 % do
+//! not warn, 6 of them above 15 %. A run with half the step shows errors that no estimate does.
 //!
-//! For elements, on the half-plane with 1 to 24 elements: one under a foundation has no stiffness in rocking (series
-//! off by 28 to 104 %), two are off by 16 to 123 %, three by 16 to 97 % where the base moment exceeds half of base
-//! shear times width. Waves that run along the base need four elements per wavelength of the shear wave; where the free
-//! field is the same everywhere, long elements do no harm. In plan twelve cells per wavelength leave 1.6 % of the
-//! rocking impedance of a rigid mat, whatever runs along it: the edge is theirs, so that of unions the narrowest count.
+//! Limits of elements come from runs on the half-plane with 1 to 24 elements. One element under a foundation has
+//! no stiffness in rocking (series off by 28 to 104 %), two are off by 16 to 123 %, three by 16 to 97 % if the
+//! base moment exceeds half of base shear times width. Waves that run along the base need four elements per
+//! wavelength of the shear wave. Where the free field is the same everywhere, long elements cause no error. In
+//! plan twelve cells per wavelength leave an error of 1.6 % in the rocking impedance of a rigid mat, for any free
+//! field: the error is at the edge, so the narrowest cells of unions count.
 //!
-//! In plan, steps also damp rocking that only radiation damps. Largest base shear of bonded cuboids, 10 m square and 3,
-//! 10 and 20 m high, under El Centro on soil with c_S from 200 to 1500 m/s, by steps over the time in which shear waves
-//! cross the base: 0.1: −0.6 %, 0.2: −1 to −3 %, 0.4: −4 to −9 %, 0.8: −10 to −25 %; of the lowest one, which follows
-//! the ground, 1 % at most.
+//! In plan, steps also damp rocking that only radiation damps. Error of the largest base shear, by the ratio of
+//! the step to the time in which shear waves cross the base: 0.1: −0.6 %, 0.2: −1 to −3 %, 0.4: −4 to −9 %, 0.8:
+//! −10 to −25 %. Measured with bonded cuboids, 10 m square and 3, 10 and 20 m high, under El Centro on soil with
+//! c_S from 200 to 1500 m/s; for the lowest one, which follows the ground, 1 % at most.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -53,40 +53,42 @@ use crate::coupled::state::State;
 use crate::geometry::{SPACE, axis_name, far_ends};
 use crate::motion::FreeField;
 
-/// Largest r where the base shear follows the ground.
+/// Largest r if the base shear follows the ground.
 const FOLLOWING: f64 = 0.6;
 /// Fraction of the ground's r below which the base shear does not follow it.
 const SLOWER: f64 = 0.85;
-/// Multiple of the ground's r above which the base shear rings.
+/// Multiple of the ground's r above which vibrations of the contact prevail.
 const RINGING: f64 = 2.0;
 /// Steps per period that a warning recommends, in the two cases.
 const OWN_STEPS: f64 = 30.0;
 const FOLLOWING_STEPS: f64 = 15.0;
-/// Error of the largest base shear over r² of the ground: of one that varies as the ground does,
-/// within these multiples of its r, and of others.
+/// Error of the largest base shear over r² of the ground: if the shear varies as the ground does, and otherwise.
+///
+/// It varies so if its r is within the two multiples of the ground's r.
 const ERROR_FOLLOWING: f64 = 0.3;
 const AS_THE_GROUND: [f64; 2] = [0.95, 1.1];
 const ERROR: f64 = 0.9;
-/// Estimated error that calls for a warning, and the one that the recommended step has.
+/// Estimated error above which runs warn, and the error at the recommended step.
 const ERRORS: [f64; 2] = [0.05, 0.03];
-/// Fewest steps from which a frequency is estimated.
+/// Smallest number of steps for an estimate of a frequency.
 const LEAST_STEPS: usize = 8;
 /// Base shear, relative to the normal force, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// Second difference of the free field that is rounding, relative to the largest free field so far.
+/// Second difference of the free field that counts as rounding, relative to the largest free field so far.
 const AT_REST: f64 = 16.0 * f64::EPSILON;
-/// Elements per wavelength of the shear wave: fewest, and those that are asked for.
+/// Elements per wavelength of the shear wave: smallest and recommended number.
 const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
-/// Elements per wavelength of the shear wave in plan: fewest, and those that are asked for.
+/// Elements per wavelength of the shear wave in plan: smallest and recommended number.
 const CELLS_PER_WAVELENGTH: [f64; 2] = [12.0, 12.0];
-/// Steps in which waves cross a base in plan: fewest, and those that are asked for.
+/// Steps in which waves cross a base in plan: smallest and recommended number.
 const CROSSING_STEPS: [f64; 2] = [4.0, 8.0];
-/// Fewest elements under a foundation by its base moment over base shear times width; below the
-/// last, rocking does not matter.
+/// Smallest number of elements under a foundation, by its base moment over base shear times width.
+///
+/// Below the last limit rocking does not matter.
 const ELEMENTS: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
-/// Elements that any foundation needs: a single one carries no moment, so that no rocking would be seen.
+/// Elements that any foundation needs: a single element resists no moment and does not rock.
 const TWO: usize = 2;
-/// Time step and elements that base shear, ground and foundations of a run require.
+/// Time step and elements that a run's base shear, ground and foundations require.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(Default))]
 pub(crate) struct Resolution {
@@ -109,7 +111,7 @@ pub(crate) struct Resolution {
     peak: f64,
     /// Largest |free field| so far.
     largest: [f64; SPACE],
-    /// Steps seen without a gap.
+    /// Number of consecutive steps seen.
     in_a_row: usize,
     base_shear: Variation,
     ground: Variation,
@@ -142,7 +144,7 @@ impl Axis {
         self.moment = self.moment.max((moment - self.static_moment).abs());
     }
 
-    /// Fewest elements that its rocking takes.
+    /// Smallest number of elements that its rocking needs.
     fn needed(&self) -> usize {
         let arm = self.moment / (self.shear * self.width);
         let rocking = ELEMENTS.iter().find(|(least, _)| self.elements < TWO || arm > *least);
@@ -251,7 +253,7 @@ impl Resolution {
         self.peak / self.time_step.powi(2)
     }
 
-    /// Whether the base shear rose above rounding, over enough steps.
+    /// Whether the base shear exceeded rounding, over enough steps.
     fn has_response(&self) -> bool {
         let rounding = ROUNDING * self.normal_force;
         self.steps >= LEAST_STEPS
@@ -277,22 +279,23 @@ impl Resolution {
         (low..high).contains(&response)
     }
 
-    /// Estimated relative error of the largest base shear by the time step, one at most.
+    /// Estimated relative error of the largest base shear due to the time step, one at most.
     fn error(&self) -> f64 {
         let factor = if self.follows() { ERROR_FOLLOWING } else { ERROR };
         let ground = self.ground.ratio();
         (factor * ground * ground).min(1.0)
     }
 
-    /// Wavelength of shear waves at the frequency of the base shear, its ringing left out, m. Steps
-    /// that miss the motion leave no frequency to go by.
+    /// Wavelength of shear waves at the frequency of the base shear, without vibrations of the contact, m.
+    ///
+    /// `None` if the steps do not resolve the motion.
     fn wavelength(&self) -> Option<f64> {
         let ratio = self.base_shear.ratio().min(self.ground.ratio());
         let wavelength = self.shear_wave_speed? * PI * self.time_step / ratio;
         (self.has_response() && ratio <= FOLLOWING).then_some(wavelength)
     }
 
-    /// Elements per wavelength: fewest, and those that are asked for.
+    /// Elements per wavelength: smallest and recommended number.
     fn per_wavelength(&self) -> [f64; 2] {
         if self.in_plan { CELLS_PER_WAVELENGTH } else { PER_WAVELENGTH }
     }
@@ -302,7 +305,7 @@ impl Resolution {
         self.wavelength().filter(|length| *length < self.per_wavelength()[0] * self.longest)
     }
 
-    /// Adds warnings of what steps and elements did not resolve.
+    /// Adds warnings of motion that steps and elements did not resolve.
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
         if !self.has_response() {
             return;
@@ -334,7 +337,7 @@ impl Resolution {
             let needed = crossing / CROSSING_STEPS[1];
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
-        // Springs need no more than two.
+        // Springs need two at most.
         let least = |axis: &Axis| if self.shear_wave_speed.is_some() { axis.needed() } else { TWO };
         if let Some(found) = self.axes.iter().position(|axis| axis.elements < least(axis)) {
             let Axis { elements, .. } = self.axes[found];
@@ -349,8 +352,9 @@ impl Resolution {
         }
     }
 
-    /// Samples the ground between the steps in `times` (s) if these may have missed something: a faster motion is
-    /// aliased in them.
+    /// Samples the ground between the steps in `times` (s) if the steps may have missed a faster motion.
+    ///
+    /// In the steps a faster motion is aliased.
     pub(crate) fn resolve_ground(
         &mut self,
         ground: &dyn Ground,

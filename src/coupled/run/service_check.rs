@@ -1,4 +1,4 @@
-//! Serviceability of a run: each limit beside the largest response.
+//! Serviceability of a run: each limit and the largest response.
 
 use crate::coupled::State;
 use crate::coupled::run::peak::Peak;
@@ -18,12 +18,12 @@ pub struct ServiceCheck {
     pub limit: f64,
     /// The value of the run furthest from zero, with its sign.
     pub largest: Peak,
-    /// End of the first step that was beyond the limit, s; `None` if none was.
+    /// End of the first step beyond the limit, s; `None` if there was none.
     pub first_excess: Option<f64>,
 }
 
 impl ServiceCheck {
-    /// Checks, one per limit, at the state from which a run starts.
+    /// Checks, one per limit, at the initial state of a run.
     pub(crate) fn all(limits: &Serviceability, state: &State) -> Vec<Self> {
         let limits = [
             (Criterion::Slip, limits.slip),
@@ -58,7 +58,7 @@ impl ServiceCheck {
         self.first_excess.is_none()
     }
 
-    /// 1 − |largest|/limit: the unused fraction of the limit; below zero where it is exceeded.
+    /// 1 − |largest|/limit: the unused fraction of the limit; negative if it is exceeded.
     pub fn margin(&self) -> f64 {
         1.0 - self.largest.magnitude() / self.limit
     }

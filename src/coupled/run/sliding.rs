@@ -3,8 +3,9 @@
 use crate::geometry::resultant;
 use crate::interface::Mode;
 
-/// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
-/// ones slide, and the mean slip does not turn round.
+/// A series of steps in which a whole base slid in one direction.
+///
+/// Some elements are closed, all closed elements slide, and the mean slip does not reverse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -33,9 +34,9 @@ impl SlipEvent {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Sliding {
-    /// Way slid, m: the sum of the events' |slip|.
+    /// Sliding distance, m: the sum of the events' |slip|.
     pub path: f64,
-    /// Time in which the whole base slid, s.
+    /// Time during which the whole base slid, s.
     pub duration: f64,
     /// Events, in order.
     pub events: Vec<SlipEvent>,
@@ -43,20 +44,21 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Sliding before the first step, with memory for this many events.
+    /// Sliding before the first step, with memory for `events` events.
     pub(crate) fn with_capacity(events: usize) -> Self {
         Self { events: Vec::with_capacity(events), ..Self::default() }
     }
 
-    /// A step between two `times` that ended in these `modes` of the base's elements, and changed
-    /// the mean slip by `slip`, along x and y.
+    /// Records a step between two `times`.
+    ///
+    /// `modes`: of the base's elements at its end. `slip`: change of the mean slip, along x and y.
     pub(crate) fn see(&mut self, modes: &[Mode], slip: [f64; 2], times: [f64; 2]) {
         let slides = modes.iter().any(|mode| mode.is_slip())
             && modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
         self.advance(slides, slip, times);
     }
 
-    /// The mean slip changed by `slip` from the first to the second of `times`.
+    /// Records a change of the mean slip by `slip` from the first to the second of `times`.
     fn advance(&mut self, slides: bool, [slip, slip_across]: [f64; 2], times: [f64; 2]) {
         if slides {
             self.path += resultant(slip, slip_across).abs();
@@ -117,7 +119,7 @@ mod tests {
         assert_eq!((sliding.path, sliding.duration), (11.0, 5.0));
         assert_eq!(sliding.largest_event(), Some(known[1]));
         assert_eq!(Sliding::default().largest_event(), None);
-        // In plan: 3 to the right and 4 away, then back at an angle of more than a right one.
+        // In plan: 3 to the right and 4 away, then back at an angle of more than 90°.
         let mut sliding = Sliding::default();
         for (k, slip) in [[3.0, 4.0], [-4.0, 3.0], [-0.1, -6.0]].into_iter().enumerate() {
             sliding.advance(true, slip, [k as f64, (k + 1) as f64]);

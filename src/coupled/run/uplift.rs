@@ -1,9 +1,11 @@
-//! Uplift of a base in a run: for how long it left the ground.
+//! Uplift of a base in a run: how often and how long it left the ground.
 
 use crate::interface::Mode;
 
-/// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
-/// with the first one that ends without.
+/// Uplift of a run.
+///
+/// A period of uplift begins with the first step that ends with an open element, and ends with the first step that
+/// ends without one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -13,9 +15,9 @@ pub struct Uplift {
     pub duration: f64,
     /// Time without any contact at all, s.
     pub flight: f64,
-    /// Number of stretches.
+    /// Number of periods of uplift.
     pub count: usize,
-    /// Longest stretch, s.
+    /// Longest period of uplift, s.
     pub longest: f64,
     current: f64,
 }
@@ -26,7 +28,7 @@ impl Uplift {
         self.advance(uplifted, step, modes.iter().any(|mode| mode.is_closed()));
     }
 
-    /// A step of length `step`, and whether any element is closed at its end.
+    /// A step of duration `step`, and whether any element is closed at its end.
     fn advance(&mut self, fraction: f64, step: f64, closed: bool) {
         if fraction <= 0.0 {
             self.current = 0.0;

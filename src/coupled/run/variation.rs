@@ -7,12 +7,12 @@ use crate::bem::Ground;
 use crate::geometry::{ContactLayout, SPACE};
 use crate::motion::FreeField;
 
-/// Largest r where the structure vibrates with a period of its own.
+/// Largest r if the structure vibrates with a period of its own.
 pub(crate) const OWN: f64 = 0.25;
-/// Square of the free field's difference between the ends of the base, relative to its own, of waves
-/// that run along it.
+/// Squared difference of the free field between the ends of the base, relative to its square, that shows running
+/// waves.
 const RUNNING: f64 = 0.1;
-/// Instants at which the ground is asked again, and how often their distance is halved.
+/// Number of instants at which the ground is sampled, and how often their distance is halved.
 const INSTANTS: usize = 256;
 const HALVINGS: usize = 12;
 

@@ -6,15 +6,18 @@ use crate::coupled::state::foundation::{force_vector, turning_vector};
 use crate::geometry::SPACE;
 
 impl State {
-    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and
-    /// towards the reader.
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N.
+    ///
+    /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; SPACE] {
         let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
         force_vector(self.is_plan(), quantities.map(|own| self.value(own)))
     }
 
-    /// Moment on the soil as a vector by the right-hand rule, N·m/m, about the point of
-    /// [`base_moment`](State::base_moment), with axes as in [`force_vector`](State::force_vector).
+    /// Moment on the soil as a vector by the right-hand rule, N·m/m.
+    ///
+    /// About the point of [`base_moment`](State::base_moment), with axes as in
+    /// [`force_vector`](State::force_vector).
     ///
     /// ```
     /// use basemat::bem::ElasticGround;
@@ -45,8 +48,10 @@ impl State {
         turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
     }
 
-    /// Rotation of the base as a vector by the right-hand rule, rad, of several foundations the largest of each
-    /// component, with axes as in [`force_vector`](State::force_vector).
+    /// Rotation of the base as a vector by the right-hand rule, rad.
+    ///
+    /// Of several foundations the largest of each component, with axes as in
+    /// [`force_vector`](State::force_vector).
     pub fn rotation_vector(&self) -> [f64; SPACE] {
         let quantities = [Quantity::RotationAcross, Quantity::BaseRotation, Quantity::Twist];
         turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))

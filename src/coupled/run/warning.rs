@@ -2,36 +2,40 @@
 
 use crate::coupled::run::Quantity;
 
-/// Warning that assumptions of a run are strained, or that its time step or elements are too coarse.
+/// Warning that a run exceeds assumptions of the model, or that its step or elements are too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Warning {
-    /// Slip beyond the mean length of the elements, in plan of their shorter sides: they no longer face each other.
+    /// Slip beyond the mean length of the elements, in plan of their shorter sides.
+    ///
+    /// Base and ground elements are then no longer opposite each other.
     LargeSlip {
         /// Largest slip, m.
         slip: f64,
         /// Mean length of the elements, m.
         element_length: f64,
     },
-    /// Rotation of the base beyond 0.1 rad, in plan about any axis: cosines are no longer one.
+    /// Rotation of the base beyond 0.1 rad, in plan about any axis: small-rotation geometry is inaccurate.
     LargeRotation {
         /// Largest rotation, rad.
         rotation: f64,
     },
-    /// A foundation has settled by more than a tenth of its width, at which it counts as failed in bearing: the ground
-    /// does not follow the base down, and the surface that it meets is taken as plane.
+    /// A foundation has settled by more than a tenth of its width, which counts as bearing failure.
+    ///
+    /// The model's ground surface does not follow the base down, and stays plane.
     LargeSettlement {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
-        /// Largest settlement since the static state, against the free field, m.
+        /// Largest settlement since the static state, relative to the free field, m.
         settlement: f64,
         /// Width of the foundation, in plan of its shorter side, m.
         width: f64,
     },
-    /// Tension under a base that cannot open, above 1 % of the largest static pressure: it is held down by what the
-    /// model does not have.
+    /// Tension under a base that cannot open, above 1 % of the largest static pressure.
+    ///
+    /// In reality the base would open; this model cannot.
     Tension {
         /// Largest tension of any element, Pa.
         tension: f64,
@@ -49,10 +53,11 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         residual: f64,
     },
-    /// The time scheme has made energy, more than 2 % of the run's largest:
-    /// see [`Newmark`](crate::coupled::Newmark).
+    /// The time scheme has created energy, more than 2 % of the run's largest energy.
+    ///
+    /// See [`Newmark`](crate::coupled::Newmark).
     AlgorithmicEnergy {
-        /// Most that it had made at any time, relative to the largest energy of the run.
+        /// Largest created energy at any time, relative to the largest energy of the run.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         made: f64,
     },
@@ -64,11 +69,13 @@ pub enum Warning {
         time_step: f64,
         /// Time step that resolves the motion, s.
         needed: f64,
-        /// Estimated error of the largest base shear, relative, from frequencies alone: half the true
-        /// one or more in nine cases of ten. A run with half the time step shows it.
+        /// Estimated relative error of the largest base shear, from frequencies alone.
+        ///
+        /// In nine cases of ten it is at least half the true error. A run with half the time step shows the true
+        /// error.
         error: f64,
     },
-    /// The ground moves faster than the time step resolves, and the base shear with it.
+    /// Ground and base shear vary faster than the time step resolves.
     UnresolvedMotion {
         /// Root-mean-square frequency of the ground acceleration, Hz.
         frequency: f64,
@@ -76,12 +83,12 @@ pub enum Warning {
         time_step: f64,
         /// Time step that resolves the motion, s.
         needed: f64,
-        /// Estimated error of the largest base shear, relative: see
-        /// [`UnresolvedPeriod`](Self::UnresolvedPeriod).
+        /// Estimated relative error of the largest base shear: see [`UnresolvedPeriod`](Self::UnresolvedPeriod).
         error: f64,
     },
-    /// In plan, a body vibrates at its own period while shear waves cross its base in less than four steps: steps that
-    /// long damp its rocking more than radiation does.
+    /// In plan, shear waves cross the base of a vibrating body in less than four steps.
+    ///
+    /// The body vibrates at its own period. Such steps damp its rocking more than radiation does.
     UnresolvedRadiation {
         /// Time in which shear waves cross the shorter side of the base, s.
         crossing: f64,
@@ -90,116 +97,124 @@ pub enum Warning {
         /// Time step that resolves the motion, s.
         needed: f64,
     },
-    /// Fewer elements under a foundation than its rocking stiffness takes.
+    /// Fewer elements under a foundation than its rocking stiffness needs.
     FewElements {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
-        /// Elements of the foundation; in plan those of a row or of a column.
+        /// Elements of the foundation; in plan of a row or of a column.
         elements: usize,
-        /// Fewest that it needs.
+        /// Smallest number needed.
         needed: usize,
-        /// In plan: `x` for elements of a row, `y` for those of a column.
+        /// In plan: `x` for elements of a row, `y` for elements of a column.
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
-    /// A flexible base on too few contact elements: shapes between elements are held by the structure alone, which is
-    /// softer there than the soil that they leave out, or not stiff enough beside it.
+    /// A flexible base on too few contact elements.
+    ///
+    /// Between elements only the structure resists deformation of the base. It is softer there than the neglected
+    /// soil, or not stiff enough relative to it.
     CoarseBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
         /// Elements of the foundation; in plan along its shorter side.
         elements: usize,
-        /// About as many as it needs.
+        /// Approximate number needed.
         needed: usize,
-        /// Change of its vertical static shape by twice the elements, relative, where that is known.
+        /// Relative change of its vertical static shape with twice the elements, if known.
         #[cfg_attr(feature = "serde", serde(default))]
         difference: Option<f64>,
         /// In plan: `x` for elements of a row, `y` for elements of a column.
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
-    /// The base reaches beyond the ground's elements, by more than one of them or a tenth of its length: nothing carries
-    /// it there.
+    /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
+    ///
+    /// That part of the base has no ground.
     UncoveredBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
         /// Distance from the outermost element to the end of the foundation, m.
         reach: f64,
-        /// In plan: axis along which the base reaches too far, `x` or `y`.
+        /// In plan: axis along which the base extends too far, `x` or `y`.
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
-    /// More cells in plan than can be checked for passivity at once: only a sample of them was searched for errors of
-    /// the quadrature and damping laws that are not passive. Steps are the same as with a full check.
+    /// Too many cells in plan for a full passivity check: only a sample of them was checked.
+    ///
+    /// The check searches for errors of the quadrature and for damping laws that are not passive. Steps are the
+    /// same as with a full check.
     SampledPassivity {
         /// Cells that were checked together.
         checked: usize,
         /// All cells.
         cells: usize,
     },
-    /// In plan, steps were solved with less friction than the law's, which is infinite or above 100, because an element
-    /// slid: its shear is that lower coefficient times its pressure. Steps are counted since the simulation was built,
-    /// the static state as one.
+    /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
+    ///
+    /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
+    /// simulation was built, the static state as one.
     LessFriction {
         /// Number of such steps.
         steps: usize,
-        /// Least coefficient used.
+        /// Smallest coefficient used.
         friction: f64,
     },
-    /// A base in plan may slide with friction of 3 or more, endless friction included: some steps then have several
-    /// solutions, and a mere mirror image of the scene may choose others. In one scene of a hundred that changes peaks by
-    /// tens of per cent.
+    /// A base in plan may slide with friction of 3 or more.
+    ///
+    /// Some steps then have several solutions, and the mirror image of a scene may use others. In one scene of a
+    /// hundred this changes peaks by tens of per cent.
     HighFriction {
-        /// Greatest friction coefficient.
+        /// Largest friction coefficient.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         friction: f64,
     },
-    /// The motion has a component along y, which a ground in the plane leaves out.
+    /// The motion has a component along y, which a ground in the plane ignores.
     MotionAcross,
-    /// A soil with numbers that no soil has: one in another unit, unless the model is not to scale.
+    /// A soil with impossible numbers: probably in another unit, unless the model is not to scale.
     UnusualSoil {
         /// Speed of its shear waves, m/s.
         shear_wave_speed: f64,
         /// Density, kg/m³.
         density: f64,
     },
-    /// A structure slower than almost any: a stiffness in another unit, unless the model is not to scale.
+    /// A structure slower than almost any: probably a stiffness in another unit, unless the model is not to scale.
     LongPeriod {
         /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
         period: f64,
     },
-    /// Ground acceleration above any that was recorded, or of a record so weak that its numbers are likely to be in g: a
-    /// motion in another unit, unless the model is not to scale.
+    /// Ground acceleration above any recorded one, or a record too weak in m/s²: probably in another unit.
+    ///
+    /// Unless the model is not to scale. Numbers of a weak record are probably in g.
     UnusualMotion {
-        /// Largest component at any step, of a weak record at any sample, m/s².
+        /// Largest component at any step, m/s²; for a weak record at any sample.
         acceleration: f64,
     },
-    /// A record with a time step that no recorder has: an interval in another unit, unless the model is not to scale.
+    /// A record with a time step that no recorder has: probably in another unit, unless the model is not to scale.
     UnusualInterval {
         /// Time step of the record, s.
         time_step: f64,
     },
-    /// A structure that presses on the ground less than any building does: masses in another unit.
+    /// A structure with less pressure on the ground than any building: probably masses in another unit.
     LightStructure {
         /// Weight over the area of the contact elements, Pa.
         pressure: f64,
     },
-    /// A friction coefficient that no material has: an angle in degrees, or a percentage.
+    /// A friction coefficient that no material has: probably an angle in degrees, or a percentage.
     UnusualFriction {
         /// The coefficient.
         friction: f64,
     },
-    /// A storey above 100 m: a height in another unit, or in the place of the mass.
+    /// A storey above 100 m: probably a height in another unit, or a mass in its place.
     TallStorey {
         /// Height of the storey, m.
         height: f64,
     },
-    /// An acceleration of gravity that no planet has: one in another unit, unless the model is not to scale.
+    /// A gravity that no planet has: probably in another unit, unless the model is not to scale.
     UnusualGravity {
         /// Acceleration of gravity, m/s².
         gravity: f64,
     },
-    /// The run ended before most of its record: more than a third of the Arias intensity was still to come.
+    /// The run ended before the larger part of its record: more than a third of the Arias intensity was left.
     EndsEarly {
         /// Time at the end of the run, s.
         end: f64,
@@ -215,31 +230,35 @@ pub enum Warning {
         /// Time at the end of the run, s.
         end: f64,
     },
-    /// The run ended because a base turned beyond the rotation limit
-    /// ([`SimulationBuilder::rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit)): it has overturned, or what
-    /// small rotations cannot describe. A further run goes on.
+    /// The run ended because a base exceeded the rotation limit: it has overturned.
+    ///
+    /// See [`SimulationBuilder::rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit); small
+    /// rotations cannot describe further motion. A further run continues from there.
     Overturned {
         /// Rotation limit, rad.
         limit: f64,
-        /// Time at which it was passed, s.
+        /// Time at which the limit was exceeded, s.
         time: f64,
     },
-    /// Damping of the structure resists a rigid translation, as mass-proportional damping does, and has braked a base that
-    /// slid.
+    /// Damping that resists a rigid translation has slowed a sliding base.
+    ///
+    /// Mass-proportional damping does so.
     DampedSliding {
         /// Damping of the translation over the mass that it moves, 1/s.
         rate: f64,
-        /// Estimated loss of the longest slip event, relative: of a block that slides to rest.
+        /// Estimated relative reduction of the longest slip event, for a block that slides to rest.
         loss: f64,
     },
-    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear, where waves run
-    /// along the base; in plan cells longer than a twelfth.
+    /// Elements too long for waves that run along the base.
+    ///
+    /// Longer than a quarter of the soil's shear wavelength at the frequency of the base shear; in plan, cells
+    /// longer than a twelfth.
     LongElements {
         /// Longest element, m; in plan the narrowest along x or along y.
         element_length: f64,
         /// Wavelength at the root-mean-square frequency of the base shear, m.
         wavelength: f64,
-        /// Length that resolves it, m.
+        /// Length that resolves the wave, m.
         needed: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! When a run warns: limits, and the warnings of a scene, a motion and a run.
+//! Conditions of warnings: limits, and the warnings of a scene, a motion and a run.
 
 use crate::bem::Ground;
 use crate::coupled::run::warning::Warning;
@@ -12,15 +12,16 @@ use crate::motion::FreeField;
 use crate::soil::Soil;
 
 impl Warning {
-    /// Rotation above which a run warns, rad: the cosine is off by half a percent.
+    /// Rotation above which a run warns, rad: the cosine differs from one by half a percent.
     const ROTATION_LIMIT: f64 = 0.1;
-    /// Settlement over the width of a foundation above which a run warns: the usual criterion of bearing failure in
+    /// Settlement over the width of a foundation above which a run warns: usual criterion of bearing failure in
     /// load tests.
     const SETTLEMENT_LIMIT: f64 = 0.1;
-    /// Energy error at the end of a run above which it warns. Earlier, while energies are still
-    /// small, it may be larger.
+    /// Energy error at the end of a run above which it warns.
+    ///
+    /// Earlier, while energies are still small, the error may be larger.
     const ENERGY_ERROR_LIMIT: f64 = 1e-9;
-    /// Energy that the time scheme may make before a run warns, relative to the largest energy.
+    /// Energy created by the time scheme above which a run warns, relative to the largest energy.
     const ALGORITHMIC_LIMIT: f64 = 0.02;
 
     /// Tension above which a run under weight warns, relative to the largest static pressure.
@@ -31,43 +32,49 @@ impl Warning {
     /// Densities of soils, kg/m³.
     const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
 
-    /// Period above which a structure is unusually slow, s: only the tallest towers and liquid in wide tanks are
-    /// slower.
+    /// Period above which a structure is unusually slow, s.
+    ///
+    /// Only the tallest towers and liquid in wide tanks are slower.
     const LONGEST_PERIOD: f64 = 8.0;
-    /// Acceleration above any that was recorded, m/s²: about 4.5 times gravity was.
+    /// Acceleration above any recorded one, m/s²; the largest was about 4.5 times gravity.
     const LARGEST_ACCELERATION: f64 = 60.0;
 
-    /// Acceleration of a record (m/s²) that is more likely one in g: weaker than design motions, from 0.5 m/s² where
-    /// earthquakes are rare, and not zero.
+    /// Accelerations of a record (m/s²) that are probably in g: weaker than design motions, and not zero.
+    ///
+    /// Design motions start at 0.5 m/s², where earthquakes are rare.
     const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
     /// Time steps of records, s.
     const INTERVALS: [f64; 2] = [1e-4, 0.2];
-    /// Weight over the area of a base below which masses are likely in another unit, Pa: a timber floor has as much.
+    /// Weight over the area of a base below which masses are probably in another unit, Pa: the weight of a timber
+    /// floor.
     const LEAST_PRESSURE: f64 = 2e3;
-    /// Friction coefficients that are likely angles in degrees or percentages.
+    /// Friction coefficients that are probably angles in degrees or percentages.
     const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
-    /// Height above which a storey is none, m.
+    /// Largest height of a storey, m.
     const TALLEST_STOREY: f64 = 100.0;
     /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
     const GRAVITIES: [f64; 2] = [1.5, 30.0];
-    /// Least fraction of a record's intensity that a run should see.
+    /// Smallest fraction of a record's intensity that a run should cover.
     const PASSED: f64 = 2.0 / 3.0;
-    /// Loss of a slip event by damping above which a run warns.
+    /// Reduction of a slip event by damping above which a run warns.
     const BRAKED: f64 = 0.1;
-    /// Ground acceleration of a run over that of its records from which on the run shakes.
+    /// Ground acceleration of a run, over its records' peak, above which the run counts as shaken.
     const SHAKING: f64 = 0.01;
-    /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that are rounding.
+    /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that count as
+    /// rounding.
     const ROUNDING: f64 = 1e-9;
-    /// Growth of a response in the last step up to which it has come to rest, relative.
+    /// Relative growth of a response in the last step up to which the response counts as constant.
     const GROWTH: f64 = 1e-4;
-    /// Fewest steps after which a peak in the last one counts.
+    /// Smallest number of steps after which a peak in the last step counts.
     const LEAST_STEPS: usize = 8;
     /// Responses that should not be largest at the end of a run.
     pub(crate) const RESPONSES: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
-    /// Warnings of numbers of a scene that are usual in another unit: of its laws, its gravity (m/s²), its weight over the
-    /// area of its base (Pa) and the height of its tallest storey (m); of one that is not to scale of its laws alone.
+    /// Warnings of numbers of a scene that are probably in another unit.
+    ///
+    /// `gravity`: m/s². `pressure`: weight over the area of the base, Pa. `storey`: height of the tallest, m. For
+    /// a scene that is not to scale only the laws are checked.
     pub(crate) fn of_units(
         is_to_scale: bool,
         laws: &[Box<dyn InterfaceLaw>],
@@ -94,10 +101,10 @@ impl Warning {
         warnings
     }
 
-    /// Friction from which on mirror images of scenes in plan were seen to differ.
+    /// Smallest friction at which mirror images of scenes in plan were found to differ.
     const HIGH_FRICTION: f64 = 3.0;
 
-    /// Warnings of a scene before its first step, of a structure with this `period` on a fixed base (s).
+    /// Warnings of a scene before its first step; `period`: of the structure on a fixed base, s.
     pub(crate) fn of_scene(
         scene: &Scene,
         ground: &dyn Ground,
@@ -127,7 +134,7 @@ impl Warning {
         warnings
     }
 
-    /// Warnings of a largest ground acceleration (m/s²) that a run saw, and of the records of its motion.
+    /// Warnings of a run's largest ground acceleration (m/s²), and of the records of its motion.
     pub(crate) fn of_motion(acceleration: f64, motion: &GroundMotion) -> Vec<Self> {
         let mut warnings = Vec::new();
         if acceleration > Self::LARGEST_ACCELERATION {
@@ -143,8 +150,10 @@ impl Warning {
         warnings
     }
 
-    /// Warnings of the end of a run that saw this largest ground acceleration (m/s²): too early, unless an observer or a
-    /// loop of the caller's own ended it, or of a base that has overturned.
+    /// Warnings of the end of a run: an early end, a peak at the end, or an overturned base.
+    ///
+    /// `seen`: largest ground acceleration of the run, m/s². A run that an observer or the caller's own loop ended
+    /// does not warn of an early end.
     pub(crate) fn of_end(run: &Run, seen: f64, rotation_limit: f64) -> Vec<Self> {
         let (end, motion) = (run.end, &run.ground_motion);
         if run.is_overturned {
@@ -172,16 +181,17 @@ impl Warning {
         warnings
     }
 
-    /// Warning of damping that brakes a sliding base at `rate` (1/s), by the duration of the longest slip event (s).
+    /// Warning of damping that slows a sliding base; `rate`: 1/s, `longest`: duration of the longest slip event,
+    /// s.
     pub(crate) fn of_drag(rate: f64, longest: f64) -> Option<Self> {
-        // Sliding to rest against friction takes ln(1 + x)/rate, x the force of damping over friction at its beginning,
-        // and goes as far as 2 (1 − ln(1 + x)/x)/x of the distance without damping.
+        // Sliding to rest against friction takes ln(1 + x)/rate, with x the damping force over friction at the
+        // start. It covers 2 (1 − ln(1 + x)/x)/x of the distance without damping.
         let x = (rate * longest).exp_m1();
         let loss = 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x;
         (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
     }
 
-    /// Warning of friction with which steps in plan may have several solutions.
+    /// Warning of friction for which steps in plan may have several solutions.
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;
         let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
@@ -201,7 +211,7 @@ impl Warning {
         unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
     }
 
-    /// Counts a step that was solved with the friction `taken` in place of a greater one.
+    /// Counts a step that was solved with the friction `taken` instead of a larger one.
     pub(crate) fn count_friction(warnings: &mut Vec<Self>, taken: f64) {
         for warning in &mut *warnings {
             if let Self::LessFriction { steps, friction } = warning {
@@ -212,14 +222,15 @@ impl Warning {
         warnings.push(Self::LessFriction { steps: 1, friction: taken });
     }
 
-    /// Warning of foundation number `foundation`, of this `width`, if its `settlement` is beyond the limit.
+    /// Warning of foundation number `foundation`, of this `width`, if its `settlement` exceeds the limit.
     pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
         let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
         is_large.then_some(Self::LargeSettlement { foundation, settlement, width })
     }
 
-    /// Warnings of the largest slip, mean element length, largest rotation, last energy balance and least algorithmic
-    /// energy of a run.
+    /// Warnings of a run's largest slip, largest rotation, last energy balance and smallest algorithmic energy.
+    ///
+    /// `element_length`: mean length of the elements.
     pub(crate) fn all(
         slip: f64,
         element_length: f64,

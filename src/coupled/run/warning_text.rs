@@ -111,7 +111,7 @@ impl fmt::Display for Warning {
 }
 
 impl Warning {
-    /// Texts of what a user gave: numbers in another unit, the length of a run, damping.
+    /// Texts of warnings about the user's input: numbers in another unit, the length of a run, damping.
     fn of_input(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnusualSoil { shear_wave_speed, density } => write!(
@@ -160,7 +160,7 @@ impl Warning {
                 "damping resists translation ({rate:.2}/s): longest slip event short by about {:.0} %",
                 100.0 * loss
             ),
-            // The others have their texts above.
+            // Texts of the others are above.
             _ => Ok(()),
         }
     }
@@ -171,7 +171,7 @@ pub(crate) fn within([least, most]: [f64; 2], value: f64) -> bool {
     (least..=most).contains(&value)
 }
 
-/// Units in which the numbers of a soil would be usual ones.
+/// Units in which the numbers of a soil would be usual.
 fn likely_slip(speed: f64, density: f64) -> String {
     let densities = [
         (1.0, ""),

@@ -6,8 +6,7 @@ pub use crate::coupled::scheme::newmark::{DissipativeMidpoint, HhtAlpha, Newmark
 
 use crate::error::{Result, finite, require};
 
-/// Coefficients of a time scheme: the place in the step where the equation of motion is written, and the motion at its
-/// end.
+/// Coefficients of a time scheme: place of the equation of motion in the step, and motion at its end.
 ///
 /// Each array holds the coefficients of (Δu, v₀, a₀): the displacement increment of the step and
 /// the velocity and acceleration at its start. The equation of motion
@@ -31,27 +30,26 @@ pub struct SchemeCoefficients {
 
 /// Time stepping of the structure's equation of motion.
 ///
-/// Contact and soil need nothing of it: they live on displacements at the ends of steps and
-/// tractions constant within them. Tractions do on the structure the work that they take from the
-/// soil, τ·Δu; a scheme that makes of M a* and K u* times Δu anything but changes of an energy and losses
-/// feeds the run.
+/// Contact and soil do not depend on the scheme: they use displacements at the ends of steps and tractions
+/// constant within steps. Tractions do on the structure the work τ·Δu that they take from the soil. A scheme in
+/// which Δu·(M a* + K u*) is not energy change plus loss adds energy to the run.
 ///
-/// | scheme | order | with the soil | for |
+/// | scheme | order | energy with the soil | use |
 /// |---|---|---|---|
-/// | [`Midpoint`] | 2 | conserves | use: the default |
-/// | [`DissipativeMidpoint`] | 2 | takes | use, with high frequencies damped |
-/// | [`Theta`] | 1 | takes | strong damping |
-/// | [`Newmark`], [`HhtAlpha`] | 1, with the soil | may make energy | comparison with papers |
+/// | [`Midpoint`] | 2 | conserved | general: the default |
+/// | [`DissipativeMidpoint`] | 2 | reduced | general, with high frequencies damped |
+/// | [`Theta`] | 1 | reduced | strong damping |
+/// | [`Newmark`], [`HhtAlpha`] | 1, with the soil | may grow | comparison with papers |
 #[auto_impl::auto_impl(Box)]
 pub trait TimeScheme: Send {
     /// The coefficients for steps of `time_step` seconds.
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients;
 }
 
-/// Implicit midpoint rule (the default): second order, conserves energy exactly, with soil and without.
+/// Implicit midpoint rule (the default): second order, conserves energy exactly, also with soil.
 ///
-/// Newmark's average acceleration with the traction of the step itself. Where landings fill accelerations
-/// with more than the step resolves, [`DissipativeMidpoint`] damps that.
+/// It is Newmark's average acceleration with the traction of the step itself. If impacts excite frequencies in
+/// accelerations that the step does not resolve, [`DissipativeMidpoint`] damps these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Midpoint;
@@ -62,8 +60,9 @@ impl TimeScheme for Midpoint {
     }
 }
 
-/// θ-method: the midpoint rule for θ = ½, dissipative at high frequencies above, and passive together
-/// with the soil. First order for θ > ½: [`DissipativeMidpoint`] damps at second order.
+/// θ-method: dissipative at high frequencies for θ > ½, and passive together with the soil.
+///
+/// For θ = ½ it is the midpoint rule. For θ > ½ it has first order; [`DissipativeMidpoint`] damps at second order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ThetaForm"))]
@@ -93,7 +92,7 @@ impl TimeScheme for Theta {
     }
 }
 
-/// u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀), equation of motion at the same weights.
+/// u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀), with the equation of motion at the same weights.
 fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
     let acceleration = [1.0 / (theta * time_step * time_step), -1.0 / (theta * time_step), 0.0];
     SchemeCoefficients {
@@ -107,7 +106,7 @@ fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
 }
 
 impl SchemeCoefficients {
-    /// Refuses coefficients that are not finite.
+    /// Error for coefficients that are not finite.
     pub(crate) fn check(&self) -> Result<()> {
         let rows = [self.displacement, self.velocity, self.acceleration];
         let ends = [self.new_velocity, self.new_acceleration, [self.load_fraction; 3]];
@@ -117,8 +116,9 @@ impl SchemeCoefficients {
             .try_for_each(|value| finite("coefficient of the time scheme", value).map(|_| ()))
     }
 
-    /// Whether the scheme leaves kinetic and linear strain energy exactly to the forces: whether
-    /// Δu = Δt (v₀+v₁)/2, a* = (v₁−v₀)/Δt and u* = u₀ + Δu/2.
+    /// Whether the scheme conserves kinetic and linear strain energy.
+    ///
+    /// It does if Δu = Δt (v₀+v₁)/2, a* = (v₁−v₀)/Δt and u* = u₀ + Δu/2.
     pub(crate) fn conserves_energy(&self, time_step: f64) -> bool {
         let (h, new) = (time_step, self.new_velocity);
         let same = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;
@@ -143,7 +143,7 @@ impl SchemeCoefficients {
         coefficients[0] * increment + coefficients[1] * velocity + coefficients[2] * acceleration
     }
 
-    /// Overwrites `out` with the same of vectors as long as it is.
+    /// Writes the same sums of vectors to `out`.
     pub(crate) fn combine(
         coefficients: [f64; 3],
         increment: &[f64],

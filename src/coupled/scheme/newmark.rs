@@ -1,25 +1,26 @@
-//! Schemes of Newmark's family: his own, HHT-α, and one that dissipates at high frequencies.
+//! Schemes of Newmark's family: Newmark's method, HHT-α, and a scheme that dissipates at high frequencies.
 
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{Result, require};
 
-/// Newmark's method (1959), equation of motion at the end of the step: **for comparison with papers**.
-/// For use take [`Midpoint`](super::Midpoint), which is average acceleration with the step's own
+/// Newmark's method (1959), for comparison with papers.
+///
+/// For other purposes use [`Midpoint`](super::Midpoint), which is average acceleration with the step's own
 /// traction, or [`DissipativeMidpoint`](super::DissipativeMidpoint).
 ///
-/// u₁ = u₀ + Δt v₀ + Δt² ((½−β) a₀ + β a₁), v₁ = v₀ + Δt ((1−γ) a₀ + γ a₁). Contact tractions of the
-/// step enter at its end with their full value, which is how Patel & Spyrakos couple soil and
-/// structure. The structure so feels the mean of two steps' tractions, the soil those of one, and the
-/// difference makes energy: the default, average acceleration (γ = ½, β = ¼), neither damps nor feeds a
-/// linear structure by itself, but with soil it does. Radiation does not always outweigh it; base shears of
-/// buildings on the half-plane come out larger by 8 % at 10 ms and 20 % at 20 ms, and light blocks that
-/// land fly higher every time. What it makes is the negative of
-/// [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance), and beyond 2 % of the largest energy a run ends with
-/// [`Warning::AlgorithmicEnergy`](crate::coupled::Warning). On springs without dashpots it grows for ever
-/// unless they act at the end of the step, too
-/// ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0
-/// belong to the static state, so that the method starts from zero acceleration; with an initial motion, or
-/// a weight that acts from t = 0 on, from that of the structure before the soil has responded.
+/// The equation of motion holds at the end of the step: u₁ = u₀ + Δt v₀ + Δt² ((½−β) a₀ + β a₁), v₁ = v₀ + Δt
+/// ((1−γ) a₀ + γ a₁). Contact tractions of the step act at its end with their full value, as in Patel & Spyrakos.
+/// The structure thus receives the mean of two steps' tractions, the soil the tractions of one step, and the
+/// difference creates energy. The default, average acceleration (γ = ½, β = ¼), conserves the energy of a linear
+/// structure alone, but not with soil. Radiation does not always outweigh the created energy: base shears of
+/// buildings on the half-plane are too large by 8 % at 10 ms and 20 % at 20 ms, and light blocks rebound higher at
+/// every impact. The created energy is the negative of
+/// [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance); beyond 2 % of the largest energy a run ends with
+/// [`Warning::AlgorithmicEnergy`](crate::coupled::Warning). On springs without dashpots it grows without limit,
+/// unless the springs also act at the end of the step
+/// ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0 belong to the
+/// static state, so the method starts from zero acceleration. With an initial motion, or a weight that acts from t
+/// = 0 on, it starts from the structure's acceleration before the soil has responded.
 ///
 /// ```
 /// use basemat::coupled::Newmark;
@@ -41,7 +42,7 @@ validated! {
 }
 
 impl Newmark {
-    /// Method with γ ≥ ½ and β ≥ γ/2, for which it is stable with steps of any length.
+    /// Method with γ ≥ ½ and β ≥ γ/2, stable for steps of any length.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) outside this range, and for γ > 2 or β > 10.
@@ -83,15 +84,15 @@ pub(crate) fn end_of_step(gamma: f64, beta: f64, h: f64) -> ([f64; 3], [f64; 3])
 
 // The method of Hilber, Hughes & Taylor.
 
-/// HHT-α (Hilber, Hughes & Taylor 1977), **for comparison with papers**: second order, damps high
-/// frequencies of the structure alone. For use take
+/// HHT-α (Hilber, Hughes & Taylor 1977), for comparison with papers.
+///
+/// Second order; it damps high frequencies of the structure alone. For other purposes use
 /// [`DissipativeMidpoint`](super::DissipativeMidpoint), which is passive together with the soil.
 ///
-/// Newmark's method with γ = ½ − α and β = (1−α)²/4, its damping and stiffness forces and loads
-/// taken at t₁ + α Δt, its inertia at t₁. Contact tractions are constant over the step and enter in
-/// full: what [`Newmark`](super::Newmark) says of the energy that its coupling makes holds here, less
-/// what α takes. α = 0 is average acceleration; −⅓ damps most: the spectral radius tends to
-/// (1+α)/(1−α) for steps that are long against the period, ½ at α = −⅓.
+/// Newmark's method with γ = ½ − α and β = (1−α)²/4, with damping and stiffness forces and loads at t₁ + α Δt and
+/// inertia at t₁. Contact tractions are constant over the step and act in full: the coupling creates energy as in
+/// [`Newmark`](super::Newmark), reduced by the dissipation of α. α = 0 is average acceleration; α = −⅓ damps most:
+/// the spectral radius tends to (1+α)/(1−α) for steps much longer than the period, ½ at α = −⅓.
 ///
 /// ```
 /// use basemat::coupled::HhtAlpha;
@@ -142,19 +143,19 @@ impl TimeScheme for HhtAlpha {
 
 /// Midpoint rule that damps high frequencies: second order, and passive together with the soil.
 ///
-/// Newmark's formulas for displacement and velocity, with the equation of motion in the middle of
-/// the step and the step's own traction:
+/// It uses Newmark's formulas for displacement and velocity, with the equation of motion in the middle of the step
+/// and the step's own traction:
 ///
 /// ```text
 /// M Δv/Δt + C Δu/Δt + K (u₀ + u₁)/2 + f(ū) = p(t_½) − Bᵀ A τ,      β = (γ + ½)²/4
 /// Δu = Δt (v₀ + v₁)/2 + Δt² (β − γ/2) Δa,      Δv = Δt (a₀ + γ Δa)
 /// ```
 ///
-/// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. Tractions do
-/// the work on the structure that they take from the soil, whatever the step; the scheme itself only
-/// takes energy, Δt² (β − γ/2)(γ − ½) Δa·M Δa in a step, and holds ½ Δt² (β − γ/2) a·M a, which with
-/// the energy taken is [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`,
-/// section 8). γ = ½ is [`Midpoint`].
+/// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. Tractions do the work on
+/// the structure that they take from the soil, for any step. The scheme itself only dissipates energy, Δt² (β −
+/// γ/2)(γ − ½) Δa·M Δa in a step, and stores ½ Δt² (β − γ/2) a·M a. Both together are
+/// [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`, section 8). γ = ½ is
+/// [`Midpoint`].
 ///
 /// Spectral radius, the factor per step of a free vibration of circular frequency ω:
 ///
@@ -164,11 +165,10 @@ impl TimeScheme for HhtAlpha {
 /// | γ = 0.8 | 1.0000 | 0.9976 | 0.9570 | 0.8478 | 0.9306 |
 /// | γ = 1 | 1.0000 | 0.9907 | 0.8873 | 0.7082 | 0.9630 |
 ///
-/// It returns to 1 for ωΔt → ∞, where displacements alternate with a bounded amplitude. Right where
-/// landings on fine elements, or a structure with much faster vibrations than matter, fill accelerations
-/// with frequencies that the step does not resolve. Accelerations of the state belong to the time
-/// (γ − ½) Δt before the end of the step. An initial motion needs them at t = 0, and so a mass
-/// matrix that is not singular.
+/// It returns to 1 for ωΔt → ∞, where displacements alternate with a bounded amplitude. Use it if accelerations
+/// contain frequencies that the step does not resolve: after impacts on fine elements, or in a structure with
+/// vibrations much faster than the response. Accelerations of the state belong to the time (γ − ½) Δt before the end of
+/// the step. An initial motion needs accelerations at t = 0, and so a mass matrix that is not singular.
 ///
 /// ```
 /// use basemat::coupled::DissipativeMidpoint;
@@ -189,7 +189,7 @@ validated! {
 }
 
 impl DissipativeMidpoint {
-    /// Method with ½ ≤ γ ≤ 1, from no damping to the most.
+    /// Method with ½ ≤ γ ≤ 1; damping grows with γ from zero.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) outside this range.
@@ -208,8 +208,7 @@ impl Default for DissipativeMidpoint {
 
 impl TimeScheme for DissipativeMidpoint {
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
-        // Accelerations at the ends of steps would alternate undamped for γ = ½, where nothing needs
-        // them.
+        // For γ = ½ accelerations at the ends of steps are not needed, and would alternate undamped.
         if self.gamma == 0.5 {
             return Midpoint.coefficients(time_step);
         }

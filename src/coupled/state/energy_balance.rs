@@ -1,4 +1,4 @@
-//! The energy balance: where every joule of a run went.
+//! The energy balance: all energies of a run.
 
 use std::fmt;
 
@@ -7,17 +7,17 @@ use crate::text::column::{column, number, of_body};
 /// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
-    /// Left-hand side of the balance: kept, or still to come.
+    /// Left-hand side of the balance: stored, or still available.
     Balance,
-    /// Left-hand side: energy that the structure has lost for good, or to the ground.
+    /// Left-hand side: energy that the structure has lost to heat or to the ground.
     Lost,
     /// Right-hand side.
     Input,
-    /// Beside the balance.
+    /// Not part of the balance.
     Beside,
 }
 
-/// Declares the terms as an enum, and the energy balance that holds them, from rows in the order of columns.
+/// Declares the terms as an enum, and the energy balance with a field for each, from rows in the order of columns.
 macro_rules! energies {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $side:ident, $name:literal;)+) => {
         /// A term of the [`EnergyBalance`].
@@ -40,10 +40,10 @@ macro_rules! energies {
         /// kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
         /// ```
         ///
-        /// holds exactly for the discrete equations. Every term is computed from its own definition and
-        /// none as the remainder, so that [`EnergyBalance::residual`] checks the whole step. One thing it does not
-        /// check: energies that a nonlinear structure says it stores and dissipates. The difference between
-        /// them and the work of its force is in `algorithmic`, and falls with the square of the step.
+        /// holds exactly for the discrete equations. Every term is computed from its own definition and none as
+        /// the remainder, so [`EnergyBalance::residual`] checks the whole step. It does not check the energies
+        /// that a nonlinear structure returns as stored and dissipated. The difference between them and the work
+        /// of its force is in `algorithmic`, and falls with the square of the step.
         #[derive(Debug, Clone, Copy, Default)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -57,7 +57,7 @@ macro_rules! energies {
         }
 
         impl EnergyBalance {
-            /// The energy balance of a simulation that keeps none: every term is NaN.
+            /// The energy balance of a simulation without one: every term is NaN.
             pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
 
             /// All terms, in the order of [`EnergyTerm::ALL`].
@@ -65,7 +65,7 @@ macro_rules! energies {
                 [$(self.$field),+]
             }
 
-            /// All terms to be overwritten, in the order of [`EnergyTerm::ALL`].
+            /// Mutable access to all terms, in the order of [`EnergyTerm::ALL`].
             pub(crate) fn terms_mut(&mut self) -> [&mut f64; ROWS.len()] {
                 [$(&mut self.$field),+]
             }
@@ -76,49 +76,56 @@ macro_rules! energies {
 energies! {
     /// Kinetic energy ½ v·M v.
     Kinetic kinetic, Balance, "kinetic and strain";
-    /// Strain energy ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
-    /// does not separate stored from dissipated energy.
+    /// Strain energy ½ u·K u, plus the stored energy of the nonlinear internal force.
+    ///
+    /// If the structure does not separate stored from dissipated energy, the work of that force since t = 0.
     Strain strain, Balance, "kinetic and strain";
-    /// Heat of hysteretic parts of the structure
-    /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
-    /// than before.
+    /// Heat of hysteretic parts of the structure; it never falls.
+    ///
+    /// See [`NonlinearForce::energy`](crate::structure::NonlinearForce::energy).
     Hysteresis hysteresis, Lost, "hysteresis";
     /// Work of the dashpots, on displacements relative to the free field's translation.
     Damping damping, Lost, "damping";
-    /// Loss by the time scheme: in the structure (zero for the midpoint rule), and in compliant
-    /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
-    /// force of known energies, also its work in the discrete equation beyond them: the error of
-    /// one point in a step, of either sign.
+    /// Loss by the time scheme, in the structure and in compliant interfaces.
+    ///
+    /// In the structure it is zero for the midpoint rule. In compliant interfaces the traction at the end of the
+    /// step acts throughout the step. With a nonlinear force of known energies, it includes the difference between
+    /// its work in the discrete equation and these energies: the error of one point in a step, of either sign.
     Algorithmic algorithmic, Balance, "time scheme";
-    /// Work done on the soil by the changes of traction: radiated and stored.
+    /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
-    /// Loss by friction and impact, and with the springs of a compliant interface
-    /// when its elements open and close: total tractions times minus the change of the jump, its
-    /// elastic part left out. Never less from step to step, with any law of the crate.
+    /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
+    ///
+    /// Total tractions times minus the change of the jump, without its elastic part. It never falls, with any law
+    /// of the crate.
     Contact contact, Lost, "friction and impact";
-    /// Elastic energy stored in compliant interfaces ([`crate::interface::InterfaceLaw::compliance`]),
-    /// as a change against the static state; zero for hard contact.
+    /// Elastic energy stored in compliant interfaces, as a change against the static state.
+    ///
+    /// See [`crate::interface::InterfaceLaw::compliance`]; zero for hard contact.
     Interface interface, Balance, "interface layer";
     /// Potential of the static tractions against the change of the jump.
     StaticContact static_contact, Balance, "static pressures";
     /// Work of external loads and of the free field, and the energy of an initial motion.
     Input input, Input, "input";
-    /// Relative input energy (Uang & Bertero 1990): work of the loads, and of the inertia forces
-    /// −M R ÿ of the free field's translation y, on displacements relative to it. It stands beside
-    /// the balance, to be compared with that of a structure on a fixed base.
+    /// Relative input energy (Uang & Bertero 1990); not part of the balance.
+    ///
+    /// Work of the loads, and of the inertia forces −M R ÿ of the free field's translation y, on displacements
+    /// relative to it. Compare it with the value of a structure on a fixed base.
     RelativeInput relative_input, Beside, "relative input";
-    /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is
-    /// approximate. The terms above balance with the history as it is, so nothing of the residual
-    /// is due to it; but the soil of the equations may have taken this much more or less than it did here.
+    /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is approximate.
+    ///
+    /// The terms above balance with the approximate history, so the residual does not contain this error. With the
+    /// exact history the soil may take this much more or less energy.
     SoilErrorBound soil_error_bound, Beside, "error bound of the soil";
-    /// Largest energy since the start, to which residuals are relative: magnitude of any term of the
-    /// balance at the end of any step, ½ M v² of the whole structure carried along by the ground, and the
-    /// energy of the static state in compliant interfaces and nonlinear parts.
+    /// Largest energy since the start, to which residuals are relative.
+    ///
+    /// Magnitude of any term of the balance at the end of any step, ½ M v² of the whole structure moving with the
+    /// ground, and the energy of the static state in compliant interfaces and nonlinear parts.
     Largest largest, Beside, "largest energy";
 }
 
 impl EnergyTerm {
-    /// Name of the term in tables and pictures. Terms of one name are shown as their sum.
+    /// Name of the term in tables and pictures; terms with one name are shown as their sum.
     pub(crate) fn name(self) -> &'static str {
         ROWS[self as usize].2
     }
@@ -130,7 +137,7 @@ impl EnergyTerm {
         column(&name, of_body("J/m", in_plan))
     }
 
-    /// Whether the term is energy that the structure has lost for good, or to the ground.
+    /// Whether the structure has lost the term's energy to heat or to the ground.
     pub(crate) fn is_lost(self) -> bool {
         self.side() == Side::Lost
     }
@@ -140,7 +147,7 @@ impl EnergyTerm {
     }
 }
 
-/// The word of its field, `soil`.
+/// Prints the word of its field, `soil`.
 impl fmt::Display for EnergyTerm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(ROWS[*self as usize].0)
@@ -171,13 +178,13 @@ impl EnergyBalance {
         parts
     }
 
-    /// The parts relative to the input; `None` if that is not positive.
+    /// The parts relative to the input; `None` if the input is not positive.
     pub fn fractions(&self) -> Option<Vec<(&'static str, f64)>> {
         let fraction = |(name, energy)| (name, energy / self.input);
         (self.input > 0.0).then(|| self.parts().into_iter().map(fraction).collect())
     }
 
-    /// A term relative to the input; `None` if that is not positive.
+    /// A term relative to the input; `None` if the input is not positive.
     pub fn fraction(&self, term: EnergyTerm) -> Option<f64> {
         (self.input > 0.0).then(|| self.term(term) / self.input)
     }
@@ -188,19 +195,20 @@ impl EnergyBalance {
         terms.fold(self.largest, |m, term| m.max(term.abs()))
     }
 
-    /// Whether no energy balance is kept: every term is then NaN.
+    /// Whether there is no energy balance: every term is then NaN.
     pub(crate) fn is_left_out(&self) -> bool {
         self.input.is_nan()
     }
 
-    /// Left-hand side minus input, relative to the [largest energy](EnergyBalance::largest) so far; NaN if no
-    /// energy balance is kept.
+    /// Left-hand side minus input, relative to the [largest energy](EnergyBalance::largest) so far.
+    ///
+    /// NaN without an energy balance.
     pub fn residual(&self) -> f64 {
         if self.is_left_out() {
             return f64::NAN;
         }
         let open = (self.balance().map(|(_, energy)| energy).sum::<f64>() - self.input).abs();
-        // `max` ignores NaN, the sum does not.
+        // `max` ignores NaN, but the sum does not.
         if open == 0.0 { 0.0 } else { open / self.scale() }
     }
 }
@@ -213,7 +221,7 @@ impl PartialEq for EnergyBalance {
     }
 }
 
-/// Energies in kJ; in the plane per metre of thickness.
+/// Prints energies in kJ; in the plane per metre of thickness.
 impl fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_left_out() {

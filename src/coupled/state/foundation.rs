@@ -1,9 +1,9 @@
-//! One foundation after a step: its forces on the soil, the motion of its base, and its factors of safety against
-//! sliding and overturning.
+//! One foundation after a step: forces on the soil, motion of its base, and factors of safety.
 //!
-//! Factors of safety are made of the contact tractions that did act. Tractions of a base that may open and slide
-//! cannot go beyond its strength: such a factor stays at or above one, and reaches it when the base
-//! does slide, or stands on its edge. Below one it falls on a bonded base only, where it says how
+//! Factors of safety against sliding and overturning are computed from the actual contact tractions. Tractions of
+//! a base that may open and slide cannot exceed its strength: such a factor stays at or above one, and reaches it
+//! when the base slides or stands on its edge. Only on a bonded base it falls below one, and shows the missing
+//! strength of the interface.
 //! much the interface would have lacked.
 
 use std::ops::Range;
@@ -24,17 +24,19 @@ pub struct Foundation {
     pub elements: Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
-    /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m; in plan about the axis along y
-    /// through the middle of its outline, by the right-hand rule, N·m.
+    /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m.
+    ///
+    /// In plan about the axis along y through the middle of its outline, by the right-hand rule, N·m.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
-    /// Length of its open elements over that of all its elements.
+    /// Length of its open elements over the length of all its elements.
     pub uplifted_fraction: f64,
     /// Slip averaged over its elements, m.
     pub mean_slip: f64,
-    /// Rotation of its chord, counter-clockwise, rad; in plan the rotation about the axis along y, by the right-hand
-    /// rule, of the flat that fits its base best.
+    /// Rotation of its chord, counter-clockwise, rad.
+    ///
+    /// In plan the rotation about the axis along y, by the right-hand rule, of the plane that fits its base best.
     pub base_rotation: f64,
     /// In plan: force on the soil along y, N; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -54,24 +56,25 @@ pub struct Foundation {
     /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub twist: f64,
-    /// Whether the ground is one in plan: forces are then those of the whole body.
+    /// Whether the ground is one in plan: forces then act on the whole body.
     #[cfg_attr(feature = "serde", serde(default))]
     pub in_plan: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) derived: Derived,
 }
 
-/// Factors of safety and largest slip of a foundation; two foundations are compared without them.
+/// Factors of safety and largest slip of a foundation; ignored by `==`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Derived {
     /// Largest |slip| of any element, m.
     pub(crate) largest_slip: f64,
     /// Resistance of the interface over the horizontal force; NaN without friction coefficients and in flight.
     pub(crate) sliding: f64,
-    /// Restoring over overturning moment about the edges that face along x, and along y; NaN in flight, infinite along y
-    /// in the plane.
+    /// Restoring over overturning moment about the edges that face along x, and along y.
+    ///
+    /// NaN in flight, infinite along y in the plane.
     pub(crate) overturning: [f64; 2],
-    /// Downward displacement of the base since the static state, against the free field, m.
+    /// Downward displacement of the base since the static state, relative to the free field, m.
     pub(crate) settlement: f64,
 }
 
@@ -81,7 +84,7 @@ impl PartialEq for Derived {
     }
 }
 
-/// Sums over the elements of a foundation that those of the whole base are made of.
+/// Sums over the elements of a foundation, for sums over the whole base.
 #[derive(Default)]
 pub(crate) struct Sums {
     pub(crate) area: f64,
@@ -90,26 +93,31 @@ pub(crate) struct Sums {
 }
 
 impl Foundation {
-    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and
-    /// towards the reader.
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N.
+    ///
+    /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; SPACE] {
         force_vector(self.in_plan, [self.base_shear, self.shear_across, self.normal_force])
     }
 
-    /// Moment on the soil about the middle of the foundation as a vector by the right-hand rule, N·m/m, with axes as in
-    /// [`force_vector`](Foundation::force_vector).
+    /// Moment on the soil about the middle of the foundation as a vector, N·m/m.
+    ///
+    /// By the right-hand rule, with axes as in [`force_vector`](Foundation::force_vector).
     pub fn moment_vector(&self) -> [f64; SPACE] {
         turning_vector(self.in_plan, [self.moment_across, self.base_moment, self.torque])
     }
 
-    /// Rotation of the base as a vector by the right-hand rule, rad, with axes as in
-    /// [`force_vector`](Foundation::force_vector).
+    /// Rotation of the base as a vector by the right-hand rule, rad.
+    ///
+    /// Axes as in [`force_vector`](Foundation::force_vector).
     pub fn rotation_vector(&self) -> [f64; SPACE] {
         turning_vector(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
     }
 
-    /// Forces, uplift, slip and factors of safety from the contact of all elements of `patch`, with the shape of this
-    /// foundation and the friction coefficients of all elements (one for all, one each, or none).
+    /// Computes forces, uplift, slip and factors of safety from the contact of all elements of `patch`.
+    ///
+    /// `footing`: shape of this foundation. `friction`: coefficients of all elements (one for all, one each, or
+    /// none).
     pub(crate) fn update(
         &mut self,
         footing: &Footing,
@@ -126,7 +134,7 @@ impl Foundation {
         for (e, (area, state)) in areas.iter().zip(contact).enumerate() {
             let force = area * state.pressure;
             let coefficient = friction.get(e).or(friction.first()).copied().unwrap_or(f64::NAN);
-            // Infinity times zero is no resistance.
+            // Infinity times zero counts as no resistance.
             if force != 0.0 && !(coefficient == f64::INFINITY && force < 0.0) {
                 resistance += coefficient * force;
             }
@@ -142,7 +150,7 @@ impl Foundation {
             }
         }
         (self.base_shear, self.normal_force) = (shear, normal);
-        // Counter-clockwise in the plane is by the right-hand rule about the axis towards the reader; y points away.
+        // In the plane counter-clockwise is the right-hand rule about the axis towards the reader; y points away.
         self.in_plan = patch.is_plan();
         self.base_moment = if self.in_plan { moment[0] } else { -moment[0] };
         self.uplifted_fraction = sums.open / sums.area;
@@ -171,22 +179,26 @@ pub(crate) fn force_vector(in_plan: bool, [along, across, pressure]: [f64; SPACE
     if in_plan { [along, across, -pressure] } else { [along, -pressure, 0.0] }
 }
 
-/// A moment or a rotation as a vector from its components about x, about y and about the vertical; in the plane the
-/// second alone turns, about the axis towards the reader.
+/// A moment or a rotation as a vector from its components about x, about y and about the vertical.
+///
+/// In the plane only the second counts, about the axis towards the reader.
 pub(crate) fn turning_vector(in_plan: bool, [x, y, vertical]: [f64; SPACE]) -> [f64; SPACE] {
     if in_plan { [x, y, vertical] } else { [0.0, 0.0, y] }
 }
 
-/// N b over the moment of the pressure about the middle of the base, b the half width. In plan the least of the edges
-/// that face along `axis` (x 0, y 1), at their distances b from the middle of the outline; infinite along y in the plane.
+/// N b over the moment of the pressure about the middle of the base, b the half width.
+///
+/// In plan the smallest over the edges that face along `axis` (x 0, y 1), at their distances b from the middle of
+/// the outline; infinite along y in the plane.
 fn against_overturning(footing: &Footing, normal: f64, moment: [f64; 2], axis: usize) -> f64 {
     let factor =
         |(edge, reach): &(Edge, f64)| ratio(normal, normal * reach, edge.outward(moment).max(0.0));
     footing.edges[axis].iter().map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
 }
 
-/// Resistance over demand: NaN without any pressure, infinite without demand, zero when the base is
-/// pulled up on the whole.
+/// Resistance over demand.
+///
+/// NaN without any pressure, infinite without demand, zero if the base as a whole is in tension.
 fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
     if normal == 0.0 {
         f64::NAN
@@ -281,7 +293,7 @@ mod tests {
         assert_eq!(of(0.0, &pressed).sliding, 0.0);
         let sheared = contact([1.0, 0.0], [0.3, 0.0]);
         assert_eq!(of(f64::INFINITY, &sheared).sliding, f64::INFINITY);
-        // Pulled up on the whole: nothing resists.
+        // The base as a whole is in tension: nothing resists.
         assert_eq!(of(0.4, &contact([-1.0; 2], [0.0; 2])).overturning[0], 0.0);
     }
 }

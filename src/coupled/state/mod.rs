@@ -49,7 +49,7 @@ impl Transition {
     }
 }
 
-/// Data of the simulation that results of a state need; two states are compared without them.
+/// Shared data for computing results; ignored by `==`.
 #[derive(Debug)]
 pub(crate) struct Context {
     pub(crate) probes: Vec<Probe>,
@@ -68,10 +68,9 @@ impl PartialEq for Context {
 
 /// The simulation at the end of an accepted step.
 ///
-/// Displacements are changes against the static state, relative to the free field's
-/// translation unless they say otherwise. Forces are those of the
-/// structure **on the soil**, per metre of thickness or, on a ground in plan, in all; tractions of the step act at
-/// its middle.
+/// Displacements are changes from the static state, relative to the free field's translation unless stated
+/// otherwise. Forces act from the structure **on the soil**, per metre of thickness or, on a ground in plan, in
+/// all. Tractions of the step act at its middle.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -86,33 +85,36 @@ pub struct State {
     pub modes: Vec<Mode>,
     /// Changes of mode in this step.
     pub transitions: Vec<Transition>,
-    /// Values of the probes, in the order they were given to the builder.
+    /// Values of the probes, in the order of the builder.
     pub probes: Vec<f64>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
-    /// Moment on the soil, counter-clockwise, N·m/m; about the middle of the base, or the
-    /// builder's moment center. In plan about the axis along y there, by the right-hand rule, N·m.
+    /// Moment on the soil, counter-clockwise, N·m/m.
+    ///
+    /// About the middle of the base, or the builder's moment center. In plan about the axis along y there, by the
+    /// right-hand rule, N·m.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
     /// Length of open elements over the length of the base.
     pub uplifted_fraction: f64,
-    /// Slip averaged over the length of the base, m; positive when the structure moved to the right.
+    /// Slip averaged over the length of the base, m; positive if the structure moved to the right.
     pub mean_slip: f64,
-    /// Rotation of the base's chord, counter-clockwise, rad, in plan about the axis along y by the right-hand rule; of
-    /// several foundations the largest.
+    /// Rotation of the base's chord, counter-clockwise, rad; of several foundations the largest.
+    ///
+    /// In plan about the axis along y by the right-hand rule.
     pub base_rotation: f64,
-    /// Each foundation by itself, from left to right, in plan in the order of the structure's faces.
+    /// Each foundation, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],
     /// In plan: mean displacement of the free field along y, m; zero in the plane.
     pub free_field_across: f64,
-    /// The energy balance; every term is NaN if none is kept.
+    /// The energy balance; every term is NaN if it is omitted.
     pub energy_balance: EnergyBalance,
-    /// Linear solves that the mode search needed.
+    /// Number of linear solutions of the mode search.
     pub trials: usize,
-    /// Method that found the modes; in a nonlinear step, the last resort of any iteration.
+    /// Method that found the modes; in a nonlinear step, the last method used in any iteration.
     pub method: SearchMethod,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) origin: Origin,
@@ -121,24 +123,24 @@ pub struct State {
     pub(crate) context: Arc<Context>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) motion: Motion,
-    /// Start of the next step as the laws see it, per element.
+    /// Start of the next step for the laws, per element.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: PreviousContacts,
 }
 
 impl State {
-    /// Displacements of the structure's degrees of freedom (m, rad) relative to the free field: what each
-    /// connected part has moved since t = 0 beyond the mean translation of the ground under it.
+    /// Displacements of the structure's degrees of freedom (m, rad) relative to the free field.
     ///
-    /// These four are worked out when they are first asked for in a step: a structure that is
-    /// stepped in its modes pays for all n² of them then, and nothing otherwise; absolute displacements
-    /// are made at every step that asks for them. A few quantities
-    /// at every step are cheaper as a [`Probe`](super::Probe).
+    /// For each connected part, its displacement since t = 0 minus the mean translation of the ground under it.
+    ///
+    /// These four are computed at their first use in a step. A structure in modal coordinates takes n² operations
+    /// for them; without use they cost nothing. Absolute displacements are computed in every step that uses them.
+    /// To record a few quantities at every step, a [`Probe`](super::Probe) takes less time.
     pub fn displacement(&self) -> &[f64] {
         self.motion.dofs(DofResponse::Displacement)
     }
 
-    /// Displacement with the translation of the free field added.
+    /// Displacement plus the translation of the free field.
     pub fn absolute_displacement(&self) -> &[f64] {
         self.motion.dofs(DofResponse::AbsoluteDisplacement)
     }
@@ -148,13 +150,14 @@ impl State {
         self.motion.dofs(DofResponse::Velocity)
     }
 
-    /// Total accelerations of the degrees of freedom; for the midpoint and θ rules the mean over the step.
+    /// Total accelerations of the degrees of freedom; for the midpoint and θ rules their mean over the step.
     pub fn acceleration(&self) -> &[f64] {
         self.motion.dofs(DofResponse::Acceleration)
     }
 
-    /// The value of the probe called `name`: found by its name at every call; by its place,
-    /// [`State::probes`] has it at once.
+    /// The value of the probe called `name`.
+    ///
+    /// Every call searches for the name; [`State::probes`] gives the value by its index at once.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -179,9 +182,9 @@ impl State {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if there is none.
+    /// [`Error::Name`](crate::Error::Name) if no probe has this name.
     pub fn probe(&self, name: &str) -> Result<f64> {
-        // The list of values is public: it may have been cut.
+        // The list of values is public: it may have been shortened.
         let known = &self.context.probes;
         let known = &known[..known.len().min(self.probes.len())];
         probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
@@ -198,9 +201,10 @@ impl State {
         self.context.elements.is_plan()
     }
 
-    /// State variables of the law of an element
-    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no such
-    /// variables, or if there is no such element.
+    /// State variables of the law of an element.
+    ///
+    /// See [`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables). Empty if the law
+    /// has none, or the element does not exist.
     pub fn state_variables(&self, element: usize) -> &[f64] {
         if element < self.start.len() { self.start.state_variables_of(element) } else { &[] }
     }

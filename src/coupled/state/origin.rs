@@ -2,18 +2,18 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Number of the simulation that a state belongs to; two states are compared without it.
+/// Number of the simulation that a state belongs to; ignored by `==`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Origin(u64);
 
 impl Origin {
-    /// Identity that no other simulation has.
+    /// Identity of a new simulation.
     pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
-    /// Whether both identities are of one simulation.
+    /// Whether both identities belong to one simulation.
     pub(crate) fn is(self, other: Self) -> bool {
         self.0 == other.0
     }

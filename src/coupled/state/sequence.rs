@@ -4,7 +4,7 @@ use super::State;
 use super::origin::Origin;
 use std::ops::Range;
 
-/// The states of one simulation, each later than the one before.
+/// Checks that states belong to one simulation and that time increases.
 #[derive(Debug, Clone)]
 pub(crate) struct Sequence {
     origin: Origin,
@@ -26,20 +26,20 @@ impl Sequence {
         }
     }
 
-    /// Sequence that takes no state: that of a run read from a file.
+    /// Sequence that accepts no state, for a run read from a file.
     #[cfg(feature = "serde")]
     pub(crate) fn closed() -> Self {
         Self::ended(f64::INFINITY)
     }
 
-    /// Sequence that takes no state, whose last state was at `end`, s.
+    /// Sequence that accepts no state; its last state was at `end`, s.
     #[cfg(feature = "serde")]
     pub(crate) fn ended(end: f64) -> Self {
         let (elements, probes, foundations) = (0, 0, Vec::new());
         Self { origin: Origin::new(), elements, probes, foundations, end }
     }
 
-    /// Writes the time of the last state alone.
+    /// Writes only the time of the last state.
     #[cfg(feature = "serde")]
     pub(crate) fn write_end<S: serde::Serializer>(
         &self,
@@ -48,7 +48,7 @@ impl Sequence {
         to.serialize_f64(self.end)
     }
 
-    /// Whether `state` is of the same simulation and later than the last one.
+    /// Whether `state` belongs to the same simulation and is later than the last one.
     pub(crate) fn is_next(&self, state: &State) -> bool {
         // The fields of a state are public and may have been changed.
         state.origin.is(self.origin)
@@ -59,7 +59,7 @@ impl Sequence {
             && state.time > self.end
     }
 
-    /// Whether `state` is the next one; it is the last one then.
+    /// Whether `state` is the next one; if so, stores its time as the last.
     pub(crate) fn takes(&mut self, state: &State) -> bool {
         let takes = self.is_next(state);
         if takes {

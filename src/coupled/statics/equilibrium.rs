@@ -14,35 +14,35 @@ use crate::linalg::{
 use crate::structure::{InternalEnergy, Structure, Tangent, nonlinear_state};
 
 const NAME: &str = "static stiffness matrix";
-/// Force out of balance, relative to the load, up to which a state is one of equilibrium.
+/// Largest unbalanced force of an equilibrium, relative to the load.
 const EQUILIBRIUM: f64 = 1e-7;
-/// Condition beyond which rounding of K u is a larger force than that (`tests/coupled/conditioning.rs`).
+/// Condition beyond which rounding of K u exceeds that force (`tests/coupled/conditioning.rs`).
 const STIFFEST_CONDITION: f64 = 1e10;
-/// Proximal iterations at most.
+/// Largest number of proximal iterations.
 const ITERATIONS: usize = 500;
-/// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding lets a
-/// very stiff structure converge no further.
+/// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding
+/// lets a very stiff structure converge no further.
 const LATE: usize = 100;
 const LATE_CHANGE: f64 = 1e-8;
-/// Most out-of-balance force of a steady drift, relative to the load.
+/// Largest unbalanced force of a steady drift, relative to the load.
 const DRIFT: f64 = 1e-8;
-/// Share of the foundation's stiffness that the fictitious springs start with.
+/// Initial stiffness of the fictitious springs, as a fraction of the foundation's.
 const PROXIMAL_SHARE: f64 = 1e-4;
-/// Share of that down to which they are softened.
+/// Softest springs, as a fraction of their initial stiffness.
 const SOFTEST: f64 = 1e-9;
-/// Decrease of their pull in an iteration above which they are softened tenfold, as long as it is
-/// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
-/// that are stiffer than itself.
+/// Decrease of their force in an iteration above which they are softened tenfold, as long as the force is more
+/// than [`ROUNDING`] of the load: a structure far softer than the ground deforms only slowly against springs that
+/// are stiffer than itself.
 const SLOW: f64 = 0.2;
 /// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
 const STIFFENED: f64 = 1e4;
-/// Pull of the springs, relative to the load, below which rounding may keep it from falling.
+/// Force of the springs, relative to the load, below which rounding may stop its decrease.
 const ROUNDING: f64 = 1e-6;
-/// Iterations after which the pull may be slow for rounding only as far as the condition explains: even a pull below
-/// [`ROUNDING`] can make an element that hardly presses switch its mode back and forth, and with it a large shear.
+/// Iterations after which only a slow decrease that the condition explains counts as rounding. Even a force below
+/// [`ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
 const LONG: usize = 20;
 
-/// A static state: what weight and loads at t = 0 leave, contact conditions included.
+/// Static state under weight and loads at t = 0, contact conditions included.
 #[derive(Debug, Clone)]
 pub(crate) struct StaticState {
     pub(crate) traction: Vec<f64>,
@@ -52,17 +52,17 @@ pub(crate) struct StaticState {
     pub(crate) modes: Vec<Mode>,
     /// The structure's own load at t = 0.
     pub(crate) load: Vec<f64>,
-    /// Memory of each element's law where that acted in it; empty where the law begins anew.
+    /// State variables of each element's law where it acted; empty where the law starts anew.
     pub(crate) state_variables: Vec<Vec<f64>>,
-    /// f(u) of a nonlinear structure, and its energies where it returns them.
+    /// f(u) of a nonlinear structure, and its energies if it returns them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient taken in place of a greater one where an element slides, if any was.
+    /// Friction coefficient used instead of a larger one where an element slides; `None` if there was none.
     pub(crate) stand_in: Option<f64>,
 }
 
 impl StaticState {
-    /// State without weight: all elements touch and none is pressed.
+    /// State without weight: all elements touch, without pressure.
     pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
         let elements = layout.elements();
         Self {
@@ -82,7 +82,7 @@ impl StaticState {
         self.traction.len() > PLANE * self.modes.len()
     }
 
-    /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
+    /// Modes with which a base continues under `laws`: closed elements stick, whatever placed them.
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let is_plan = self.is_plan();
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
@@ -98,7 +98,7 @@ impl StaticState {
         modes.collect()
     }
 
-    /// Gaps from the states of the contact solver, exactly where a law pins them.
+    /// Sets gaps from the states of the contact solver, exactly where a law prescribes them.
     fn close_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
@@ -129,18 +129,17 @@ pub(crate) struct Standing<'a> {
     pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground.
     pub(crate) soil: &'a [f64],
-    /// In plan, whether the laws act without friction and cohesion.
+    /// Whether the laws act without friction and cohesion, in plan.
     pub(crate) frictionless: bool,
 }
 
 impl Standing<'_> {
     /// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
     ///
-    /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum.
-    /// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
-    /// converges (proximal point method); Newton's linearisation of f goes along.
-    /// Begins at `state`, the end of the stage before in which the laws' `start` is. Returns with it the
-    /// states of the elements.
+    /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum. Springs ε M to the
+    /// last iterate make each iteration regular, and their forces vanish at convergence (proximal point method); f
+    /// is linearised at each iterate (Newton). Starts from `state`, the end of the previous stage, to which the
+    /// laws' `start` belongs. Also returns the states of the elements.
     pub(crate) fn equilibrium(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
@@ -180,9 +179,9 @@ impl Standing<'_> {
                 }
             };
             let current = compliance.insert(current);
-            // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
-            // would sink by 1/PROXIMAL_SHARE settlements; so the response to τ₀ is put in by the columns
-            // that take out τ₁, and only what is out of balance is solved for.
+            // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would
+            // settle by 1/PROXIMAL_SHARE settlements. The columns that subtract the response to τ₁ therefore add
+            // the response to τ₀, and the system is solved only for the unbalanced force.
             let mut displacement = out_of_balance(assembled, structure, load, &state)?;
             current.factor.solve(&mut displacement);
             for (d, u) in displacement.iter_mut().zip(&state.displacement) {
@@ -209,7 +208,7 @@ impl Standing<'_> {
                 Err(_) => break,
             }
             transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
-            // What the fictitious springs still pull.
+            // Force of the fictitious springs.
             let moved: Vec<f64> =
                 displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
             let mut pull = vec![0.0; n];
@@ -218,16 +217,16 @@ impl Standing<'_> {
             change = measure.of(&pull);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
-            // The force of the springs is known no better than the solve is exact.
+            // The force of the springs has the accuracy of the solution.
             let stalled = change <= 1e-10 && change >= 0.5 * previous;
             let late = iterations > LATE
                 && change <= LATE_CHANGE
                 && change <= current.condition() * f64::EPSILON;
-            // What nothing resists (a frictionless base along the ground) drifts for ever by the same
-            // amount under what rounding leaves of the sums of K, a fraction that grows with its size.
+            // A motion that nothing resists (a frictionless base along the ground) drifts for ever by the same
+            // amount under the rounding of the sums of K, a fraction that grows with its size.
             let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
             if change <= 1e-13 || stalled || late || drifts {
-                // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
+                // Springs without force are no equilibrium yet if K u is only rounding.
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
                     state.stand_in = solver.stand_in.or(state.stand_in);
@@ -250,16 +249,16 @@ impl Standing<'_> {
                 solver.invalidate();
             }
         }
-        // Against the first springs: what softened ones leave of a matrix that is all rounding has no condition.
+        // With the initial springs: softened springs leave a matrix of rounding, which has no condition.
         let first = Compliance::new(assembled, &tangent.matrix, soil, stiffest);
         let condition = first.map_or(1.0, |mut first| first.condition());
         Err(failure(condition, iterations, change))
     }
 
-    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground, and
-    /// their stiffness. Each iteration then finds the least energy; with softer springs it may find a structure on the
-    /// verge of a fall, on a corner. Where stiffer springs do not help (Lagrange multipliers), or rounding is the
-    /// cause, they stay as they were.
+    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground,
+    /// and their stiffness. Each iteration then finds the smallest energy; with softer springs it may find a
+    /// structure on the verge of a fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or
+    /// rounding is the cause, they stay unchanged.
     fn held(
         &self,
         mut found: Compliance,
@@ -281,7 +280,7 @@ impl Standing<'_> {
     }
 }
 
-/// Message for a search without end.
+/// Error for a search that did not converge.
 fn failure(condition: f64, iterations: usize, change: f64) -> Error {
     if condition <= STIFFEST_CONDITION {
         return Error::Preload { iterations, residual: change };
@@ -295,8 +294,7 @@ fn failure(condition: f64, iterations: usize, change: f64) -> Error {
     }
 }
 
-/// Relative force imbalance: K resists no translation, so that tractions alone must carry the
-/// resultants of the load.
+/// Relative force imbalance: K resists no translation, so tractions alone must carry the resultants of the load.
 fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
     let mut rest = load.to_vec();
     assembled.base.add_forces(-1.0, traction, &mut rest);
@@ -323,8 +321,8 @@ fn out_of_balance(
     Ok(rest)
 }
 
-/// Size of a force relative to the load: each component over the square root of its mass, so
-/// that forces and moments compare in any units.
+/// Size of a force relative to the load: each component over the square root of its mass, so that forces and
+/// moments compare in any units.
 struct Measure {
     weights: Vec<f64>,
     scale: f64,
@@ -342,14 +340,14 @@ impl Measure {
         if scale > 0.0 && scale.is_finite() {
             return Self { weights, scale };
         }
-        // Nothing but massless degrees of freedom is loaded.
+        // Only massless degrees of freedom are loaded.
         let weights = vec![1.0; load.len()];
         Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
     }
 
     fn of(&self, force: &[f64]) -> f64 {
         let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
-        // Unlike `max`, the sum does not lose NaN.
+        // Unlike `max`, the sum keeps NaN.
         let sum: f64 = force.iter().sum();
         if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
     }
@@ -384,7 +382,7 @@ impl Compliance {
     }
 }
 
-/// Mass that a vertical translation moves.
+/// Mass that moves in a vertical translation.
 fn total_mass(assembled: &Assembled) -> f64 {
     let up = assembled.influence.of(UP, assembled.dofs());
     assembled.mass.form(&up, &up)

@@ -1,4 +1,4 @@
-//! The static state: equilibrium on the ground, and why there may be none.
+//! The static state: equilibrium on the ground, and reasons for its absence.
 
 pub(crate) mod equilibrium;
 pub(crate) mod stability;

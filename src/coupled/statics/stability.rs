@@ -1,9 +1,9 @@
-//! Why a structure cannot stand: resultants that its base does not carry, or a mechanism.
+//! Reasons why a structure cannot stand: resultants beyond the strength of its base, or a mechanism.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | N, n | displacements of the contact nodes; those of a rigid motion of the base |
-//! | r | displacements when the contact nodes take part in that motion and the rest follows |
+//! | N, n | displacements of the contact nodes, and their values in a rigid motion of the base |
+//! | r | displacements when the contact nodes follow that motion and all else follows them |
 //! | e | distance of the resultant from the middle of the base |
 
 use crate::coupled::base::faces::hull;
@@ -16,7 +16,7 @@ use crate::geometry::{Edge, axis_name, middle, resultant, span};
 use crate::interface::{InterfaceLaw, law_of};
 use crate::linalg::{SparseFactor, dot};
 
-/// The reason behind `error`, that no equilibrium was found under `load`, if one can be given.
+/// The cause of `error`, that there is no equilibrium under `load`; `error` itself if it is unknown.
 pub(crate) fn cause(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -47,7 +47,7 @@ fn resultants(
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
     let is_plan = base.layout().is_plan();
-    // Firmly: under springs of its own stiffness a structure with P–Δ turns further than they are pulled.
+    // Firmly: on springs of its own stiffness a structure with P–Δ rotates further than the springs are displaced.
     let (held, regular) = Regular::held_by(&assembled.at_rest(stage.structure), FIRMLY);
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
@@ -61,7 +61,7 @@ fn resultants(
         let strength =
             |&e: &usize| Strength::of(law_of(laws, e), pressure, is_plan, stage.frictionless);
         let strengths: Vec<_> = part.elements().iter().map(strength).collect();
-        // With a bond something must have broken it: without one the state would have been found.
+        // With a bond, something must have broken it: otherwise the state would have been found.
         let pulls = strengths.iter().any(|own| own.pulls);
         let coheres = strengths.iter().any(|own| own.coheres);
         let broken = |bonded: bool, then: StabilityError| {
@@ -89,17 +89,17 @@ fn resultants(
         let mut moments = [0.0; 3];
         let turns = held.turns(nodes.iter().copied(), middles);
         moments.iter_mut().zip(turns).for_each(|(own, turn)| *own = work(&mut factor, turn, load));
-        // The soil's pressure stands at the distance e: M + N e = 0.
+        // The soil's pressure acts at the distance e: M + N e = 0.
         let eccentricities = [-moments[0] / normal, -moments[1] / normal];
         let part_of = |axis: usize| eccentricities[axis].abs() / half_widths[axis];
-        // In plan of the distance to the edge that is nearest to it, and the axis which that faces more.
+        // In plan the ratio to the nearest edge, and the axis that this edge faces more.
         let (ratio, axis) = if is_plan {
             nearest_edge(&hull(nodes.iter().copied()), middles, eccentricities)
         } else {
             (part_of(0), 0)
         };
         let eccentricity = eccentricities[axis];
-        // By the right-hand rule about y, what lifts the right side is negative.
+        // By the right-hand rule about y, a moment that lifts the right side is negative.
         let moment = if is_plan && axis == 0 { -moments[0] } else { moments[axis] };
         if ratio >= 1.0 && opens {
             let axis = axis_name(is_plan, axis);
@@ -140,7 +140,7 @@ fn resultants(
             }
         }
         let width = if is_plan {
-            // The area that both axes leave (Meyerhof 1963).
+            // The area that both eccentricities leave (Meyerhof 1963).
             lengths().sum::<f64>() * (1.0 - part_of(0)) * (1.0 - part_of(1))
         } else {
             2.0 * half_widths[0] * (1.0 - ratio)
@@ -159,8 +159,9 @@ fn work(factor: &mut SparseFactor, mut force: Vec<f64>, load: &[f64]) -> f64 {
     dot(&force, load)
 }
 
-/// Force that bearing pressures carry on elements of these lengths or areas, at most the largest of them on the `width`
-/// between the resultant's two equal distances, and the normal force over it.
+/// Capacity of bearing pressures on elements of these lengths or areas, and the normal force over it.
+///
+/// At most the largest pressure on `width`, the width centred under the resultant.
 fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) -> [f64; 2] {
     let (all, largest) = elements.fold((0.0, 0.0_f64), |(all, largest), (pressure, length)| {
         (all + pressure * length, largest.max(pressure))
@@ -169,8 +170,10 @@ fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) 
     [capacity, normal / capacity]
 }
 
-/// Largest part of the way from `middle` to an edge of a convex outline that a resultant at this `distance` has gone,
-/// and the axis that this edge faces more.
+/// Largest ratio of a resultant's distance to an edge's distance, from `middle`, and the axis that this edge faces
+/// more.
+///
+/// `outline`: convex. `distance`: of the resultant from the middle.
 fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
     let parts = Edge::all(outline).map(|edge| {
         let faces_y = edge.normal[1].abs() > edge.normal[0].abs();
@@ -179,8 +182,9 @@ fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (
     parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
 }
 
-/// The axis and the least and greatest of the elements' middles along it, if a resultant passes beyond them, by more
-/// than the slack.
+/// The axis and the smallest and largest of the elements' middles along it, if a resultant passes beyond them.
+///
+/// By more than the slack.
 fn beyond(
     middles: impl Iterator<Item = [f64; 2]>,
     axis: usize,

@@ -2,14 +2,14 @@
 
 use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance};
 
-/// Traction that counts as none, relative to the pressure.
+/// Traction that counts as zero, relative to the pressure.
 const LITTLE: f64 = 1e-6;
-/// Ratio of shear traction to pressure that counts as endless.
+/// Ratio of shear traction to pressure that counts as infinite.
 const MOST: f64 = 1e6;
 /// Pressure beside which cohesion is small, Pa.
 const PRESSURE: f64 = 1e9;
 
-/// Tractions that a law bears on an element that has not moved so far.
+/// Strength of a law on an element that has not moved so far.
 pub(crate) struct Strength {
     /// Whether the element can open.
     pub(crate) opens: bool,
@@ -17,16 +17,18 @@ pub(crate) struct Strength {
     pub(crate) pulls: bool,
     /// Whether a bond bears shear without pressure.
     pub(crate) coheres: bool,
-    /// Friction coefficient, or the ratio of shear traction to pressure at which the element slides; infinite if it
-    /// does not.
+    /// Friction coefficient, or the ratio of shear traction to pressure at which the element slides.
+    ///
+    /// Infinite if it does not slide.
     pub(crate) friction: f64,
-    /// Largest pressure, Pa; infinite for a law without one.
+    /// Largest pressure, Pa; infinite for a law without a limit.
     pub(crate) bearing_pressure: f64,
 }
 
 impl Strength {
-    /// Strength of an element under this mean pressure (Pa); in plan without friction and cohesion, if they are left
-    /// out.
+    /// Strength of an element under this mean pressure (Pa).
+    ///
+    /// In plan, `frictionless` omits friction and cohesion.
     pub(crate) fn of(
         law: &dyn InterfaceLaw,
         pressure: f64,
@@ -51,7 +53,7 @@ impl Strength {
         let pressed = ContactState { pressure: pressure.max(0.0), ..ContactState::default() };
         let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
         let state_variables = start.first_state_variables(law);
-        // Errors of a law were met before.
+        // Errors of a law have been reported before.
         let limits = law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default();
         let limits = if frictionless { limits.frictionless() } else { limits };
         let known = law.friction_coefficient().filter(|_| !frictionless);
@@ -68,8 +70,9 @@ impl Strength {
     }
 }
 
-/// Friction coefficient of a law on an element at rest, cohesion left out: as the law states it, by its limits, or by
-/// the tractions at which the element slides.
+/// Friction coefficient of a law on an element at rest, without cohesion.
+///
+/// As the law states it, by its limits, or by the tractions at which the element slides.
 pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw) -> f64 {
     let pressed = ContactState { pressure: PRESSURE, ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
@@ -79,8 +82,9 @@ pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw) -> f64 {
     law.friction_coefficient().or_else(by_limits).unwrap_or_else(|| friction(law, PRESSURE))
 }
 
-/// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides;
-/// infinite if it does not.
+/// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides.
+///
+/// Infinite if it does not slide.
 fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
     if let Some(known) = law.friction_coefficient() {
         return known;
@@ -102,8 +106,7 @@ fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
     high
 }
 
-/// Whether a law holds an element that has not moved so far at these tractions, without sliding
-/// or opening.
+/// Whether a law holds an element that has not moved so far at these tractions, without sliding or opening.
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
     let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
@@ -114,7 +117,7 @@ fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
     law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick
 }
 
-/// The largest pressure that a law carries; infinite if it has no mode of yielding.
+/// The largest pressure of a law; infinite if it has no mode of yielding.
 fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
     let yielding = law.modes().iter().filter(|mode| mode.is_yield());

@@ -62,8 +62,9 @@ impl State {
         Ok(state)
     }
 
-    /// Goes to the end of the step that `increment` solved; its buffers of displacements,
-    /// velocities and accelerations are swapped.
+    /// Advances to the end of the step that `increment` solved.
+    ///
+    /// Buffers of displacements, velocities and accelerations are swapped with the buffers of `increment`.
     pub(crate) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
         self.step += 1;
         self.time = self.step as f64 * scene.time_step;
@@ -89,7 +90,7 @@ impl State {
         self.update_resultants(scene);
     }
 
-    /// Resultants and probes from the present state.
+    /// Computes resultants and probes from the present state.
     pub(crate) fn update_resultants(&mut self, scene: &Scene) {
         let state = self;
         let Motion { displacement, velocity, acceleration, .. } = &state.motion;

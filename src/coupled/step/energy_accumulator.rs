@@ -1,4 +1,4 @@
-//! Booking an accepted step in the energy balance, each term from its own definition.
+//! Adds an accepted step to the energy balance, each term from its own definition.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -21,7 +21,7 @@ use crate::linalg::dot;
 use crate::linalg::matrix::spread;
 use crate::structure::Structure;
 
-/// The energy balance so far, and what booking a step needs of the one before.
+/// The energy balance so far, and data of the last step that the next one needs.
 #[derive(Clone)]
 pub(crate) struct EnergyAccumulator {
     pub(crate) energy_balance: EnergyBalance,
@@ -31,7 +31,7 @@ pub(crate) struct EnergyAccumulator {
     pub(crate) jump: Vec<f64>,
     /// Compliance of each element at the end of the last step; empty if all laws are hard.
     pub(crate) compliance: Vec<[f64; 2]>,
-    /// Work of the nonlinear internal force so far; what it stores, where that is known.
+    /// Work of the nonlinear internal force so far; its stored energy, if that is known.
     pub(crate) nonlinear_work: f64,
     /// Per part: Rᵀ M Δu of the last step, and its Δy.
     pub(crate) momentum: Vec<[f64; 3]>,
@@ -42,7 +42,7 @@ pub(crate) struct EnergyAccumulator {
     scratch: Scratch,
 }
 
-/// Scratch of a step; nothing in it outlives the step.
+/// Scratch of a step; its contents do not outlive the step.
 #[derive(Clone)]
 struct Scratch {
     vector: Vec<f64>,
@@ -51,8 +51,9 @@ struct Scratch {
 }
 
 impl EnergyAccumulator {
-    /// Accumulator at the beginning of a run; the energy of an initial motion counts as input. `compliant` says
-    /// whether any law stores energy in its elements.
+    /// Accumulator at the beginning of a run; the energy of an initial motion counts as input.
+    ///
+    /// `compliant`: whether any law stores energy in its elements.
     pub(crate) fn new(
         scene: &Scene,
         structure: &dyn Structure,
@@ -99,7 +100,7 @@ impl EnergyAccumulator {
         Ok(books)
     }
 
-    /// Kinetic and strain energy of the motion at t = 0.
+    /// Adds kinetic and strain energy of the motion at t = 0.
     fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
         let Motion { displacement, velocity, .. } = &state.motion;
         let at_rest = self.static_energy(scene);
@@ -120,8 +121,9 @@ impl EnergyAccumulator {
         energy_balance.largest = energy_balance.scale().max(at_rest);
     }
 
-    /// Energy at rest in parts whose energy the balance counts against the static state: compliant interfaces, and
-    /// the nonlinear force where its energy is known. Changes are rounded in proportion to it.
+    /// Energy at rest of compliant interfaces, and of a nonlinear force with known energy.
+    ///
+    /// The balance counts these energies relative to the static state. Changes are rounded in proportion to it.
     fn static_energy(&self, scene: &Scene) -> f64 {
         let at_rest = &scene.static_state;
         let layout = scene.layout();
@@ -134,7 +136,7 @@ impl EnergyAccumulator {
         interfaces + at_rest.energy.map_or(0.0, |energy| energy.stored.abs())
     }
 
-    /// Every number that a step leaves to the next in so many directions, always in this order.
+    /// All numbers that a step passes to the next, for `directions` directions, always in this order.
     pub(crate) fn numbers(&mut self, directions: usize) -> Vec<&mut f64> {
         let mut all = vec![&mut self.nonlinear_work];
         all.extend(self.energy_balance.terms_mut());
@@ -146,7 +148,7 @@ impl EnergyAccumulator {
         all
     }
 
-    /// Books the step that leads from its state to its end.
+    /// Adds the step that leads from its state to its end.
     pub(crate) fn book(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
         let StepData { scene, forcing, .. } = data;
         if forcing.loaded {
@@ -162,8 +164,9 @@ impl EnergyAccumulator {
         self.see_largest(scene.time_step);
     }
 
-    /// Takes the energies of the step into the largest so far, that of the ground's motion included:
-    /// a structure that the ground leaves behind has none but rounding.
+    /// Updates the largest energy, including the energy of a structure that moves with the ground.
+    ///
+    /// The latter counts for a structure that the ground leaves behind, whose own energy is only rounding.
     fn see_largest(&mut self, time_step: f64) {
         let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
             let energy = |k: usize| 0.5 * mass[k] * (increment[k] / time_step).powi(2);
@@ -172,7 +175,7 @@ impl EnergyAccumulator {
         self.energy_balance.largest = self.energy_balance.scale().max(carried.sum());
     }
 
-    /// The nonlinear force: stored, dissipated, or just done.
+    /// Adds the energies of the nonlinear force: stored and dissipated, or its work if they are unknown.
     fn book_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, structure, .. } = data;
         let done = dot(&increment.force, &increment.total);
@@ -186,7 +189,7 @@ impl EnergyAccumulator {
         (self.nonlinear_work, energy_balance.hysteresis) = (stored, dissipated);
     }
 
-    /// Kinetic and strain energy, damping, and what the time scheme takes.
+    /// Adds kinetic and strain energy, damping, and the dissipation of the time scheme.
     fn book_structure(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
         let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
@@ -235,8 +238,9 @@ impl EnergyAccumulator {
         energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
     }
 
-    /// Work of −M R ÿ between the middles of the last two steps, with ÿ = (Δy₁ − Δy₀)/Δt² at the
-    /// time between them, and of the loads.
+    /// Adds the work of −M R ÿ between the middles of the last two steps, and of the loads.
+    ///
+    /// ÿ = (Δy₁ − Δy₀)/Δt² at the time between the two steps.
     fn book_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
         let square = scene.time_step * scene.time_step;
         for (k, inertia) in self.inertia.iter().enumerate() {
@@ -253,8 +257,10 @@ impl EnergyAccumulator {
         }
     }
 
-    /// Soil, contact, compliant interfaces and preload. The jump is that of the contact problem: if
-    /// the structure went elsewhere, its energies would not balance the work of the tractions.
+    /// Adds energies of soil, contact, compliant interfaces and static contact.
+    ///
+    /// The jump is taken from the contact problem: if the structure moved otherwise, its energies would not
+    /// balance the work of the tractions.
     fn book_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
         let soil = &mut self.scratch.means;
@@ -281,8 +287,8 @@ impl EnergyAccumulator {
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;
                 energy_balance.interface += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
-                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more: what the step takes
-                // of a spring that stays, what is lost with one that goes.
+                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) plus this: the dissipation of the step for a spring
+                // that stays, the loss for a spring that goes.
                 let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
                 if c0 == c1 {
                     energy_balance.algorithmic += lag;
@@ -300,8 +306,9 @@ impl EnergyAccumulator {
     }
 }
 
-/// Energies that the nonlinear force stores and has dissipated since the static state, where they
-/// are known. Forces count from the static ones, and so does the energy that they store.
+/// Stored energy and dissipation of the nonlinear force since the static state; `None` if unknown.
+///
+/// Forces count from their static values, and so does the energy that they store.
 fn energies(scene: &Scene, structure: &dyn Structure, seen: &[f64]) -> Option<(f64, f64)> {
     let at_rest = &scene.static_state;
     let start = at_rest.energy?;

@@ -1,10 +1,9 @@
-//! Linear part of a step: one solve with the factored operators, the contact problem, and the response
-//! to the tractions.
+//! Linear part of a step: the free increment, the contact problem, and the response to the tractions.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | Δu | increment of displacement relative to the free field's translation y |
-//! | u*, v*, a* | where the time scheme writes the equation of motion |
+//! | u*, v*, a* | motion at the time at which the scheme writes the equation of motion |
 //! | τ | change of contact traction against the static state |
 //! | B | element means of the base displacement |
 //! | R | influence vectors |
@@ -46,8 +45,9 @@ impl LinearStep {
         }
     }
 
-    /// Right-hand side of the equation of motion: loads, inertia and damping of a structure that is
-    /// carried along by y, and its stiffness forces so far.
+    /// Computes the right-hand side of the equation of motion.
+    ///
+    /// Loads, inertia and damping of a structure that moves with y, and its stiffness forces so far.
     pub(crate) fn predict(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         let (c, model) = (&scene.coefficients, &scene.model);
         let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
@@ -68,7 +68,7 @@ impl LinearStep {
         model.stiffness.multiply_add(-1.0, vector, known);
     }
 
-    /// The increment of a linear structure, with what follows from it.
+    /// Computes the increment of a linear structure, and the motion at its end.
     pub(crate) fn solve(
         &mut self,
         data: StepData<'_>,
@@ -93,7 +93,7 @@ impl LinearStep {
         Ok(())
     }
 
-    /// Takes the right-hand side in the increment's displacement and leaves the increment there.
+    /// Solves for the increment; on entry its displacement contains the right-hand side.
     pub(crate) fn solve_contact(
         &mut self,
         data: StepData<'_>,
@@ -107,7 +107,7 @@ impl LinearStep {
         Ok(())
     }
 
-    /// Contact tractions for the displacement that the step would end with without their change.
+    /// Contact tractions for the displacement at the end of the step without their change.
     fn solve_tractions(
         &mut self,
         data: StepData<'_>,
@@ -125,7 +125,7 @@ impl LinearStep {
         for (jump, gap) in free_jump.iter_mut().zip(&scene.static_state.gap) {
             *jump += gap;
         }
-        // `max` ignores NaN, so the jumps themselves are looked at.
+        // `max` ignores NaN, so the jumps themselves are checked.
         if !(length_scale.is_finite() && free_jump.iter().all(|jump| jump.is_finite())) {
             StepError::check_finite("displacement of the structure", &increment.end)?;
             StepError::check_finite("jump between soil and base", free_jump)?;

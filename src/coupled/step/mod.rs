@@ -28,21 +28,21 @@ use crate::structure::Structure;
 
 /// External load, free field and convolution history of one step.
 pub(crate) struct Forcing {
-    /// External load at t*, less that of the static state, in stepped coordinates.
+    /// External load at t*, minus the static load, in stepping coordinates.
     pub(crate) load: Vec<f64>,
     /// Whether there is any load.
     pub(crate) loaded: bool,
-    /// Free field at the end of the step, less that at t = 0, 2Q or 3Q.
+    /// Free field at the end of the step, minus its value at t = 0, 2Q or 3Q.
     pub(crate) free_field: Vec<f64>,
-    /// Free field less the translation y of the part above, 2Q or 3Q.
+    /// Free field minus the translation y of the part above, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
     /// Convolution history of the soil at the end of the step, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
-    /// R Δy, in stepped coordinates.
+    /// R Δy, in stepping coordinates.
     pub(crate) carried: Vec<f64>,
-    /// R ẏ at v*, in stepped coordinates; zero without damping.
+    /// R ẏ at v*, in stepping coordinates; zero without damping.
     pub(crate) dragged: Vec<f64>,
     dofs: Vec<f64>,
 }
@@ -64,7 +64,7 @@ impl Forcing {
         }
     }
 
-    /// Free field and history at `time`, the end of the step after `state`, and the load within it.
+    /// Computes free field and history at `time`, the end of the step after `state`, and the load within it.
     pub(crate) fn observe(
         &mut self,
         scene: &Scene,
@@ -78,7 +78,7 @@ impl Forcing {
         for (value, start) in self.free_field.iter_mut().zip(&scene.start_motion) {
             *value -= start;
         }
-        // A ground that cannot go with the motion says why.
+        // An error of the ground ends the step.
         ground.history(&mut self.history).map_err(|error| StepError::Ground(Box::new(error)))?;
         for (values, quantity) in
             [(&self.free_field, "free field"), (&self.history, "history of the ground")]
@@ -134,13 +134,13 @@ pub(crate) struct StepData<'a> {
 
 // Changes of one step.
 
-/// Response to a [`Forcing`]; nothing of it is committed yet.
+/// Response to a [`Forcing`], not yet committed.
 pub(crate) struct Increment {
-    /// Δu relative to the free field's translation, in stepped coordinates.
+    /// Δu relative to the free field's translation, in stepping coordinates.
     pub(crate) displacement: Vec<f64>,
     /// Displacement at the end of the step, relative to the free field's translation.
     pub(crate) end: Vec<f64>,
-    /// Total Δu, with the part R Δy of the free field's translation.
+    /// Total Δu, including R Δy.
     pub(crate) total: Vec<f64>,
     /// Total velocity and acceleration at the end of the step.
     pub(crate) velocity: Vec<f64>,
@@ -153,23 +153,24 @@ pub(crate) struct Increment {
     pub(crate) contact: Vec<ContactState>,
     /// Mode of each element.
     pub(crate) modes: Vec<Mode>,
-    /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
+    /// Compliance of each element at the end; empty if all laws are hard or there is no energy balance.
     pub(crate) compliance: Vec<[f64; 2]>,
     /// State variables of the laws at the end.
     pub(crate) state_variables: Vec<f64>,
-    /// Linear solves of the mode search, and how far it had to go.
+    /// Number of linear solutions of the mode search, and the last method used.
     pub(crate) trials: usize,
     pub(crate) method: SearchMethod,
-    /// Friction that was taken in place of a greater one where something slides, if any was.
+    /// Friction used instead of a larger one on a sliding element; `None` if there was none.
     pub(crate) stand_in: Option<f64>,
-    /// f(u*) less f at the static state, and the displacement that f sees at the end of the step;
-    /// empty for a linear structure.
+    /// f(u*) minus f at the static state, and the displacement at the end of the step that f receives.
+    ///
+    /// Empty for a linear structure.
     pub(crate) force: Vec<f64>,
     pub(crate) seen: Vec<f64>,
 }
 
 impl Increment {
-    /// Room for a step, and for compliances if they are asked for.
+    /// Memory for a step, and for compliances if `compliant`.
     pub(crate) fn new(scene: &Scene, state: &State, compliant: bool) -> Self {
         let (n, count) = (scene.model.coordinates, scene.count());
         let compliant = if compliant { count } else { 0 };
@@ -194,13 +195,13 @@ impl Increment {
         }
     }
 
-    /// Displacement at the end of the step, from Δu.
+    /// Computes the displacement at the end of the step from Δu.
     pub(crate) fn reach(&mut self, state: &State) {
         let increments = state.motion.displacement.iter().zip(&self.displacement);
         self.end.iter_mut().zip(increments).for_each(|(end, (u, du))| *end = u + du);
     }
 
-    /// Displacement, velocity and acceleration at the end, and the total Δu.
+    /// Computes displacement, velocity and acceleration at the end, and the total Δu.
     pub(crate) fn follow(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         self.reach(state);
         let increments = self.displacement.iter().zip(&forcing.carried);
@@ -213,8 +214,7 @@ impl Increment {
         SchemeCoefficients::combine(coefficients, total, velocity, acceleration, new_acceleration);
     }
 
-    /// Asks the laws for the compliance that the step after `state` ends with, and for
-    /// their state variables.
+    /// Evaluates the laws' compliances at the end of the step after `state`, and their state variables.
     pub(crate) fn ask_laws(&mut self, scene: &Scene, state: &State) -> Result<(), LawError> {
         for (e, compliance) in self.compliance.iter_mut().enumerate() {
             *compliance = scene.compliance(e, self.modes[e], &state.start)?;

@@ -8,8 +8,8 @@
 //! | Δu, u₁, v₁, a₁ | increment, and coordinates at the end |
 //! | R Δy, R ẏ | part of the free field's translation |
 //!
-//! The loops are functions of their own, since the compiler knows of an argument, and not of a
-//! field, that nothing else points to what is written.
+//! The loops are separate functions: for an argument, unlike a field, the compiler can assume that no other
+//! reference points to the written memory.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -19,7 +19,7 @@ use crate::coupled::step::{Forcing, Increment};
 use crate::linalg::matrix::Diagonals;
 use crate::linalg::{Simd, WithSimd, vectorized};
 
-/// Δu and u₁ with the tractions held at their static values.
+/// Computes Δu and u₁ with the tractions held at their static values.
 pub(crate) fn free(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
@@ -32,7 +32,7 @@ pub(crate) fn free(
     vectorized(Free { scheme, matrices, inverse, motion, forcing, out, end });
 }
 
-/// Takes away what the tractions' `force` does to Δu, and finds what follows from it.
+/// Subtracts the response to the tractions' `force` from Δu, and computes the motion at the end.
 pub(crate) fn answer(
     scheme: &SchemeCoefficients,
     inverse: &[f64],
@@ -65,7 +65,7 @@ impl WithSimd for Free<'_> {
     }
 }
 
-/// Right-hand side of the equation of motion, as `LinearStep::predict` has it in degrees of freedom.
+/// Right-hand side of the equation of motion, as `LinearStep::predict` computes it in degrees of freedom.
 #[inline(always)]
 fn balance(
     scheme: &SchemeCoefficients,
@@ -93,7 +93,7 @@ fn balance(
     }
 }
 
-/// Δu from the right-hand side, and u₁.
+/// Computes Δu from the right-hand side, and u₁.
 #[inline(always)]
 fn release(inverse: &[f64], u: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();
@@ -125,7 +125,7 @@ impl WithSimd for Answer<'_> {
     }
 }
 
-/// Takes the response to the tractions' force out of Δu and u₁.
+/// Subtracts the response to the tractions' force from Δu and u₁.
 #[inline(always)]
 fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();
@@ -137,7 +137,7 @@ fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64])
     }
 }
 
-/// Total increment, and velocity and acceleration at the end, as `Increment::follow` has them.
+/// Total increment, and velocity and acceleration at the end, as `Increment::follow` computes them.
 #[inline(always)]
 fn follow(
     scheme: &SchemeCoefficients,

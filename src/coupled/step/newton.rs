@@ -11,21 +11,21 @@ use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
 use crate::structure::Tangent;
 
-/// Iterations of a step.
+/// Largest number of iterations of a step.
 const ITERATIONS: usize = 40;
 /// Out-of-balance force at which the iteration ends, relative to the largest force.
 const TOLERANCE: f64 = 1e-12;
 /// Out-of-balance force that is accepted if the iteration stagnates.
 const ENOUGH: f64 = 1e3 * TOLERANCE;
-/// Rounding errors of a displacement, in units of its last digit, that a force may come from.
+/// Rounding errors of a displacement, in units of its last digit, that may cause a force.
 const ROUNDINGS: f64 = 32.0;
-/// Iterations without a smaller out-of-balance force, after which it counts as cycling.
+/// Number of iterations without a smaller out-of-balance force that counts as a cycle.
 const CYCLE: usize = 15;
 
-/// Iterations of a stage of the continuation, and of all its stages.
+/// Largest number of iterations of a stage of the continuation, and of all its stages.
 const STAGE_ITERATIONS: usize = 8;
 const MOST_ITERATIONS: usize = 2000;
-/// Shortest stage, as a fraction of the out-of-balance force that it began with.
+/// Shortest stage, as a fraction of the initial out-of-balance force.
 const SHORTEST_STAGE: f64 = 1e-6;
 
 /// Scratch of the iteration.
@@ -34,15 +34,15 @@ pub(crate) struct Newton {
     /// The iterate, and the force linearised about it.
     guess: Vec<f64>,
     linearised: Vec<f64>,
-    /// Displacement at u* that the force sees.
+    /// Displacement at u* that the force receives.
     seen: Vec<f64>,
-    /// Increment that the last stage of the continuation ended with.
+    /// Increment at the end of the last stage of the continuation.
     reached: Vec<f64>,
-    /// Out-of-balance force that the continuation began with.
+    /// Out-of-balance force at the start of the continuation.
     open: Vec<f64>,
     /// Largest force of the last iteration.
     scale: f64,
-    /// Iterations, contact trials and most laborious method so far.
+    /// Number of iterations and contact trials, and the slowest method used so far.
     iterations: usize,
     trials: usize,
     method: SearchMethod,
@@ -65,7 +65,7 @@ impl Newton {
         }
     }
 
-    /// Finds the increment from the right-hand side in `linear`.
+    /// Computes the increment from the right-hand side in `linear`.
     pub(crate) fn solve(
         &mut self,
         linear: &mut LinearStep,
@@ -74,7 +74,7 @@ impl Newton {
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
         (self.trials, self.method) = (0, SearchMethod::ActiveSet);
-        // The increment that the last velocity suggests, as far as it is not the ground's.
+        // The increment by the last velocity, without the ground's translation.
         let velocity = state.motion.velocity.iter();
         for ((guess, v), carried) in self.guess.iter_mut().zip(velocity).zip(&forcing.carried) {
             *guess = v * scene.time_step - carried;
@@ -84,7 +84,7 @@ impl Newton {
         self.iterations = 0;
         for iteration in 0..ITERATIONS {
             residual = self.iterate(linear, data, 0.0, increment)?;
-            // The first solve only predicts: its tangent may belong to the step before.
+            // The first solution only predicts: its tangent may belong to the previous step.
             if residual <= TOLERANCE && (iteration > 0 || residual == 0.0) {
                 break;
             }
@@ -107,22 +107,22 @@ impl Newton {
         Ok(())
     }
 
-    /// Relative out-of-balance force that rounding of displacements makes: once columns have yielded, a
-    /// building comes to rest at an offset, whose last digit times their stiffness is not small beside
-    /// forces that vanish.
+    /// Relative out-of-balance force due to rounding of displacements.
+    ///
+    /// Once columns have yielded, a building comes to rest at an offset. The last digit of the offset times the
+    /// stiffness is not small relative to forces that vanish.
     fn rounding(&self, linear: &LinearStep) -> f64 {
         let entries = linear.operators.tangent.entries();
         let forces = entries.map(|(_, j, stiffness)| stiffness * self.seen[j]);
         ROUNDINGS * f64::EPSILON * forces.fold(0.0_f64, |most, f| most.max(f.abs())) / self.scale
     }
 
-    /// Follows the solution from the last iterate, which solves the step with an external force
-    /// that takes up its out-of-balance force, while that force is removed in stages.
+    /// Follows the solution from the last iterate while its out-of-balance force is removed in stages.
     ///
-    /// Newton's method comes back to iterates it has left where a law sticks in between two that
-    /// slide: tangents of sliding leave out the force that sticking bears. A stage that is short
-    /// enough crosses one kink at most, and there the method ends. For monotone forces the path is
-    /// continuous and does not turn back.
+    /// The last iterate solves the step with an external force equal to its out-of-balance force. Newton's method
+    /// returns to earlier iterates if a law sticks between two states in which it slides: tangents of sliding omit
+    /// the force that sticking bears. A stage that is short enough crosses one kink at most, and there the method
+    /// converges. For monotone forces the path is continuous and does not turn back.
     fn continuation(
         &mut self,
         linear: &mut LinearStep,
@@ -162,9 +162,10 @@ impl Newton {
         Ok(())
     }
 
-    /// Solves the step with the force linearised about the guess, and with the fraction `left` of the
-    /// open force as an external one; the increment becomes the next guess. Returns the
-    /// out-of-balance force relative to the largest force.
+    /// Solves the step with the force linearised about the guess, and the fraction `left` of the open force.
+    ///
+    /// The open force acts as an external force. The increment becomes the next guess. Returns the out-of-balance
+    /// force relative to the largest force.
     fn iterate(
         &mut self,
         linear: &mut LinearStep,
@@ -215,7 +216,7 @@ impl Newton {
         Ok(if self.scale > 0.0 { open / self.scale } else { 0.0 })
     }
 
-    /// f at u* for the guess, less f at the static state.
+    /// f at u* for the guess, minus f at the static state.
     fn evaluate(
         &mut self,
         linear: &mut LinearStep,
@@ -245,9 +246,9 @@ impl Newton {
     }
 }
 
-// Solving a step: the increment of the structure's degrees of freedom and the contact tractions.
+// Solution of a step: the increment of the structure's degrees of freedom and the contact tractions.
 
-/// Change of a degree of freedom in a step beyond which a run counts as lost, whatever the units.
+/// Change of a degree of freedom in a step beyond which a run is lost, in any units.
 const RUNAWAY: f64 = 1e15;
 
 /// The linear step, and Newton's method around it for a nonlinear structure.
@@ -264,17 +265,17 @@ impl Solver {
         }
     }
 
-    /// The operators of the last solve.
+    /// The operators of the last solution.
     pub(crate) fn operators(&self) -> &Operators {
         &self.linear.operators
     }
 
-    /// Operators and contact problem, for the assessment of their condition.
+    /// Operators and contact problem, to estimate their condition.
     pub(crate) fn parts_mut(&mut self) -> (&mut Operators, &mut ContactSolver) {
         (&mut self.linear.operators, &mut self.linear.contact)
     }
 
-    /// Finds the increment of the step.
+    /// Computes the increment of the step.
     pub(crate) fn solve(
         &mut self,
         data: StepData<'_>,
@@ -292,7 +293,7 @@ impl Solver {
     }
 }
 
-/// Refuses an increment that is not finite or too large.
+/// Error for an increment that is not finite or too large.
 fn check(increment: &[f64]) -> Result<(), StepError> {
     // A sum of magnitudes is not finite if one of them is not.
     if magnitude(increment) <= RUNAWAY {
