@@ -156,8 +156,9 @@ pub trait Ground: Any + Send {
         None
     }
 
-    /// Bound on what is wrong with the change of any element's displacement over the next step,
-    /// m; zero (the default) for a ground whose response is exact.
+    /// Upper bound of the error of any element's displacement increment due to past tractions, m.
+    ///
+    /// Zero (the default) for a ground whose response is exact.
     fn increment_error_bound(&self) -> f64 {
         0.0
     }

@@ -14,12 +14,11 @@ const KEPT: usize = 8;
 
 /// Coefficients, and spectra made of them, that grounds of one soil, mesh and time step share.
 ///
-/// Grounds with clones of one and the same store ([`ElasticGround::with_shared_kernels`],
-/// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and hold
-/// them once. The store keeps those of the last eight different soils, meshes and steps. Results are the
-/// same to the last bit. What one soil is says [`WeightsSource::identity`]. Who asks for coefficients
-/// that another thread is computing waits for them. A source may take other coefficients from the
-/// same store while it makes its own.
+/// Grounds with clones of one store ([`ElasticGround::with_shared_kernels`],
+/// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and store them once. The
+/// store keeps the coefficients of the last eight different soils, meshes and steps. Results are the same to the last
+/// bit. [`WeightsSource::identity`] decides whether two soils are the same. A thread that needs weights another thread
+/// is computing waits for them. A source may take other coefficients from the same store while it computes its own.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};

@@ -1,4 +1,4 @@
-//! Cells under a mat, or several.
+//! Cells under one or several mats.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -10,10 +10,9 @@ use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
 use crate::structure::{FaceNode, Structure};
 
-/// Overhang of outer cells beyond the outline, of their side: piecewise constant tractions under a rigid base behave
-/// like a mat whose edge lies so far inside them.
+/// Overhang of outer cells beyond the outline, as a fraction of their side: see [`Plan`].
 const OVERHANG: f64 = 0.105;
-/// Part of the area that may be missing.
+/// Largest fraction of the area that the cells may lack.
 const MISSING: f64 = 0.1;
 /// Cells to which the number of cells under flexible faces is raised.
 const MOST_RAISED: f64 = 1000.0;
@@ -22,12 +21,11 @@ const CELL: f64 = 1000.0;
 /// Relative difference of sides that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Cells of one lattice under a rigid mat, or several.
+/// Cells of one lattice under one or several rigid mats.
 ///
 /// x points to the right, y away from the reader. Tractions are constant over each cell. Outer cells of a mat with
-/// straight edges reach 0.105 of their side beyond its outline: piecewise constant tractions under a rigid base act
-/// like a mat whose edge lies so far inside. That takes away nine tenths of the error or more, which is of first order
-/// in the size of the cells.
+/// straight edges extend 0.105 of their side beyond its outline: piecewise constant tractions under a rigid base act
+/// like a mat whose edge lies this far inside. This removes at least 0.9 of the error, of first order in the cells.
 ///
 /// ```
 /// use basemat::bem::plan::Plan;
@@ -41,14 +39,14 @@ pub struct Plan {
     pub(super) lattice: Lattice,
     /// Column and row of each cell, mat by mat and row by row.
     pub(super) cells: Vec<[usize; 2]>,
-    /// Least x and y of the lattice, m.
+    /// Smallest x and y of the lattice, m.
     corner: [f64; 2],
     overhang: f64,
     /// Area of the outline, m².
     area: f64,
-    /// Faces of the outline, and cells along its shorter side; none of discs and masks.
+    /// Faces of the outline, and number of cells along its shorter side; empty for discs and masks.
     faces: (Vec<Face>, usize),
-    /// Contact element of each cell, unless each is one.
+    /// Contact element of each cell; `None` if each cell is one.
     owners: Option<Vec<usize>>,
 }
 
@@ -64,10 +62,11 @@ impl Plan {
         Self::on_faces(&[corners.to_vec()], cells)
     }
 
-    /// Cells under some faces: convex polygons, each by its corners (m) in either order, with `cells` along the shorter
-    /// side of all. Faces that share a corner, or have one on the other's edge, are of one mat; between mats there is
-    /// at least one empty cell. Edges inside the bounding rectangle, such as those of an L, go to the nearest line
-    /// between cells: see [`Plan::area_error`].
+    /// Cells under some faces, with `cells` along the shorter side of all.
+    ///
+    /// Faces are convex polygons, each given by its corners (m) in either order. Faces that share a corner, or have
+    /// one on the other's edge, form one mat; between mats there is at least one empty cell. Edges inside the bounding
+    /// rectangle, such as in an L, move to the nearest line between cells: see [`Plan::area_error`].
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
@@ -79,11 +78,10 @@ impl Plan {
         Self::covering(faces?, cells, OVERHANG)
     }
 
-    /// A disc, as those of `cells` × `cells` whose centres lie on it, with sides for the same area.
+    /// A disc of the cells of a `cells` × `cells` square whose centres lie on it, scaled to the same area.
     ///
     /// # Errors
-    /// [`Error::Input`] for less than two cells, or a centre or radius that is not finite and positive;
-    /// [`Error::Memory`].
+    /// [`Error::Input`] for less than two cells, or a centre or radius not finite and positive; [`Error::Memory`].
     pub fn disc(center: [f64; 2], radius: f64, cells: usize) -> Result<Self> {
         finite("x of the centre of a disc", center[0])?;
         finite("y of the centre of a disc", center[1])?;
@@ -100,12 +98,13 @@ impl Plan {
         Self::masked(center.map(|x| x - middle * side), [side; 2], cells, &mask)
     }
 
-    /// Cells of sides `pitch` (m) where `mask` is true: row by row of `columns`, from `corner` (m) to the right, then
-    /// away. Nothing reaches beyond an outline: the cells are all there is.
+    /// Cells with sides `pitch` (m) where `mask` is true.
+    ///
+    /// Row by row of `columns`, from `corner` (m) to the right, then away. Nothing extends beyond the cells.
     ///
     /// # Errors
     /// [`Error::Input`] for a corner that is not finite or sides that are not positive; [`Error::Size`] for a mask
-    /// that is no whole number of rows; [`Error::Memory`]; [`PlanError::NoCells`].
+    /// that does not consist of whole rows; [`Error::Memory`]; [`PlanError::NoCells`].
     pub fn masked(
         corner: [f64; 2],
         pitch: [f64; 2],
@@ -144,10 +143,10 @@ impl Plan {
         })
     }
 
-    /// Unites the cells to contact elements that are rectangles of cells: `along` are the numbers of columns, `across`
-    /// those of rows, which sum up to all of them. The ground stays that of the cells. Sixteen cells by
-    /// 1, 2, 2, 3, 3, 2, 2, 1 along each axis are as good for a rigid mat as all of them, with a quarter of the
-    /// elements.
+    /// Unites cells to contact elements that are rectangles of cells.
+    ///
+    /// `along`: numbers of columns, `across`: numbers of rows, of all. The ground still computes all cells. For a rigid
+    /// mat, sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are as accurate as all, with a quarter of the elements.
     ///
     /// ```
     /// use basemat::bem::plan::Plan;
@@ -159,17 +158,18 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Size`] for numbers that do not sum up to the columns or rows; [`Error::Input`] for a rectangle that is
-    /// not all on the mat, and for outermost elements wider than a cell: the edge would be that of an element.
+    /// not wholly on the mat, and for outermost elements wider than a cell: the mat's edge would be theirs.
     pub fn with_unions(self, along: &[usize], across: &[usize]) -> Result<Self> {
         let owners = Some(Unions::owners(self.lattice.counts, &self.cells, [along, across])?);
         Ok(Self { owners, ..self })
     }
 
-    /// Cuts the cells of the edge off at the outline. For given pressures, and on springs, that is exact; of the
-    /// response of a rigid mat on soil it leaves an error of first order. Discs and masks are as they were.
+    /// Cuts the cells of the edge off at the outline.
+    ///
+    /// Exact for given pressures and on springs; for a rigid mat on soil an error of first order. No effect on discs.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a plan with unions, whose cells would be others; as for [`Plan::on_faces`].
+    /// [`Error::Scene`] for a plan with unions, whose cells would change; as for [`Plan::on_faces`].
     pub fn without_overhang(self) -> Result<Self> {
         if self.overhang == 0.0 {
             return Ok(self);
@@ -184,11 +184,11 @@ impl Plan {
         Self::covering(faces, cells, 0.0)
     }
 
-    /// Cells under the faces of a structure, with `cells` along the shorter side of them all: [`Plan::on_faces`]. Under
-    /// flexible faces there are at least as many cells as faces, of which two triangles count as one, as between cells
-    /// nothing but the structure holds its nodes. Beyond 1000 cells in all the number is not raised: a base that needs
-    /// more is an error or a warning of the build
-    /// ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
+    /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
+    ///
+    /// Under flexible faces there are at least as many cells as faces (two triangles count as one), since between cells
+    /// only the structure holds its nodes. This raises the number to 1000 cells at most: a base that needs more causes
+    /// an error or a warning of the build ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
     /// As for [`Plan::on_faces`].
@@ -221,7 +221,7 @@ impl Plan {
         Self::covering(faces, most, OVERHANG)
     }
 
-    /// Cells under the faces of a structure; none without faces.
+    /// Cells under the faces of a structure; `None` without faces.
     pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
         let is_in_plan = !structure.contact_faces().is_empty();
         is_in_plan.then(|| Self::under(structure, cells)).transpose()
@@ -275,14 +275,13 @@ impl Plan {
         self.lattice.pitch
     }
 
-    /// Middle of the bounding rectangle, m: what resultants and rotations refer to.
+    /// Middle of the bounding rectangle, m: reference point of resultants and rotations.
     pub fn middle(&self) -> [f64; 2] {
         let sides = self.lattice.sides();
         [0, 1].map(|axis| self.corner[axis] + 0.5 * sides[axis])
     }
 
-    /// Area of the cells inside the outline less that of the faces, relative to it: what inner edges lose or gain on
-    /// their way to the nearest line between cells.
+    /// Relative error of the area inside the outline, caused by inner edges that move to a line between cells.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
     }
@@ -306,7 +305,7 @@ impl Plan {
         Self { lattice, cells, overhang: 0.0, faces: (vec![], 0), owners, ..self.clone() }
     }
 
-    /// Contact elements of several cells, if there are any.
+    /// Contact elements of several cells; `None` if each cell is one.
     pub(in crate::bem) fn unions(&self) -> Option<Unions> {
         self.owners.as_deref().map(Unions::new)
     }
@@ -321,7 +320,7 @@ impl Plan {
         let mut depths: Vec<[f64; 2]> = vec![];
         for (number, cell) in self.cells.iter().enumerate() {
             let ([left, right], depth) = (ends(0, cell), ends(1, cell));
-            // Cells of a mat come row by row, and the first of an element before its others.
+            // Cells of a mat come row by row, and the first cell of an element before its others.
             let owner = self.owner(number);
             if let Some((element, [_, back])) = elements.get_mut(owner).zip(depths.get_mut(owner)) {
                 (element.right, *back) = (element.right.max(right), back.max(depth[1]));
@@ -333,7 +332,7 @@ impl Plan {
         (elements, depths)
     }
 
-    /// Part of the area of each contact element that is inside the outline.
+    /// Fraction of the area of each contact element that is inside the outline.
     pub(in crate::bem) fn fractions_inside(&self) -> Vec<f64> {
         let [a, b] = self.lattice.pitch;
         let mut sums: Vec<[f64; 2]> = vec![];
@@ -346,7 +345,7 @@ impl Plan {
         sums.into_iter().map(|[inside, all]| inside / all).collect()
     }
 
-    /// Numbers that say which cells of which lattice they are.
+    /// Numbers that identify the lattice and its cells.
     pub(in crate::bem) fn identity(&self) -> impl Iterator<Item = f64> {
         let Lattice { pitch, counts } = &self.lattice;
         let cells = self.cells.iter().flatten();
@@ -393,7 +392,7 @@ fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
     check_memory(counts)
 }
 
-/// Error for so many cells that what is kept of each would not fit into memory.
+/// Error for so many cells that their data would not fit into memory.
 fn check_memory(counts: [usize; 2]) -> Result<()> {
     let count = counts[0] as f64 * counts[1] as f64;
     Ok(memory::check("cells of a mat", count, CELL * count)?)

@@ -1,11 +1,11 @@
-//! Faces: convex polygons that a mat consists of, and the mats of their cells.
+//! Faces: convex polygons that form a mat, and the mats of their cells.
 
 use std::collections::HashMap;
 
 use crate::error::{PlanError, Result};
 use crate::linalg::Partition;
 
-/// Distance that counts as touching, of a face's own size.
+/// Distance that counts as touching, relative to the size of a face.
 const TOUCHING: f64 = 1e-9;
 
 /// A convex polygon, counter-clockwise seen from above.
@@ -16,7 +16,7 @@ pub(crate) struct Face {
     near: f64,
 }
 
-/// Twice the area to the left of the line from a to b that p spans with it.
+/// Twice the area of the triangle a, b, p; positive if p is to the left of the line from a to b.
 pub(crate) fn side([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
@@ -48,7 +48,7 @@ impl Face {
         if area.is_nan() || area <= face.near * size {
             return fault("has no area");
         }
-        // Round once, and never to the right.
+        // One turn in all, and never to the right.
         let convex = face.corners.iter().all(|p| face.contains(*p));
         if convex { Ok(face) } else { fault("is not convex, or crosses itself") }
     }
@@ -72,13 +72,13 @@ impl Face {
         })
     }
 
-    /// Whether a corner of one lies on the other.
+    /// Whether a corner of one face lies on the other.
     fn touches(&self, other: &Self) -> bool {
         let meets = |one: &Self, two: &Self| one.corners.iter().any(|p| two.contains(*p));
         meets(self, other) || meets(other, self)
     }
 
-    /// Least and greatest coordinates of all `faces`.
+    /// Smallest and largest coordinates of all `faces`.
     pub(super) fn bounds(faces: &[Self]) -> [[f64; 2]; 2] {
         let corners = || faces.iter().flat_map(|face| &face.corners);
         [0, 1].map(|axis| {
@@ -88,7 +88,7 @@ impl Face {
         })
     }
 
-    /// Number of the mat that each face belongs to: faces that touch are of one mat.
+    /// Number of the mat of each face: faces that touch form one mat.
     pub(crate) fn mats(faces: &[Self]) -> Vec<usize> {
         let mut joined = Partition::new(faces.len());
         for (place, face) in faces.iter().enumerate() {
@@ -108,7 +108,7 @@ impl Face {
 
 // Cells of mats.
 
-/// Mat of each cell: one that comes within the overhang of the cell's centre.
+/// Mat of each cell whose centre is within the overhang of a mat.
 pub(super) fn owners(
     faces: &[Face],
     mats: &[usize],
@@ -157,8 +157,10 @@ pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -
     Ok(())
 }
 
-/// The cells of each mat after those of the one before: mats in the order of their first cells, and the cells of each
-/// in the order in which they come. Cells that touch, corners too, are of one mat.
+/// Sorts cells by mats.
+///
+/// Mats come in the order of their first cells, and the cells of each in the given order. Cells that touch, also
+/// at corners, belong to one mat.
 pub(super) fn mat_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let places: HashMap<_, _> = cells.iter().enumerate().map(|(k, cell)| (*cell, k)).collect();
     let mut mats = Partition::new(cells.len());
@@ -189,7 +191,7 @@ mod tests {
         let sorted = mat_by_mat(&cells);
         let expected = [[0, 0], [1, 0], [0, 1], [1, 1], [3, 0], [3, 1], [1, 3], [2, 3]];
         assert_eq!(sorted, expected);
-        // A ring and cells that share corners are one.
+        // A ring and cells that share corners are one mat.
         for text in ["####.##.", "#..##..#"] {
             let on = |place: usize| text.as_bytes()[place] == b'#';
             let cells: Vec<_> = (0..8).filter(|k| on(*k)).map(|k| [k % 3, k / 3]).collect();

@@ -1,13 +1,13 @@
 //! Form factors of a lattice on panels of wavenumbers, and their integrals beyond the last.
 //!
-//! Panels are so narrow that forms turn by at most 16 radians, which 16 Gauss points resolve. They are tabulated up
-//! to the largest K that is needed. Beyond K the surface sees the top layer alone, whose compliance is a power series
-//! in q₂/k², so that all integrals there come from
+//! Panels are so narrow that forms turn by at most 16 radians, which 16 Gauss points resolve. They are tabulated
+//! up to the largest K in use. Beyond K only the top layer contributes to the surface compliance, a power series in
+//! q₂/k². All integrals there follow from
 //!
-//! `T_j`(K) = ∫_K^∞ k^(−2j) g dk,
+//! `T_j`(K) = ∫_K^∞ k^(−2j) g dk.
 //!
-//! sums over the same points that fade out towards K*, and for the rest, which is known in all as ∫₀^∞ g dk has a closed
-//! form, g as what it is in the mean there, a power k⁻³.
+//! These are sums over the same points with a factor that fades out towards K*. The rest is known: ∫₀^∞ g dk has a
+//! closed form, and beyond K* g is replaced by its mean, a power k⁻³.
 
 use std::sync::OnceLock;
 
@@ -18,19 +18,19 @@ use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
 
-/// Terms of the series beyond K, the static one with them.
+/// Terms of the series beyond K, including the static one.
 pub(super) const TERMS: usize = 7;
 /// Angle by which forms turn over a panel.
 const TURN: f64 = 16.0;
-/// Least K × shorter side of a cell: static forms beyond it are small enough.
+/// Smallest K × shorter side of a cell: static forms beyond it are small enough.
 const SHORT: f64 = 8.0;
 /// K* × shorter side, where |√q₂| is 2/side.
 const END: f64 = 64.0;
-/// K* over |√q₂| at least.
+/// Smallest ratio of K* to |√q₂|.
 const SPREAD: f64 = 16.0;
-/// Most operations that a table may take: a minute or two.
+/// Largest number of operations for a table: a minute or two.
 const MOST: f64 = 3e11;
-/// Points that Legendre coefficients are made of.
+/// Number of points for Legendre coefficients.
 const FINE: usize = DEGREES + 8;
 
 /// Rows of forms: form by form, row by row, all classes.
@@ -71,7 +71,7 @@ impl Rows {
     }
 }
 
-/// Forms and their tails.
+/// Forms and their integrals beyond K.
 #[derive(Debug)]
 struct Tabulated {
     /// Forms at the Gauss points, panel by panel.
@@ -80,7 +80,7 @@ struct Tabulated {
     tails: Vec<(usize, Rows)>,
 }
 
-/// Forms of a lattice, tabulated.
+/// Tabulated forms of a lattice.
 #[derive(Debug)]
 pub(super) struct FormTable {
     lattice: Lattice,
@@ -93,14 +93,14 @@ pub(super) struct FormTable {
     tabulated: OnceLock<Tabulated>,
     /// Legendre coefficients of a panel.
     legendre: Vec<OnceLock<Rows>>,
-    /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
+    /// Smallest K at which the bottom of the top layer does not affect the surface, 1/m.
     deep: f64,
     /// Number of panels up to K*.
     pub(super) end: usize,
 }
 
 impl FormTable {
-    /// Table for `lattice`, still empty, for Laplace variables with |√q₂| up to `root` and K from `deep` on (1/m).
+    /// Empty table for `lattice`, for Laplace variables with |√q₂| up to `root` and K from `deep` on (1/m).
     ///
     /// # Errors
     /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
@@ -121,7 +121,7 @@ impl FormTable {
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
         let reach = (SHORT / side).max(deep).max(REACH * root);
-        // Beyond K* an error q₂ K*⁻⁵ or so is left.
+        // Beyond K* an error of about q₂ K*⁻⁵ is left.
         let end = END / side * (0.5 * root * side).min(1.0).powf(0.4);
         let end = end.max(SPREAD * root).max(1.2 * reach);
         let turn = end * lattice.diagonal();
@@ -153,24 +153,24 @@ impl FormTable {
         self.lattice.diagonal()
     }
 
-    /// Directions of all means that it takes.
+    /// Number of directions of all means.
     pub(super) fn directions(&self) -> usize {
         let means = AngularMeans::new(&self.lattice);
         let middles = (0..self.end).map(|panel| self.width * (panel as f64 + 0.5));
         middles.map(|k| POINTS * means.directions(k)).sum()
     }
 
-    /// Offsets of two cells.
+    /// Number of offsets between two cells.
     pub(super) fn offsets(&self) -> usize {
         self.lattice.extent().into_iter().product()
     }
 
-    /// Panels up to the largest K.
+    /// Number of panels up to the largest K.
     pub(super) fn most_panels(&self) -> usize {
         self.legendre.len()
     }
 
-    /// Bytes of what is tabulated.
+    /// Memory of the tabulated forms, bytes.
     pub(super) fn memory(&self) -> f64 {
         8.0 * (FORMS * POINTS * self.classes * self.most_panels()) as f64
     }
@@ -180,7 +180,7 @@ impl FormTable {
         1.0 / self.lattice.finest()
     }
 
-    /// Forms at all points, from the last panel to the first; on the way the sums beyond each K.
+    /// Computes forms at all points, from the last panel to the first, and the sums beyond each K.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
@@ -194,7 +194,7 @@ impl FormTable {
             Tabulated { values: Rows::new(kept.end() * POINTS, classes), tails: vec![] };
         let mut means = AngularMeans::new(&self.lattice);
         let mut sums = Rows::new(TERMS, classes);
-        // Sums fade out towards K*: an end would see the waves that forms are. What has faded is like k⁻³.
+        // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
         let [last, star] =
             [(*kept.end()).max(end / 2), end].map(|panels| self.width * panels as f64);
         let mut power = 1.0;
@@ -224,7 +224,7 @@ impl FormTable {
                 tabulated.tails.push((panel, Rows { forms, classes }));
             }
         }
-        // What is left of all is known.
+        // The rest is the known total minus the sum.
         for (class, offset) in list.iter().enumerate() {
             let totals = integrals(self.lattice.pitch, *offset);
             for (form, total) in totals.into_iter().enumerate() {
@@ -238,12 +238,12 @@ impl FormTable {
                 }
             }
         }
-        // Another thread may have been first, with the same.
+        // Another thread may have been first, with the same result.
         let _ = self.tabulated.set(tabulated);
         Ok(())
     }
 
-    /// Forms at all points, and integrals beyond the last of `panels`; `None` if they are not tabulated.
+    /// Forms at all points, and integrals beyond the last of `panels`; `None` before [`FormTable::tabulate`].
     pub(super) fn tabulated(&self, panels: usize) -> Option<[&Rows; 2]> {
         let Tabulated { values, tails } = self.tabulated.get()?;
         let (_, tail) = tails.iter().find(|(count, _)| *count == panels)?;

@@ -6,12 +6,12 @@
 //! g₀ = ⟨S c c′⟩,   `g_cc` = ⟨cos²θ S c c′⟩,   `g_ss` = g₀ − `g_cc`,   `g_cs` = −⟨cos θ sin θ S s s′⟩,
 //! `g_c` = ⟨cos θ S s c′⟩,   `g_s` = ⟨sin θ S c s′⟩
 //!
-//! They depend on the lattice alone. The integrands are entire and periodic, so that the midpoint rule converges as
+//! They depend on the lattice alone. The integrands are entire and periodic, so the midpoint rule converges as
 //! soon as it has as many points as they turn, and a few more for the transition of Bessel functions, kD^⅓ wide.
 //!
-//! Their integrals over k are those of static kernels over two cells, in closed form: second differences in x and in y
-//! (steps of the pitch, weights 1, −2, 1) of functions whose fourth derivative ∂⁴/∂x²∂y² is the kernel, (x, y) from one
-//! cell to the other.
+//! Their integrals over k are integrals of static kernels over two cells, in closed form. They are second
+//! differences in x and in y (steps of the pitch, weights 1, −2, 1) of functions whose fourth derivative ∂⁴/∂x²∂y²
+//! is the kernel, with (x, y) from one cell to the other.
 
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
@@ -47,7 +47,7 @@ impl AngularMeans {
         Self { pitch, diagonal, extent, classes, left, right, sums, values }
     }
 
-    /// Directions in a quarter that resolve the means at the wavenumber `k`.
+    /// Number of directions in a quarter that resolve the means at the wavenumber `k`.
     pub(super) fn directions(&self, k: f64) -> usize {
         let turn = k * self.diagonal;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
@@ -124,10 +124,12 @@ fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
 
-// Their integrals over all wavenumbers.
+// Integrals of the forms over all wavenumbers.
 
-/// Integrals over two cells of `pitch`, `offset` cells apart: of 1/r, y²/r³, x²/r³, −xy/r³ (m³) and of
-/// x/r², y/r² (m³): those of the forms g₀, `g_cc`, `g_ss`, `g_cs`, `g_c`, `g_s` over k.
+/// Integrals over two cells of `pitch`, `offset` cells apart, of six static kernels.
+///
+/// 1/r, y²/r³, x²/r³, −xy/r³ and x/r², y/r² (m³ each); they equal the integrals of the forms g₀, `g_cc`, `g_ss`,
+/// `g_cs`, `g_c`, `g_s` over k.
 pub(super) fn integrals(pitch: [f64; 2], offset: [usize; 2]) -> [f64; FORMS] {
     let mut sums = [0.0; FORMS];
     let steps = [(-1.0, 1.0), (0.0, -2.0), (1.0, 1.0)];
@@ -141,7 +143,7 @@ pub(super) fn integrals(pitch: [f64; 2], offset: [usize; 2]) -> [f64; FORMS] {
         }
     }
     let [i, j] = offset.map(|n| if n == 0 { 0.0 } else { 1.0 });
-    // Odd ones vanish exactly.
+    // Odd integrals vanish exactly.
     let odd = [1.0, 1.0, 1.0, i * j, i, j];
     std::array::from_fn(|form| odd[form] * sums[form])
 }
@@ -149,7 +151,7 @@ pub(super) fn integrals(pitch: [f64; 2], offset: [usize; 2]) -> [f64; FORMS] {
 fn primitives(x: f64, y: f64) -> [f64; FORMS] {
     let r = x.hypot(y);
     let cube = r * r * r;
-    // asinh and atan of quotients with a vanishing denominator stand beside a factor that is zero.
+    // asinh and atan of quotients with a vanishing denominator have a factor of zero.
     let ratio = |a: f64, b: f64| if b == 0.0 { 0.0 } else { a / b };
     let (along, across) = (ratio(x, y.abs()).asinh(), ratio(y, x.abs()).asinh());
     let (one, two) = (0.5 * x * x * y * across, 0.5 * y * y * x * along);
@@ -208,8 +210,8 @@ mod tests {
         }
     }
 
-    /// Closed forms agree with integrals by Gauss points over the distance, the two cells' overlap as weight: for cells
-    /// apart.
+    /// Closed forms agree with integrals by Gauss points over the distance, weighted by the two cells' overlap:
+    /// for cells apart.
     #[test]
     fn closed_forms_are_the_integrals() {
         let rule = gauss::largest();
@@ -248,7 +250,8 @@ mod tests {
         }
     }
 
-    /// Cells of a larger one sum up to it; 1/r = x²/r³ + y²/r³; a unit square on itself by the text books' form.
+    /// The cells of a larger cell sum up to it; 1/r = x²/r³ + y²/r³; a unit square on itself has the textbooks'
+    /// value.
     #[test]
     fn own_cells_are_sums_of_parts() {
         let (pitch, half) = ([0.7, 0.4], [0.35, 0.2]);

@@ -1,7 +1,7 @@
 //! Dynamic stiffness of rigid mats in plan.
 //!
-//! Without damping poles lie on the path of the integrals at s = iω. The stiffness is analytic there all the same, so
-//! it is evaluated at iω + η, 2η, … 8η and extrapolated.
+//! Without damping, poles lie on the path of the integrals at s = iω. The stiffness is still analytic there, so it
+//! is evaluated at iω + η, 2η, … 8η and extrapolated.
 
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
@@ -14,8 +14,8 @@ use crate::soil::SoilProfile;
 
 /// Dynamic stiffness of a rigid, massless mat for motions e^(iωt).
 ///
-/// x to the right, y away from the reader, z up, rotations right-handed; forces and moments act on the soil.
-/// Reference point is [`Plan::middle`]. Several mats of one plan move together.
+/// x to the right, y away from the reader, z up, rotations right-handed; forces and moments act on the soil. The
+/// reference point is [`Plan::middle`]. Several mats of one plan move together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -23,9 +23,10 @@ use crate::soil::SoilProfile;
 pub struct PlanImpedance {
     /// Frequency, Hz.
     pub frequency: f64,
-    /// Forces along x, y, z and moments about these axes (rows) by translations and rotations in the same order
-    /// (columns), N/m, N and N m: symmetric. The real part is stiffness (and soil that moves along), the imaginary
-    /// part damping, by radiation and in the soil.
+    /// Forces and moments (rows) due to translations and rotations (columns), N/m, N and N m.
+    ///
+    /// Along x, y, z and about these axes; symmetric. The real part is stiffness (minus the inertia of the soil
+    /// that moves along), the imaginary part damping by radiation and in the soil.
     pub matrix: [[Complex; MOTIONS]; MOTIONS],
 }
 
@@ -35,24 +36,24 @@ impl PlanImpedance {
         self.matrix.map(|row| row.map(|k| k.re))
     }
 
-    /// Dashpots Im K/ω beside these springs, N s/m and so on; at frequency zero they are not defined (NaN).
+    /// Dashpots Im K/ω parallel to these springs, N s/m and so on; NaN at frequency zero.
     pub fn dashpots(&self) -> [[f64; MOTIONS]; MOTIONS] {
         self.matrix.map(|row| row.map(|k| k.im / (std::f64::consts::TAU * self.frequency)))
     }
 }
 
-/// Accuracy of the cells' compliances; cells themselves leave far more.
+/// Tolerance of the cells' compliances; the error of the cells themselves is far larger.
 const TOLERANCE: f64 = 1e-9;
-/// Cells in a wavelength at least.
+/// Smallest number of cells in a wavelength.
 const RESOLVED: f64 = 6.0;
-/// Entries of a matrix.
+/// Number of entries of a matrix.
 const ENTRIES: usize = MOTIONS * MOTIONS;
 
 /// Dynamic stiffness of the rigid mats of `plan` on `profile` at each of `frequencies` (Hz).
 ///
-/// Frequency 0 is the static stiffness. Layers may have any damping, hysteretic too; without any they take eight times
-/// as long. Relaxed contact has vertical motions and rocking without shear, horizontal ones and torsion without
-/// pressure. Tractions are constant over the contact elements, whether cells or unions of them.
+/// Frequency 0 is the static stiffness. Layers may have any damping, also hysteretic; without damping they take
+/// eight times as long. Relaxed contact has vertical motions and rocking without shear, and horizontal motions and
+/// torsion without pressure. Tractions are constant over the contact elements, either cells or unions of them.
 ///
 /// ```
 /// use basemat::bem::layered::StripContact;
@@ -68,8 +69,9 @@ const ENTRIES: usize = MOTIONS * MOTIONS;
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
-/// for less than six cells in a shear wave of the top layer; [`LayeredError::Unresolved`](crate::error::LayeredError::Unresolved) without damping at a
-/// frequency at which guided waves begin; [`PlanError::TooFine`] for a top layer too thin beside the mat;
+/// for less than six cells in a shear wave of the top layer;
+/// [`LayeredError::Unresolved`](crate::error::LayeredError::Unresolved) without damping at a frequency at which guided
+/// waves begin; [`PlanError::TooFine`] for a top layer too thin relative to the mat;
 /// [`Error::Memory`](crate::Error::Memory).
 pub fn impedances_in_plan(
     profile: &SoilProfile,

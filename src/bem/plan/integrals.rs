@@ -10,10 +10,10 @@
 //! | `F_xy` | ∫ (`C_rr` − `C_tt`) `g_cs` k dk |
 //! | `F_zx`, `F_zy` | −∫ `C_zr` `g_c` k dk, −∫ `C_zr` `g_s` k dk (down due to shear) |
 //!
-//! What the half-space of the top layer has at rest goes into closed forms, so that k times the rest is integrated up
-//! to K, where its series takes over. Panels are halved until that rest is a polynomial; what halves find reaches the
-//! cells through Legendre moments over the whole panel, so that only C is evaluated more often. No pole lies on the
-//! axis for Re s > 0, and none of this needs a regularisation at k = 0.
+//! The static part of the top layer's half-space is integrated in closed form. k times the rest is integrated up
+//! to K, beyond which its series is used. Panels are halved until the rest is a polynomial. The values on halves
+//! reach the cells through Legendre moments over the whole panel, so that only C is evaluated more often. For Re s
+//! > 0 no pole lies on the axis, and k = 0 needs no regularisation.
 
 use super::form_table::{FormTable, Rows, TERMS};
 use super::forms::FORMS;
@@ -28,11 +28,12 @@ use crate::soil::SoilProfile;
 
 /// Kernels: zz, rr, tt and zr.
 const KERNELS: usize = 4;
-/// C − C at rest, times k; or its moments.
+/// C minus its static value, times k; or moments of it.
 type Kernel = [Complex; KERNELS];
 
-/// Per form: the first of the sums it goes into (real and imaginary parts of zz, xx, yy, xy, zx, zy), and the share of
-/// each kernel there.
+/// For each form: the first sum that it contributes to, and the factor of each kernel there.
+///
+/// Sums: real and imaginary parts of zz, xx, yy, xy, zx, zy.
 const SHARES: [(usize, &[[f64; KERNELS]]); FORMS] = [
     (0, &[[1.0, 0.0, 0.0, 0.0]]),
     (2, &[[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]),
@@ -101,8 +102,8 @@ fn series(a2: f64) -> [[f64; KERNELS]; TERMS] {
 impl Compliances<SERIES> for Integrals {
     type Workspace = Workspace;
 
-    /// Measured: 0.4 to 4.8 (8 × 8 cells, half-space and damped layer, two steps, tolerances 1e-13 to 1e-10, to 32 768
-    /// lags).
+    /// Measured: 0.4 to 4.8 (8 × 8 cells, half-space and damped layer, two steps, tolerances 1e-13 to 1e-10, up to
+    /// 32 768 lags).
     const LATE_ERROR: f64 = 5.0;
 
     fn make_ready(&self, watch: &mut Watch) -> Result<()> {
@@ -144,7 +145,7 @@ impl Compliances<SERIES> for Integrals {
 }
 
 impl Integrals {
-    /// Panels of an integral, those of them that are halved, and evaluations of C.
+    /// Number of panels of an integral, of halved panels, and of evaluations of C.
     pub(super) fn counts(
         &self,
         profile: &SoilProfile,
@@ -165,7 +166,8 @@ impl Integrals {
         Ok([panels, halved, work.evaluations - before])
     }
 
-    /// Integrals that serve `profile` at all Laplace variables of `list`, relative to a cell's own compliance.
+    /// Integrals for `profile` at all Laplace variables of `list`; `tolerance` relative to a cell's own
+    /// compliance.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped); as for [`Integrals::sketch`].
@@ -181,7 +183,7 @@ impl Integrals {
         Ok(integrals)
     }
 
-    /// Integrals without their forms, until [`Compliances::make_ready`] tabulates them.
+    /// Integrals without tabulated forms; [`Compliances::make_ready`] tabulates them.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
@@ -229,8 +231,9 @@ impl Integrals {
         .map_err(|wavenumber| unresolved(s, wavenumber))
     }
 
-    /// Calls `take` with kernels at the points of all panels up to K, and with moments of each that is halved; the
-    /// wavenumber where halving stopped if it did.
+    /// Calls `take` with kernels at the points of all panels up to K, and with moments of each halved panel.
+    ///
+    /// Returns as an error the wavenumber at which halving stopped without success.
     fn resolve(
         &self,
         panels: usize,
@@ -273,7 +276,7 @@ impl Integrals {
         Ok(())
     }
 
-    /// Ratio of the forms' weight at a wavenumber to that at zero.
+    /// Ratio of the forms' weight at a wavenumber to their weight at zero.
     fn share(&self, k: f64) -> f64 {
         (2.0 / (k * self.finest)).powi(2).min(1.0)
     }
@@ -300,7 +303,7 @@ impl Integrals {
         error * width * self.share(left) <= allowed || error <= FLOOR * largest.sqrt()
     }
 
-    /// Moments ∫ C Pₙ dk over one panel, by halves, into `work.kernels`.
+    /// Moments ∫ C Pₙ dk over one panel, by halves; written to `work.kernels`.
     fn halved(
         &self,
         panel: usize,

@@ -16,14 +16,14 @@ use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Cells that pass the gate all together; of more, so many at random.
+/// Up to 512 cells the passivity check tests all of them; above, a random 256.
 const ALL_CELLS: usize = 512;
 const SOME_CELLS: usize = 256;
-/// Points of the unit circle on which the largest Laplace variable is looked for, and what it may miss.
+/// Points of the unit circle for the largest Laplace variable, and a factor for a maximum between them.
 const REACH_POINTS: usize = 256;
 const REACH_MARGIN: f64 = 1.02;
 
-/// Cells of a plan that pass the gate, and all, if these are too many.
+/// Number of cells that the passivity check samples, and of all cells; `None` if it checks all.
 pub(in crate::bem) fn gate_sample(plan: &Plan) -> Option<[usize; 2]> {
     (plan.count() > ALL_CELLS).then_some([SOME_CELLS, plan.count()])
 }
@@ -45,12 +45,14 @@ pub(in crate::bem) fn static_compliance(
     Ok(())
 }
 
-/// Convolution weights of a layered ground under cells, of six kinds.
+/// Convolution weights of a layered ground under cells, with six series.
 pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES>;
 
 impl LatticeKernel {
-    /// Kernel of `profile` under the cells of `plan` for steps of `time_step` seconds, to a relative `tolerance`, with
-    /// coefficients from a file if it is given and has them, and at most `limit` seconds of a processor for others.
+    /// Weights of `profile` under the cells of `plan`, for steps of `time_step` seconds.
+    ///
+    /// To a relative `tolerance`. Weights are read from `file` if it contains them; computing others takes at most
+    /// `limit` seconds of a processor.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step,
@@ -65,7 +67,7 @@ impl LatticeKernel {
         positive("time step", time_step)?;
         profile.check()?;
         profile.check_causal()?;
-        // λ is analytic in the unit disc, and so is √q₂: the largest lie on its edge.
+        // λ is analytic in the unit disc, and so is √q₂: their largest values lie on its edge.
         let nodes = (0..=REACH_POINTS).flat_map(|point| {
             let angle = std::f64::consts::PI * point as f64 / REACH_POINTS as f64;
             let [z, rest] = on_circle(0.0, angle);
@@ -100,10 +102,10 @@ fn scattered(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     order.into_iter().take(SOME_CELLS).map(|place| cells[place]).collect()
 }
 
-/// Nanoseconds of one thread for an evaluation of the surface compliance, for each layer in it after the first, for a
-/// product of a kernel and a form, for a direction of the forms at a wavenumber and for a product there, for a
-/// multiply–add of the gate's factorisation, for an entry of its matrix, and for a class at a point of a circle.
-/// Measured.
+/// Measured times of one thread, nanoseconds: an evaluation of the surface compliance, and each further layer in
+/// it; a product of a kernel and a form; a direction of the forms at a wavenumber, and a product there; a
+/// multiply–add of the passivity check's factorisation, and an entry of its matrix; a class at a point of a
+/// circle.
 const EVALUATION: f64 = 200.0;
 const LAYER: f64 = 200.0;
 const PRODUCT: f64 = 0.2;
@@ -112,7 +114,7 @@ const MEAN: f64 = 0.2;
 const FACTOR: f64 = 0.1;
 const ENTRY: f64 = 15.0;
 const POINT: f64 = 300.0;
-/// Products for a class at a wavenumber: two numbers of each sum that a form goes into.
+/// Products for a class at a wavenumber: two numbers of each sum that a form contributes to.
 const SUMS: f64 = 16.0;
 /// Products for an offset of two cells in a direction.
 const MEANS: f64 = 5.0;
@@ -122,7 +124,7 @@ impl Priced<SERIES> for Integrals {
         self.finest
     }
 
-    /// Infinite with the gate, whose forms and factorisation are no samples.
+    /// Infinite with the passivity check, whose forms and factorisation are no samples.
     fn most(
         quadrature: &Quadrature<Self, SERIES>,
         samples: f64,

@@ -1,12 +1,12 @@
 //! Ground under mats in plan, in three dimensions.
 //!
-//! Mats lie on the cells of one lattice. Every coefficient is an integral over the wavenumber of the compliance of the
-//! [layered ground](super::layered) in its plane, and of one scalar more for waves across it, with form factors that
+//! Mats lie on the cells of one lattice. Every coefficient is an integral over the wavenumber of the compliance of
+//! the [layered ground](super::layered) in its plane, and of one more scalar for waves across it. Its form factors
 //! are means over the direction of the wavenumber.
 //!
 //! x points to the right, y away from the reader, z up; rotations are right-handed about these axes.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | unions | contact elements of several cells |
 //! | cells, faces | plan: cells on a lattice under faces, discs, masks |

@@ -1,13 +1,12 @@
 //! Resultants on a rigid mat, solved by symmetry.
 //!
-//! Where the cells are their own mirror image in x or y, tractions fall into sectors, even or odd in each, that do
-//! not act on each other. With the group G of reflections h and its characters χ (a shear along x changes its sign
-//! with x), vectors e_p = Σ χ(h) e_hp of one cell p from each orbit have
+//! If the cells are their own mirror image in x or y, tractions divide into sectors, even or odd in each axis,
+//! that are not coupled. With the group G of reflections h and its characters χ (a shear along x changes its sign
+//! with x), vectors e_p = Σ χ(h) e_hp of one cell p from each orbit satisfy
 //!
 //! e_pᵀ F e_q = |G| Σ χ(h) `F`_(p, hq)
 //!
-//! so that a quarter of the cells is left of a rectangle, in four systems. Cells in unions act together, and p and q are
-//! elements.
+//! A rectangle needs only a quarter of the cells, in four systems. With unions, p and q are elements.
 
 use realfft::num_complex::Complex64;
 
@@ -68,7 +67,7 @@ impl<'a> Sectors<'a> {
             Some(Reflection { axes: *axes, images: images.into_iter().flatten().collect() })
         };
         let mut group: Vec<_> = reflections.iter().filter_map(reflection).collect();
-        // Half a turn alone is no reflection.
+        // A rotation by 180° alone is not a reflection.
         if group.len() == 2 && group[1].axes == [true, true] {
             group.pop();
         }
@@ -80,8 +79,9 @@ impl<'a> Sectors<'a> {
         Self { plan, group, elements, cells }
     }
 
-    /// Forces and moments on the soil by unit rigid motions, AᵀF⁻¹A, for compliances of all classes. Components of a
-    /// list in `parts` act on each other, those of different lists do not.
+    /// Forces and moments on the soil by unit rigid motions, AᵀF⁻¹A, for compliances of all classes.
+    ///
+    /// Only components in the same list of `parts` are coupled.
     ///
     /// # Errors
     /// [`Error::Memory`], [`Error::Singular`].
@@ -100,7 +100,7 @@ impl<'a> Sectors<'a> {
                 }
             }
         }
-        // Rounding leaves it unsymmetric.
+        // Rounding makes the sum unsymmetric.
         Ok(std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let mean = 0.5 * (sum[i][j] + sum[j][i]);
@@ -192,7 +192,7 @@ impl<'a> Sectors<'a> {
         Ok(())
     }
 
-    /// Per component of a cell: what a unit traction does on each rigid motion, N or N m.
+    /// For each component of a cell: the resultants of a unit traction in each rigid motion, N or N m.
     fn resultants(&self, cell: [usize; 2]) -> [[f64; MOTIONS]; COMPONENTS] {
         let lattice = &self.plan.lattice;
         let area = lattice.pitch[0] * lattice.pitch[1];
@@ -221,7 +221,7 @@ mod tests {
     use crate::error::Watch;
     use crate::soil::{Soil, SoilProfile};
 
-    /// Symmetry is no more than a shorter way: even and odd numbers of cells, one axis, half a turn, none.
+    /// Symmetry changes no result: even and odd numbers of cells, one axis, a rotation by 180°, none.
     #[test]
     fn sectors_are_the_whole() {
         let masks = [

@@ -1,7 +1,7 @@
 //! Contact elements that are rectangles of cells.
 //!
-//! Tractions of an element are those of all its cells, and its displacement is their mean: with the incidence P of cells
-//! and elements, integrals over elements are PᵀFP, which keeps them passive.
+//! All cells of an element have its traction, and the element's displacement is the mean of its cells. With the
+//! incidence P of cells and elements, integrals over elements are PᵀFP, so they are passive too.
 
 use crate::error::{Error, Result, memory, require, same_length};
 use crate::geometry::SPACE;
@@ -18,8 +18,9 @@ pub(in crate::bem) struct Unions {
 }
 
 impl Unions {
-    /// Element of each cell of a lattice if columns and rows are taken together by so many: elements in the order of
-    /// their first cells.
+    /// Element of each cell of a lattice whose columns and rows are united.
+    ///
+    /// `along`, `across`: numbers of columns and rows to unite. Elements are in the order of their first cells.
     ///
     /// # Errors
     /// As for [`Plan::with_unions`](super::Plan::with_unions).
@@ -69,8 +70,9 @@ impl Unions {
         Ok(owners)
     }
 
-    /// Column and row of each quarter of some cells, and the quarter of an element to which it belongs: left front, right
-    /// front, left back, right back of each.
+    /// Column and row of each quarter of some cells, and the quarter of an element to which it belongs.
+    ///
+    /// Quarters of an element: left front, right front, left back, right back.
     pub(super) fn quarters(
         cells: &[[usize; 2]],
         owner: impl Fn(usize) -> usize,
@@ -94,7 +96,7 @@ impl Unions {
         quarters.unzip()
     }
 
-    /// Unions by the element of each cell.
+    /// Unions from the element of each cell.
     pub(super) fn new(owners: &[usize]) -> Self {
         let mut sizes = vec![0.0; owners.iter().max().map_or(0, |last| last + 1)];
         for owner in owners {
@@ -103,7 +105,7 @@ impl Unions {
         Self { cells: vec![0.0; SPACE * owners.len()], owners: owners.to_vec(), sizes }
     }
 
-    /// Calls `find` with a contact vector of cells to be filled, and overwrites that of elements.
+    /// Calls `find` to fill a contact vector of cells, and overwrites the vector of elements.
     pub(in crate::bem) fn gather(
         &mut self,
         elements: &mut [f64],
@@ -122,7 +124,7 @@ impl Unions {
         Ok(())
     }
 
-    /// Tractions of the cells; missing ones are zero.
+    /// Tractions of the cells; missing values of elements count as zero.
     pub(in crate::bem) fn spread(&mut self, elements: &[f64]) -> &[f64] {
         let parts = self.cells.chunks_exact_mut(self.owners.len());
         for (component, cells) in parts.enumerate() {
@@ -134,7 +136,7 @@ impl Unions {
         &self.cells
     }
 
-    /// Calls `find` with the compliance of cells to be filled, and overwrites that of elements.
+    /// Calls `find` to fill the compliance of cells, and overwrites the compliance of elements.
     pub(in crate::bem) fn reduce(
         &self,
         matrix: &mut [f64],

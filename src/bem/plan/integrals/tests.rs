@@ -25,7 +25,7 @@ fn half_space() -> SoilProfile {
     SoilProfile::on_half_plane(Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap())
 }
 
-/// `compliance_4x4.csv`: another program, good to about 1e-8.
+/// `compliance_4x4.csv` is from another program, accurate to about 1e-8.
 #[test]
 fn agrees_with_the_table_of_sixteen_cells() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [4, 4] };
@@ -61,7 +61,7 @@ fn largest_difference(one: &[[Complex; SERIES]], two: &[[Complex; SERIES]]) -> f
     pairs.map(|(one, two)| (*one - *two).abs()).fold(0.0, f64::max) / one[0][1].abs()
 }
 
-/// A half-space cut into layers is integrated further, and its tail begins elsewhere, but it is the same.
+/// A half-space cut into layers has the same compliance, although its integrals end and its tail begins elsewhere.
 #[test]
 fn cut_half_space_is_whole() {
     let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
@@ -81,7 +81,7 @@ fn cut_half_space_is_whole() {
     }
 }
 
-/// Slow motions tend to statics, which a layer stiffens.
+/// Slow motions tend to the static values, and a layer is stiffer than a half-space.
 #[test]
 fn statics_are_the_limit_of_slow_motions() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [5, 3] };
@@ -116,7 +116,7 @@ fn assembled(
     (matrix, order)
 }
 
-/// Herm(sF) ≥ 0 for Re s > 0: random layers, damping, lattices; of masks and unions it is a congruence.
+/// Herm(sF) ≥ 0 for Re s > 0: random layers, damping, lattices; for masks and unions it is a congruence.
 #[test]
 fn mobility_is_passive() {
     let mut state = 7_u64;

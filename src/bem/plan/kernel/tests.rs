@@ -26,7 +26,7 @@ fn square() -> Lattice {
     Lattice { pitch: [0.5; 2], counts: [4, 4] }
 }
 
-/// Per class, kind by kind, all lags up to `lags`.
+/// Weights of each class and series, all lags up to `lags`.
 fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES]> {
     let all = 0..kernel.classes.count();
     all.map(|class| {
@@ -38,7 +38,7 @@ fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES]> {
     .collect()
 }
 
-/// `weights_4x4.csv`: another program. Sums are those of the static compliance; (1−z) Ĝ is positive on circles.
+/// `weights_4x4.csv` is from another program. Sums equal the static compliance; (1−z) Ĝ is positive on circles.
 #[test]
 fn weights_match_the_table_and_sum_up_to_statics() {
     let table = include_str!("../../../../tests/data/plan/weights_4x4.csv");
@@ -87,7 +87,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         assert!(worst < 1e-6, "{worst:e}");
         let gates = if layered { [5e-5, 5e-5] } else { [1e-7, 2e-5] };
         assert!(even < gates[0] && odd < gates[1], "{even:e} {odd:e}");
-        // Shear and pressure forget each other like n⁻³.
+        // The coupling of shear and pressure decays like n⁻³.
         assert!(layered || (2.0..8.0).contains(&(before / odd)), "{before:e} {odd:e}");
     }
 }
@@ -117,7 +117,7 @@ fn weights_depend_on_the_offset_alone() {
     }
 }
 
-/// Gates take some of the cells, each once, where there are more than one check takes at once.
+/// The passivity check takes some of many cells, each once.
 #[test]
 fn gates_take_some_of_many_cells() {
     let all = cells([30, 20]);
