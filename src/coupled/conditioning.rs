@@ -21,7 +21,9 @@ const EXPLAINED: f64 = 1e-3;
 /// Condition beyond which a matrix counts as singular.
 const SINGULAR: f64 = 1e18;
 
-/// Condition numbers of the matrices of a step: a solution loses as many digits as they have.
+/// Condition numbers of the matrices of a step.
+///
+/// A solution loses as many digits as they have.
 ///
 /// In the 1-norm, of matrices scaled by the roots of their diagonal, so that they do not depend on units. Higham's
 /// algorithm estimates them from below, nearly always within a factor of three. Infinite for a singular matrix.

@@ -11,7 +11,9 @@ use crate::geometry::axis_name;
 use crate::text::column::{number, of_body, printed};
 use crate::text::table::Table;
 
-/// Vibration mode of a structure on a fixed base and on its ground: period lengthening and damping (ASCE 7, ch. 19).
+/// Vibration mode of a structure on a fixed base and on its ground.
+///
+/// Period lengthening and damping as in ASCE 7, ch. 19.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -42,7 +44,9 @@ impl SystemMode {
     }
 }
 
-/// A scene on its ground and on a fixed base, made by [`interaction`]; it prints as a table.
+/// A scene on its ground and on a fixed base, made by [`interaction`].
+///
+/// It prints as a table.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -56,7 +60,9 @@ pub struct Interaction {
     pub modes: Vec<SystemMode>,
 }
 
-/// Runs a scene on its ground and on a fixed base, and computes T̃/T and the system's damping.
+/// Runs a scene on its ground and on a fixed base.
+///
+/// It also computes T̃/T and the system's damping.
 ///
 /// `scene` must make a builder of the same scene at each call; both runs last `duration` (s). The second run uses
 /// [`SimulationBuilder::on_fixed_base`], with the same model, loads and motion.

@@ -43,7 +43,9 @@ impl Names {
     }
 }
 
-/// Estimates the errors of several peaks of a scene from six settings, as [`refine`](super::refine()) does for one.
+/// Estimates the errors of several peaks of a scene from six settings.
+///
+/// As [`refine`](super::refine()) does for one.
 ///
 /// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each peak is
 /// extrapolated alone: units may differ, and a peak that does not converge does not affect the others.
@@ -88,7 +90,9 @@ pub fn refine_each<N: Into<String>>(
 }
 
 impl Refinements {
-    /// Splits a refinement into its results, each with one of the `names` and an error of its own.
+    /// Splits a refinement into its results.
+    ///
+    /// Each gets one of the `names` and an error of its own.
     ///
     /// # Errors
     /// [`Error::Size`] unless there are as many names as results.

@@ -228,9 +228,10 @@ impl Simulation {
         &self.scene.context.probes
     }
 
-    /// Static displacement of the degrees of freedom under weight and loads at t = 0, m and rad.
+    /// Static displacement of the degrees of freedom, m and rad.
     ///
-    /// Its rigid settlement has no meaning on a half-plane, which has no datum in two dimensions.
+    /// Under weight and loads at t = 0. Its rigid settlement has no meaning on a half-plane, which has no datum in
+    /// two dimensions.
     pub fn static_displacement(&self) -> &[f64] {
         &self.scene.static_state.displacement
     }

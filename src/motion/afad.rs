@@ -13,7 +13,9 @@ use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
 
-/// The text files of the Turkish network (AFAD), with the components of a station side by side.
+/// The text files of the Turkish network (AFAD).
+///
+/// One file has all components of a station, side by side.
 ///
 /// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line with the
 /// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`] returns all components.

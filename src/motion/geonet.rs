@@ -16,7 +16,9 @@ use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
 
-/// The `.V1A` and `.V2A` files of GeoNet (New Zealand), with the components of a station one after the other.
+/// The `.V1A` and `.V2A` files of GeoNet (New Zealand).
+///
+/// One file has all components of a station, one after the other.
 ///
 /// Samples are in mm/s² times the unit of the readings (`Raw readings in units of 1.00 mm/s/s`). The header states
 /// interval, number of points and duration in words and in numbers, which must agree, and the peak of each

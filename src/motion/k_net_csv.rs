@@ -21,7 +21,9 @@ const GAL: AccelerationUnit = AccelerationUnit::Gal;
 /// Half a unit for this time and half a unit for the first time, but less than both together.
 const ROUNDING: f64 = 0.99;
 
-/// The CSV files of the Japanese networks K-NET and KiK-net, with the components of a station side by side.
+/// The CSV files of the Japanese networks K-NET and KiK-net.
+///
+/// One file has all components of a station, side by side.
 ///
 /// A header of lines `#Key,value`, among them `#Sampling Freq(Hz),100`, and one with the names of the columns,
 /// `#Time,NS,EW,UD`; then the time of day (or seconds) and the components in gal. The times must advance by the

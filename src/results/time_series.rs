@@ -274,7 +274,9 @@ impl TimeSeries {
         &self.elements
     }
 
-    /// Front and back end of each contact element along y on a ground in plan, m; empty in the plane.
+    /// Front and back end of each contact element along y, m.
+    ///
+    /// For a ground in plan; empty in the plane.
     pub fn depths(&self) -> &[[f64; 2]] {
         &self.depths
     }

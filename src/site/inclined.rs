@@ -12,7 +12,9 @@ use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
 use crate::soil::{Base, Soil, SoilProfile};
 
-/// A plane SV, P or SH wave from the half-plane below a soil profile, at an angle.
+/// A plane SV, P or SH wave at an angle below a soil profile.
+///
+/// It comes from the half-plane below the layers.
 ///
 /// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px): each
 /// frequency is refracted and reflected in all layers, and the surface moves horizontally and vertically. At

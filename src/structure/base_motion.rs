@@ -52,7 +52,7 @@ impl DofCombination {
         Ok(self.clone() - carried)
     }
 
-    /// Displacements of a point that moves rigidly with the base: along x, along y, up.
+    /// Displacements of a point of the rigid base: along x, along y, up.
     ///
     /// `place`: `[x, y, height]` (m) from the middle of the base. Subtract them from a displacement to get
     /// the part that an observer on the base sees. In the plane nothing moves along y, and y is ignored.

@@ -28,7 +28,9 @@ impl ContactNode {
         Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
     }
 
-    /// A point of a rigid flat base with degrees of freedom `[horizontal, vertical, rotation]` at `center`.
+    /// A point of a rigid flat base in the plane.
+    ///
+    /// `dofs`: `[horizontal, vertical, rotation]` at `center`.
     pub fn rigid(x: f64, center: f64, dofs: [usize; 3]) -> Self {
         let [horizontal, vertical, rotation] = dofs;
         Self {
@@ -38,7 +40,9 @@ impl ContactNode {
         }
     }
 
-    /// The two ends of a rigid flat base from `left` to `right`, degrees of freedom at its middle.
+    /// The two ends of a rigid flat base from `left` to `right`.
+    ///
+    /// `dofs` as for [`ContactNode::rigid`], at the middle.
     pub fn rigid_base(left: f64, right: f64, dofs: [usize; 3]) -> Vec<Self> {
         let center = 0.5 * (left + right);
         vec![Self::rigid(left, center, dofs), Self::rigid(right, center, dofs)]
@@ -63,7 +67,9 @@ pub struct FaceNode {
 }
 
 impl FaceNode {
-    /// A point `[x, y]` (m) with degrees of freedom of its own: displacements along x, along y and up.
+    /// A point `[x, y]` (m) with its own degrees of freedom.
+    ///
+    /// Displacements along x, along y and up.
     pub fn free([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
         Self { x, y, horizontal: along.into(), across: across.into(), vertical: up.into() }
     }

@@ -4,7 +4,9 @@ use std::ops::{Add, AddAssign, Deref, Mul, Neg, Sub, SubAssign};
 
 use crate::error::{Result, finite, in_bounds};
 
-/// A weighted sum of a structure's degrees of freedom: a displacement of a point, a drift, a rotation.
+/// A weighted sum of a structure's degrees of freedom.
+///
+/// Examples: a displacement of a point, a drift, a rotation.
 ///
 /// It stores (degree of freedom, weight) terms in the order given. A degree of freedom that occurs more than
 /// once counts with the sum of its weights. A function that takes a combination also takes a bare degree of

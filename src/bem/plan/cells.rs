@@ -281,7 +281,7 @@ impl Plan {
         [0, 1].map(|axis| self.corner[axis] + 0.5 * sides[axis])
     }
 
-    /// Relative error of the area inside the outline, caused by inner edges that move to a line between cells.
+    /// Relative error of the area inside the outline, due to inner edges that lie between cell lines.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
     }

@@ -122,7 +122,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the displacement of the degrees of freedom at t = 0 relative to the static state.
+    /// Sets the initial displacement of the degrees of freedom, relative to the static state.
     ///
     /// It may move the base only with [`GravityStage::Unloaded`], whose static state has no contact forces, and
     /// not into the ground.
@@ -160,7 +160,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the point (m) along x for the base moment, in plan also for the torque.
+    /// Sets the point (m) along x for base moment and torque.
     ///
     /// Default: the middle of the base. Along y it is always the middle.
     #[must_use]
@@ -187,7 +187,9 @@ impl SimulationBuilder {
         self
     }
 
-    /// Omits the energy balance: its terms and the energy error are NaN, and a step takes less time.
+    /// Omits the energy balance, so that a step takes less time.
+    ///
+    /// Its terms and the energy error are then NaN.
     #[must_use]
     pub fn without_energy_balance(mut self) -> Self {
         self.energy_balance = false;
@@ -205,8 +207,9 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets limits of slip, gap, uplifted part and rotation; each [`Run`](crate::results::Run) is checked against
-    /// them.
+    /// Sets limits of slip, gap, uplifted part and rotation.
+    ///
+    /// Each [`Run`](crate::results::Run) is checked against them.
     ///
     /// Default: none. They change nothing else.
     #[must_use]
@@ -248,7 +251,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Holds the base: each foundation keeps its shape and moves with the free field under it.
+    /// Holds the base: each foundation moves rigidly with its free field.
     ///
     /// Codes and fixed-base models assume this. Ground and interface law are ignored, except for the places of the
     /// contact elements; base shear, moment and tractions then act on the support.

@@ -279,7 +279,9 @@ impl Quantity {
         Self::ALL.into_iter().filter(move |own| in_plan || !own.is_shown(Place::Plan))
     }
 
-    /// SI unit of its values, per metre of thickness in the plane and of the whole body in plan; empty for a ratio.
+    /// SI unit of its values; empty for a ratio.
+    ///
+    /// Per metre of thickness in the plane, of the whole body in plan.
     pub fn unit(self, in_plan: bool) -> &'static str {
         of_body(self.row().unit, in_plan)
     }

@@ -29,7 +29,7 @@ impl SlipEvent {
     }
 }
 
-/// Sliding of a base in a run, by its mean slip: of one foundation, or of all as one base.
+/// Sliding of one foundation, or of the whole base, by its mean slip.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -2,7 +2,7 @@
 
 use crate::coupled::run::Quantity;
 
-/// Warning that a run exceeds assumptions of the model, or that its step or elements are too coarse.
+/// Warning that a run exceeds assumptions of the model, or is too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]

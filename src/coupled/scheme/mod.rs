@@ -6,7 +6,9 @@ pub use crate::coupled::scheme::newmark::{DissipativeMidpoint, HhtAlpha, Newmark
 
 use crate::error::{Result, finite, require};
 
-/// Coefficients of a time scheme: place of the equation of motion in the step, and motion at its end.
+/// Coefficients of a time scheme.
+///
+/// They define the place of the equation of motion in the step, and the motion at its end.
 ///
 /// Each array holds the coefficients of (Δu, v₀, a₀): the displacement increment of the step and
 /// the velocity and acceleration at its start. The equation of motion

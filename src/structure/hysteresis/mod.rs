@@ -19,7 +19,9 @@ pub struct SpringResponse {
     pub tangent: f64,
 }
 
-/// A spring whose force depends on its past deformation: implement this for your own law.
+/// A hysteretic spring: implement this for your own law.
+///
+/// Its force depends on its past deformation.
 ///
 /// The spring stores the deformation of the last **committed** step and its internal variables there. From there
 /// Newton's method evaluates trial deformations, on a straight path and any number of times, without changing the
@@ -216,7 +218,9 @@ pub(super) fn elastic_share(hardening: f64) -> Result<f64> {
 
 slider_law!(Bilinear);
 
-/// Friction pendulum: a slider on a concave dish, F = W d/R + friction · W · sgn(ḋ).
+/// Friction pendulum: a slider on a concave dish.
+///
+/// F = W d/R + friction · W · sgn(ḋ).
 ///
 /// The weight W on the bearing and its coefficient of friction are constant. Before it slides, the bearing is
 /// elastic up to a small displacement, which makes the tangent finite (Zayas, Low & Mahin 1990; Mokha,

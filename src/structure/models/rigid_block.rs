@@ -54,8 +54,10 @@ impl RigidBlock {
         Self::from_mass(width, mass, rotary_inertia, 0.5 * height)
     }
 
-    /// Any rigid body: width of the base (m), mass (kg/m), rotary inertia about the centre of
-    /// gravity (kg m²/m) and height of the centre of gravity above the base (m).
+    /// Any rigid body in the plane, given by its base width, mass and inertia.
+    ///
+    /// `width` of the base: m. `mass`: kg/m. `rotary_inertia` about the centre of gravity: kg m²/m.
+    /// `center_height`: height of the centre of gravity above the base, m.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless width, mass and inertia are positive and the

@@ -123,8 +123,9 @@ impl RigidBody {
         Ok(Self { center, ..self })
     }
 
-    /// Adds the P–Δ effect of the body's weight: −m g h (r_x² + r_y²)/2 in the potential energy, h the height of
-    /// the centre of gravity.
+    /// Adds the P–Δ effect of the body's weight.
+    ///
+    /// −m g h (r_x² + r_y²)/2 in the potential energy, with h the height of the centre of gravity.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative.
@@ -143,7 +144,7 @@ impl RigidBody {
         self.mass
     }
 
-    /// Displacements of a point along x, y and z as weighted sums of degrees of freedom.
+    /// Displacements of a point of the body along x, y and z.
     ///
     /// The point is given from the middle of the base, m.
     pub fn displacement_at(&self, [x, y, z]: [f64; 3]) -> [DofCombination; 3] {

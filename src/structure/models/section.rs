@@ -153,7 +153,7 @@ impl FemModel {
         Ok(row)
     }
 
-    /// Row of nodal forces for a force of 1 N per metre of thickness in `direction`.
+    /// Row of nodal forces for a unit force (1 N/m) in `direction`.
     ///
     /// It is spread evenly along the line through `nodes`, for a [`Load`](crate::coupled::Load) in N/m.
     ///

@@ -9,7 +9,7 @@ use crate::structure::{
 };
 use std::f64::consts::{PI, TAU};
 
-/// Storey of a [`ShearBuilding`]: the columns and the floor they carry, per metre of thickness.
+/// Storey of a [`ShearBuilding`]: columns and their floor, per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -191,7 +191,7 @@ impl ShearBuilding {
         self.storeys.len() + 2
     }
 
-    /// Drift of `storey` (0: the lowest), `u_j − u_(j−1) + h_j θ`, as a weighted sum of degrees of freedom.
+    /// Drift of `storey` (0: the lowest): `u_j − u_(j−1) + h_j θ`.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -200,7 +200,7 @@ impl ShearBuilding {
         Ok(self.drift_terms(storey).into())
     }
 
-    /// Displacement of the floor on top of `storey` minus the rigid motion of the base there.
+    /// Displacement of the floor on `storey` minus the base's rigid motion there.
     ///
     /// `u_j − u_x + H_j θ` with the height `H_j` of the floor: the sum of the drifts below. Storeys count from 0.
     ///

@@ -189,7 +189,7 @@ impl StoreyBuilding {
         Ok(level(in_bounds("storey", storey, self.storeys.len())? + 1, place))
     }
 
-    /// Deformation of `storey` (0: the lowest) at its centre of stiffness: drifts along x and y, and twist.
+    /// Drifts along x and y, and twist, of `storey` (0: the lowest) at its centre of stiffness.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
@@ -209,7 +209,7 @@ impl StoreyBuilding {
         Ok(self.deformation([storey, storey + 1], place))
     }
 
-    /// Displacements of the floor on top of `storey` minus the rigid motion of the mat.
+    /// Displacements of the floor on `storey` minus the mat's rigid motion.
     ///
     /// Along x, along y, and twist, at `place` (m from the middle of the mat's base): the sum of the drifts below.
     ///
@@ -228,7 +228,7 @@ impl StoreyBuilding {
         [along - tilt(ABOUT_Y), across + tilt(ABOUT_X), twist]
     }
 
-    /// Forces along x and y (N) of the floor on top of `storey`, and their torque.
+    /// Forces along x and y (N) of the floor on `storey`, and their torque.
     ///
     /// They act on the part below: for storey 0, on the mat. The torque (N m) is about the centre of stiffness.
     /// They are computed from the inertia of the floors above, which is exact for any law; with the midpoint rule

@@ -5,7 +5,7 @@ use crate::error::{Result, finite, not_negative, positive, require_part};
 use crate::structure::Structure;
 use crate::structure::hysteresis::Hysteresis;
 
-/// The level of isolators between the basemat and the slab on which a building stands.
+/// The level of isolators between the basemat and the building's slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

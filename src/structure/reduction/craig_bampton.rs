@@ -79,7 +79,7 @@ short_debug! {
 }
 
 impl CraigBampton {
-    /// Reduction to the contact nodes and the lowest `modes` modes of the other degrees of freedom.
+    /// Reduction to contact nodes and the lowest `modes` modes.
     pub fn new(modes: usize) -> Self {
         Self { modes, kept: Vec::new() }
     }

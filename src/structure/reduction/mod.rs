@@ -89,12 +89,14 @@ impl Recovery {
         self.basis.full
     }
 
-    /// The kept degrees of freedom of the full model: the first ones of the reduced model, in this order.
+    /// The kept degrees of freedom of the full model.
+    ///
+    /// They are the first ones of the reduced model, in this order.
     pub fn kept(&self) -> &[usize] {
         &self.basis.kept
     }
 
-    /// Converts a weighted sum of the full model's degrees of freedom to one of the reduced model's.
+    /// Converts a weighted sum of the full model's degrees of freedom to the reduced model's.
     ///
     /// For a spring or a deformed shape.
     ///
