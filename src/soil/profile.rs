@@ -243,11 +243,18 @@ impl SoilProfile {
     /// of the next one down.
     pub(crate) fn moduli_at(&self, s: &[Complex], moduli: &mut Vec<Complex>) -> Result<()> {
         moduli.clear();
+        // Neighbours of the same damping law share μ(s)/μ.
+        let mut ratios = vec![Complex::default(); s.len()];
+        let mut known: Option<Vec<f64>> = None;
         for (index, (soil, damping)) in self.soils().enumerate() {
+            let law = damping.identity();
+            if law.is_none() || law != known {
+                damping.moduli(s, &mut ratios);
+                known = law;
+            }
             let begin = moduli.len();
-            moduli.resize(begin + s.len(), Complex::default());
+            moduli.extend_from_slice(&ratios);
             let own = &mut moduli[begin..];
-            damping.moduli(s, own);
             // Re(μ/s) > 0 by far, in range: no need to look closer.
             let mut passed = true;
             for (modulus, s) in own.iter_mut().zip(s) {
