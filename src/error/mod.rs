@@ -217,7 +217,7 @@ pub enum Error {
     Restrained {
         /// Direction of the translation that is resisted.
         direction: &'static str,
-        /// Force per metre of it at the degree of freedom, N/m; if the structure is held so that it can hardly
+        /// Force per metre of translation at the degree of freedom, N/m; if the structure is held so that it can hardly
         /// translate, the force at the contact nodes.
         force: f64,
         /// The degree of freedom with the largest force relative to the stiffness around.

@@ -124,8 +124,7 @@ impl SimulationBuilder {
 
     /// Sets the initial displacement of the degrees of freedom, relative to the static state.
     ///
-    /// It may move the base only with [`GravityStage::Unloaded`], whose static state has no contact forces, and
-    /// not into the ground.
+    /// It may move the base only with [`GravityStage::Unloaded`] (see the example there), and not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
         self.displacement = displacement.into();
