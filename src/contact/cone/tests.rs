@@ -8,7 +8,7 @@ use super::proximal::Proximal;
 use super::search::search;
 use super::system::{Normal, Status, System, Tangential};
 
-/// A random positive definite W of so many elements, and q.
+/// A random positive definite W for `count` elements, and q.
 fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
     let size = 3 * count;
     let mut problem = Problem::new(count);
@@ -22,7 +22,7 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
     }
     for bounds in &mut problem.bounds {
         *bounds = Bounds { friction, ..Bounds::NONE };
-        // Beside a bond, less friction stands for an endless one.
+        // Beside a bond, a lower friction replaces an infinite one.
         if random.chance(0.3) && friction < f64::INFINITY {
             bounds.strength = random.within(0.0, 0.3);
         }
@@ -38,10 +38,10 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
     problem
 }
 
-/// Angles from which a direction is looked for.
+/// Number of angles at which a search for a direction starts.
 const GRID: usize = 24;
 
-/// State that an element may have: open, closed or at its cap; sticking or sliding in a direction.
+/// Possible state of an element: open, closed or at its cap; sticking or sliding in a direction.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Open,
@@ -75,7 +75,7 @@ fn row_of(problem: &Problem, i: usize) -> &[f64] {
     &problem.w[i * problem.size()..][..problem.size()]
 }
 
-/// Forces of given kinds, with the shear of a sliding element at an angle and that of others without slip.
+/// Forces for given kinds: a sliding element has its shear at an angle, other elements do not slip.
 fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<Vec<f64>> {
     let size = problem.size();
     let mut rows = Vec::new();
@@ -92,14 +92,14 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
             (0, (Kind::Capped, _)) => (row[i], row[size]) = (1.0, bounds.interval[1]),
             (0, _) => row[i] = 1.0,
             (_, (_, false)) => moves(0.0),
-            // The limit of endless friction: shear along the slip without pressure, in a closed gap.
+            // The limit of infinite friction: shear along the slip without pressure, in a closed gap.
             (1, (Kind::Closed, true)) if bounds.is_endless() => row[e] = 1.0,
             (2, (Kind::Closed, true)) if bounds.is_endless() => {
                 (row[i - problem.count], row[i]) = (-angles[e].sin(), angles[e].cos());
             }
             (_, (kind, true)) => {
                 let d = if component == 1 { angles[e].cos() } else { angles[e].sin() };
-                // An open element keeps the strength until its bond is taken.
+                // An open element keeps the strength until its bond breaks.
                 let friction = if kind == Kind::Open { 0.0 } else { bounds.taken() };
                 row[i] = 1.0;
                 row[e] -= friction * d;
@@ -111,7 +111,7 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
     eliminate(rows)
 }
 
-/// All solutions, up to directions that a scan of angles does not tell apart.
+/// All solutions, up to directions that a scan of angles does not distinguish.
 fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
     let count = problem.count;
     let mut found: Vec<Vec<f64>> = Vec::new();
@@ -140,7 +140,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
         if (0..count).any(none) {
             continue;
         }
-        // Slip across the direction of the shear, which is none at a solution.
+        // Slip across the direction of the shear; zero at a solution.
         let across = |angles: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
             let r = forces(problem, &kinds, angles)?;
             let y = respond(&r);
@@ -150,7 +150,7 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
             });
             Some((miss.collect(), r))
         };
-        // From a grid of angles by Newton's method with differences.
+        // Newton's method with finite differences, from a grid of angles.
         for start in 0..sliding.iter().fold(1, |all, _| all * GRID) {
             let mut angles = vec![0.0; count];
             let mut rest = start;
@@ -238,7 +238,7 @@ fn each_method_finds_one_of_all_solutions() {
         let solutions = all_solutions(&problem);
         several += usize::from(solutions.len() > 1);
         let (found, grip) = (solve(&mut problem), problem.bounds[0].grip);
-        // Endless friction without a solution is limited.
+        // Infinite friction without a solution is limited.
         let limited = found && friction == f64::INFINITY && grip < friction;
         assert!(found != solutions.is_empty() || limited, "case {case}: {}", solutions.len());
         none += usize::from(solutions.is_empty());
@@ -249,7 +249,7 @@ fn each_method_finds_one_of_all_solutions() {
         assert!(is_among(&problem, &solutions), "case {case}: {} solutions", solutions.len());
         let slip = |e: usize| problem.y[count + e].hypot(problem.y[2 * count + e]) > 1e-6;
         sliding += usize::from((0..count).any(|e| slip(e) && problem.force(e) > 1e-6));
-        // Each alone, from nothing; discs are of some size.
+        // Each method alone, from zero forces; discs are not empty.
         problem.change.fill(0.0);
         if Newton::new(count).solve(&mut problem, case % 2 == 0).1 {
             assert!(is_among(&problem, &solutions), "case {case}, Newton");
@@ -279,7 +279,7 @@ fn each_method_finds_one_of_all_solutions() {
     );
 }
 
-/// Endless friction that has no solution, or none that is found, is limited as little as can be.
+/// Infinite friction without a solution, or without one found, is limited as little as possible.
 #[test]
 fn endless_friction_is_limited_where_it_must_be() {
     let (mut random, mut limited, mut failed) = (Random(17), 0, 0);
@@ -295,7 +295,7 @@ fn endless_friction_is_limited_where_it_must_be() {
     assert!(limited > 0 && failed < 6, "{limited} limited, {failed} without a solution");
 }
 
-/// Friction work is the shear's against the slip of the same solution.
+/// Friction work is computed from the shear and the slip of one solution, and is never negative.
 #[test]
 fn friction_takes_energy_only() {
     let (mut random, mut failed) = (Random(5), 0);
@@ -320,7 +320,7 @@ fn friction_takes_energy_only() {
     assert!(failed < 12, "{failed} without a solution");
 }
 
-/// Statuses that leave fewer motions unknown than forces, by either system: conditions are met, and a step has the same
+/// Both systems meet the conditions of statuses with fewer unknown motions than forces, and a step has the same
 /// bits whatever was solved before.
 #[test]
 fn forces_or_motions_meet_the_conditions_of_statuses() {
@@ -357,7 +357,7 @@ fn forces_or_motions_meet_the_conditions_of_statuses() {
             if trial % 20 == 0 {
                 system.forget(lasts);
             }
-            // Whatever was solved before.
+            // Earlier solutions are arbitrary.
             for _ in 0..trial * usize::from(trial % 20 > 0) {
                 problem.rest();
                 system.solve(&mut problem, [&other, &statuses][trial % 2]);
