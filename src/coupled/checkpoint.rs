@@ -215,7 +215,7 @@ impl Simulation {
                 return Err(corrupt(quantity).into());
             }
         }
-        // Other loads begin with their own functions.
+        // Changed loads use their own functions.
         let is_kept = !changes.contains(&Change::Load);
         if is_kept && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {
             return Err(CheckpointError::OtherScene { quantity: "load" }.into());

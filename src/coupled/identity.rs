@@ -225,7 +225,7 @@ impl Simulation {
 
     /// Sums over the free field and over all loads in [`SAMPLES`] parts of the first `steps`.
     ///
-    /// A pulse may be as short as a step: external loads, and the motion of one element, enter at every step.
+    /// A pulse may be as short as a step: external loads and the motion of one element count at every step.
     fn samples(&self, steps: usize) -> Result<(Vec<f64>, Vec<f64>)> {
         let Self { scene, structure, ground, motion, .. } = self;
         let count = steps.max(SAMPLES);
@@ -282,13 +282,14 @@ fn law_numbers(scene: &Scene) -> Vec<f64> {
     all
 }
 
-/// The number, or [`ENDLESS`] in place of one that is not finite, which would hide the others.
+/// The number, or [`ENDLESS`] if it is not finite, since it would hide the others.
 fn finite_or_endless(number: f64) -> f64 {
     if number.is_finite() { number } else { ENDLESS }
 }
 
-/// Numbers that a law returns under this pressure, Pa: at rest, at each of [`RATES`], and with the state variables that
-/// [`SLIPS`] leave behind, one slip after the other.
+/// Numbers that a law returns under this pressure, Pa.
+///
+/// At rest, at each of [`RATES`], and with the state variables after each of [`SLIPS`], one slip after the other.
 fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
     let at_rest = PreviousContact::new(sample_state(0.0, pressure), law.modes()[0], time_step);
     let mut variables = at_rest.first_state_variables(law);

@@ -42,7 +42,7 @@ pub struct Simulation {
     pub(crate) drag: f64,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
-    /// Steps that the builder was told of, or zero.
+    /// Expected steps of the builder, or zero.
     pub(crate) expected_steps: usize,
 }
 

@@ -301,7 +301,7 @@ pub enum MatrixFileError {
         /// Column, from 1.
         column: usize,
     },
-    /// Fewer or more entries than the size line says.
+    /// Fewer or more entries than the size line states.
     #[error("entry {found} of {needed}: the size line and the entries do not agree")]
     Entries {
         /// Entries found.

@@ -1,4 +1,4 @@
-//! Errors: every one names the quantity, its value and what was needed.
+//! Errors: each names the quantity, its value and the requirement.
 //!
 //! The text of an error contains the text of its cause, and `source()` returns `None`. Printed alone the error is
 //! complete, and printed with its chain of sources nothing occurs twice. A field called `source` is therefore

@@ -1,6 +1,6 @@
 //! Structures: the trait that users implement, implementations of it, and hysteretic springs.
 
-/// Implements the methods of [`Structure`] that no structure around another one replaces.
+/// Forwards the methods of [`Structure`] that a wrapper leaves unchanged.
 macro_rules! forward_structure {
     ($own:ident.$inner:ident) => {
         forward! {
@@ -59,7 +59,7 @@ use std::any::Any;
 
 use crate::error::Result;
 
-/// A structure as the integrator sees it: implement this for your own model.
+/// A structure for the integrator: implement this for your own model.
 ///
 /// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up,
 /// rotations counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute**

@@ -221,7 +221,9 @@ impl Tangent {
 /// Displacements of the samples of [`sample_forces`], m.
 const SAMPLES: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
 
-/// Weighted sums of a nonlinear force at sample displacements, infinite where the force fails; none without a force.
+/// Weighted sums of a nonlinear force at sample displacements.
+///
+/// Infinite where the force returns an error; empty for a linear structure.
 pub(crate) fn sample_forces(structure: &dyn Structure) -> Vec<f64> {
     let Some(own) = structure.nonlinear() else { return Vec::new() };
     let sample = |size: f64| {

@@ -14,7 +14,7 @@ use crate::structure::{FaceNode, Structure};
 const OVERHANG: f64 = 0.105;
 /// Largest fraction of the area that the cells may lack.
 const MISSING: f64 = 0.1;
-/// Cells to which the number of cells under flexible faces is raised.
+/// Largest number of cells to which the number under flexible faces is raised.
 const MOST_RAISED: f64 = 1000.0;
 /// Memory for a cell, bytes.
 const CELL: f64 = 1000.0;

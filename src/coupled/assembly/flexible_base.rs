@@ -74,7 +74,7 @@ pub(crate) fn check(
         let next = UnseenShape::of(assembled, &finer, &soil);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
-            // With a law for each element both states are those with the first law.
+            // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
             let under = |assembled: &Assembled, soil: &[f64]| {
                 static_stages::under_loads(parts, assembled, soil, law).ok()

@@ -135,7 +135,7 @@ pub struct Run {
     /// `false` if an observer ended it, or the caller's own loop made it.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) ends_by_steps: bool,
-    /// Responses that should not be largest at the end, after the last step and before it.
+    /// Responses that should not be largest at the end: after the last step, and one step earlier.
     #[cfg_attr(feature = "serde", serde(skip))]
     last_responses: [[f64; 4]; 2],
     #[cfg_attr(feature = "serde", serde(skip))]

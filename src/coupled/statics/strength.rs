@@ -6,7 +6,7 @@ use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolera
 const LITTLE: f64 = 1e-6;
 /// Ratio of shear traction to pressure that counts as infinite.
 const MOST: f64 = 1e6;
-/// Pressure beside which cohesion is small, Pa.
+/// Pressure at which cohesion is negligible, Pa.
 const PRESSURE: f64 = 1e9;
 
 /// Strength of a law on an element that has not moved so far.
