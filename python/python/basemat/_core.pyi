@@ -1704,7 +1704,7 @@ class Simulation:
 
         ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
         None returns to that function. A controller computes it from the last state and sets it before each
-        :meth:`step`. A checkpoint does not hold it: :meth:`resume` and :meth:`reset` return to the functions.
+        :meth:`step`. A checkpoint holds it; :meth:`reset` returns to the functions.
         """
     def interaction(self, duration: float | None = None) -> Interaction:
         """The :class:`Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that

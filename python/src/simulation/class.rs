@@ -317,7 +317,7 @@ impl PySimulation {
     ///
     /// ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
     /// None returns to that function. A controller computes it from the last state and sets it before each
-    /// :meth:`step`. A checkpoint does not hold it: :meth:`resume` and :meth:`reset` return to the functions.
+    /// :meth:`step`. A checkpoint holds it; :meth:`reset` returns to the functions.
     fn set_load(
         &self,
         #[pyo3(from_py_with = whole)] index: usize,
