@@ -105,7 +105,6 @@ pub(crate) fn in_python(mut text: String) -> String {
             "`coupled::largest_convergent_step` finds a time step that gets through",
             "a shorter step may get through",
         ),
-        ("; `with_time_limit` allows more", ""),
         ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),
         ("take `Midpoint`,", "take TimeScheme.midpoint(),"),
         (

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::elastic_source::ElasticSource;
-use super::layered::{Cost, Stages};
+use super::layered::Stages;
 use super::plan::{Plan, gate_sample, static_compliance};
 use super::{Grading, Ground, SharedKernels, Strip, WeightsGround, WeightsSource};
-use crate::error::{Observer, Result, positive, require};
+use crate::error::{Observer, Result, require};
 use crate::geometry::{ContactElement, SPACE, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
@@ -201,21 +201,6 @@ impl ElasticGround {
         self.changed(|source| source.file = Some(path.into()))
     }
 
-    /// Limits the processor time for convolution weights to `seconds`, by [`cost`](Self::cost) and not by
-    /// the clock, so that the limit is the same everywhere; 600 unless called, and no limit if it is
-    /// infinite.
-    ///
-    /// Beyond the limit, weights fail with [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) before anything
-    /// is computed.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
-    pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
-        let fits = seconds >= 0.0;
-        require("time limit of a layered ground", seconds, fits, "not negative")?;
-        Ok(self.changed(|source| source.limit = seconds))
-    }
-
     /// Replaces the options of the ground's history, or its method alone; only the closed form has exponentials.
     ///
     /// # Errors
@@ -267,45 +252,11 @@ impl ElasticGround {
     /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that exists in the frequency domain
     /// only. `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
     /// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed;
-    /// [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) beyond the [limit](Self::with_time_limit);
     /// [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
     /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
     /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
     pub fn weights(&self, time_step: f64) -> Result<Arc<dyn ConvolutionWeights>> {
         self.source.kernel(self.elements(), time_step)
-    }
-
-    /// Cost of the convolution weights for `steps` steps of `time_step` seconds, before the first of them, to a
-    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the closed form.
-    ///
-    /// ```
-    /// use basemat::Soil;
-    /// use basemat::bem::{ElasticGround, Strip};
-    /// use basemat::soil::SoilProfile;
-    /// let clay = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-    /// let profile = SoilProfile::on_rigid_base().with_layer(clay, 6.0)?;
-    /// let ground = ElasticGround::new(profile, Strip::graded(-3.0..3.0, 8)?)?;
-    /// let [short, long] = [ground.cost(0.005, 2_000)?, ground.cost(0.005, 20_000)?];
-    /// println!("{short}");
-    /// // Panels of one block of steps serve the next.
-    /// assert!(short.seconds < long.seconds && long.seconds < 10.0 * short.seconds);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step;
-    /// [`LayeredError::TooFine`](crate::LayeredError::TooFine) and
-    /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they could not be computed at
-    /// all; for bad damping laws as [`weights`](Self::weights).
-    pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
-        positive("time step", time_step)?;
-        // Convolutions take lags by powers of two.
-        let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX);
-        if let Some(plan) = &self.source.plan {
-            return self.source.in_plan(plan, time_step)?.cost(lags);
-        }
-        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
-        self.source.layered(self.elements(), time_step, stages)?.cost(lags)
     }
 
     /// The profile.

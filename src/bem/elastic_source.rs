@@ -13,8 +13,6 @@ use crate::soil::{Base, SoilProfile};
 
 /// Default tolerance of the wavenumber integrals.
 const TOLERANCE: f64 = 1e-10;
-/// Default limit on processor time, s.
-const LIMIT: f64 = 600.0;
 
 /// A profile and how accurately it is stepped.
 #[derive(Debug, Clone)]
@@ -25,15 +23,13 @@ pub(super) struct ElasticSource {
     pub(super) stages: Option<Stages>,
     pub(super) tolerance: f64,
     pub(super) file: Option<PathBuf>,
-    pub(super) limit: f64,
 }
 
 impl ElasticSource {
     /// Source of `profile` under strips, or under the cells of a plan, with default accuracy.
     pub(super) fn new(profile: SoilProfile, plan: Option<Plan>) -> Result<Self> {
         profile.check()?;
-        let (tolerance, limit) = (TOLERANCE, LIMIT);
-        Ok(Self { profile, plan, stages: None, tolerance, file: None, limit })
+        Ok(Self { profile, plan, stages: None, tolerance: TOLERANCE, file: None })
     }
 
     /// The stages for steps of `time_step` seconds; `None` for the closed form.
@@ -62,8 +58,8 @@ impl ElasticSource {
         StripWeights::under_strips(profile, elements, stages, self.sizes(time_step), file)
     }
 
-    fn sizes(&self, time_step: f64) -> [f64; 3] {
-        [time_step, self.tolerance, self.limit]
+    fn sizes(&self, time_step: f64) -> [f64; 2] {
+        [time_step, self.tolerance]
     }
 }
 
@@ -104,7 +100,7 @@ impl WeightsSource for ElasticSource {
 
     fn identity(&self) -> Option<Vec<f64>> {
         let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
-        let mut numbers = vec![stages, self.tolerance, self.limit];
+        let mut numbers = vec![stages, self.tolerance];
         // Grounds with a file do not take their kernel from one without.
         let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
         numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));

@@ -74,28 +74,6 @@ pub enum LayeredError {
         /// Wavenumber up to which C must be integrated, 1/m.
         wavenumber: f64,
     },
-    /// Convolution weights whose estimated time exceeds the limit; nothing has been computed.
-    #[error(
-        "convolution weights up to lag {lags} would take {seconds:.0} s of a processor, but {limit} s are \
-         allowed: time step {time_step:e} s, shortest element {element:.3e} m, top layer {layer:.3e} m ({cure} \
-         or fewer steps help; `with_time_limit` allows more)"
-    )]
-    TooCostly {
-        /// Estimated processor time, s.
-        seconds: f64,
-        /// Processor time limit, s.
-        limit: f64,
-        /// Last of the lags.
-        lags: usize,
-        /// Time step, s.
-        time_step: f64,
-        /// Length of the shortest element, m.
-        element: f64,
-        /// Thickness of the top layer, m; infinite for a half-plane.
-        layer: f64,
-        /// Change with the largest effect.
-        cure: &'static str,
-    },
     /// Damping that no mechanisms reproduce over the band.
     #[error(
         "no generalised Maxwell body has a damping ratio of {ratio} over the band: the best is {worst} \

@@ -12,7 +12,7 @@ use basemat::motion::el_centro_1940;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::sweep::Sweep;
-use basemat::{Error, LayeredError, Simulation, Soil, StepError};
+use basemat::{Error, Simulation, Soil};
 
 use basemat_problems::profiles::{constant_q, two_stages};
 use basemat_problems::sampled_block::{distance, sample, under_pulse};
@@ -80,40 +80,6 @@ fn cut_and_resumed_runs_have_the_same_bits() {
             assert!(found[1..] == wanted[cut + 1..], "{history:?}, cut at {cut}");
         }
     }
-}
-
-/// A step that needs more coefficients than may be paid for is refused, and nothing of it happens.
-#[test]
-fn a_run_beyond_the_time_limit_stays_where_it_was() {
-    let cost = |steps: usize| layered(4).cost(TIME_STEP, steps).unwrap().seconds;
-    let make = |seconds: f64| shaken(layered(4).with_time_limit(seconds).unwrap()).build();
-    assert!(matches!(make(0.0).err(), Some(Error::Layered(LayeredError::TooCostly { .. }))));
-    let mut short = make(1.2 * cost(100)).unwrap();
-    let mut seen = 0;
-    for _ in 0..2000 {
-        if short.step().is_err() {
-            break;
-        }
-        seen += 1;
-    }
-    let Err(Error::Step { source: StepError::Ground(cause), .. }) = short.step() else {
-        panic!("{seen}")
-    };
-    assert!(matches!(*cause, Error::Layered(LayeredError::TooCostly { .. })), "{cause}");
-    assert!((100..2000).contains(&seen), "{seen}");
-    let mut whole = make(f64::INFINITY).unwrap();
-    assert!(*short.state() == states(&mut whole, seen)[seen]);
-    let mut other = make(f64::INFINITY).unwrap();
-    other.resume(&short.checkpoint().unwrap()).unwrap();
-    assert!(states(&mut other, 30)[1..] == states(&mut whole, 30)[1..]);
-    // Nothing for the closed form.
-    let plain = ElasticGround::new(
-        SoilProfile::on_half_plane(soil(SI)),
-        Strip::graded(-2.0..2.0, 4).unwrap(),
-    )
-    .unwrap();
-    assert_eq!(plain.cost(TIME_STEP, 1 << 40).unwrap().seconds, 0.0);
-    assert!(plain.cost(f64::NAN, 10).is_err());
 }
 
 #[test]

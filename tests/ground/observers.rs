@@ -5,7 +5,8 @@
 use std::ops::ControlFlow::{Break, Continue};
 use std::sync::Arc;
 
-use basemat::bem::layered::StripContact;
+use basemat::bem::layered::{Stages, StripContact};
+use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
@@ -91,6 +92,29 @@ fn step_coefficients_are_watched_and_stopped() {
     assert_eq!(bits(&*kernel, 500), wanted);
     // All is there.
     watched(|observer| kernel.prepare_observed(500, observer), None);
+}
+
+/// The forms of a mat in three dimensions, its gate and its weights.
+#[test]
+fn weights_in_plan_are_watched_and_stopped() {
+    let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap();
+    let make = || {
+        let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan.clone()).unwrap();
+        ground.with_stages(Stages::Two).weights(0.2).unwrap()
+    };
+    let bits = |kernel: &dyn ConvolutionWeights| {
+        let mut bits = vec![];
+        for class in 0..kernel.classes().count() {
+            let mut lists = [(); 6].map(|()| vec![0.0; 300]);
+            kernel.coefficients_in_plan(class, 1, lists.each_mut().map(Vec::as_mut_slice)).unwrap();
+            bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
+        }
+        bits
+    };
+    let wanted = bits(&*make());
+    let kernel = make();
+    watched(|observer| kernel.prepare_observed(300, observer), None);
+    assert_eq!(bits(&*kernel), wanted);
 }
 
 #[test]

@@ -2,7 +2,6 @@
 //! SCENE: cells of squares, oblong ones and an L on a half-space and on a damped layer over rock.
 //! REFERENCE: direct sums; static compliance as the sum of all lags; rigid mats by another solution.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use basemat::bem::layered::{Stages, StripContact};
@@ -10,7 +9,7 @@ use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
-use basemat::{Error, LayeredError, Soil};
+use basemat::{Error, Soil};
 use basemat_problems::dense::solve;
 use basemat_problems::passivity::least_work;
 use basemat_problems::profiles::{gmb, p1, p3};
@@ -192,36 +191,6 @@ fn limits_are_told_beforehand() {
     let ground = ElasticGround::in_plan(half_space(), plan).unwrap();
     let outcome = ground.impedances(&[1.0], StripContact::Bonded);
     assert!(matches!(outcome, Err(Error::Scene { .. })), "{outcome:?}");
-}
-
-/// A limit on processor time is one on what `cost` says, and holds before anything is computed.
-#[test]
-fn costs_are_said_and_limited() {
-    let plan = |cells| Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
-    let ground = |cells| ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan(cells)).unwrap();
-    let [few, many] = [6, 12].map(|cells| ground(cells).cost(0.1, 500).unwrap());
-    let long = ground(6).cost(0.1, 8000).unwrap();
-    assert!(few.seconds < many.seconds && few.memory < many.memory, "{few} {many}");
-    assert!(few.seconds < long.seconds && 4.0 * few.memory < long.memory, "{few} {long}");
-    for (limit, wanted) in [(0.5 * few.seconds, false), (1.01 * few.seconds, true)] {
-        let mut ground = ground(6).with_time_limit(limit).unwrap();
-        ground.prepare(0.1).unwrap();
-        let made = ground.expect_steps(500, Some(&mut |_| ControlFlow::Continue(())));
-        assert_eq!(made.is_ok(), wanted, "{made:?}");
-        if let Err(error) = made {
-            let Error::Layered(LayeredError::TooCostly { seconds, element, lags, .. }) = error
-            else {
-                panic!("{error}")
-            };
-            assert_eq!((seconds, lags), (few.seconds, 512));
-            assert!((element - plan(6).pitch()[0]).abs() < 1e-15);
-        }
-    }
-    // What is not watched is limited as well.
-    let mut ground = ground(6).with_time_limit(0.0).unwrap();
-    ground.prepare(0.1).unwrap();
-    let found = ground.step_compliance(&mut vec![0.0; 108 * 108]);
-    assert!(matches!(found, Err(Error::Layered(LayeredError::TooCostly { limit: 0.0, .. }))));
 }
 
 /// Elements of several cells are what tractions equal over these cells, and means over them, make of the cells' ground.

@@ -276,6 +276,19 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(spectra)
     }
 
+    /// Largest number of samples of a block: all points of its circle, for each eigenvalue.
+    pub(super) fn most_samples(&self, number: usize) -> usize {
+        Block::circle(number, self.tolerance).points() * self.stages.count()
+    }
+
+    /// Largest memory of the first `blocks` blocks while the last is computed, bytes.
+    pub(super) fn memory(&self, blocks: usize) -> f64 {
+        let Some(last) = blocks.checked_sub(1) else { return 0.0 };
+        let points = Block::circle(last, self.tolerance).points() as f64;
+        let own = 8.0 * Block::last(last) as f64 + size_of::<Complex>() as f64 * points;
+        own * (KINDS * self.classes) as f64
+    }
+
     /// Returns a test whether a panel is predicted as resolved to a multiple of the tolerance.
     pub(super) fn looks(
         &self,

@@ -59,8 +59,6 @@ pub(crate) struct Compliance {
     moduli: Vec<Complex>,
     /// α, β of the layers down to the last that affects the surface.
     roots: Vec<[Complex; 2]>,
-    /// Number of layers used by all evaluations so far.
-    pub(crate) visited: usize,
 }
 
 /// |β|h below which a layer is thin.
@@ -164,7 +162,6 @@ impl Compliance {
                 break;
             }
         }
-        self.visited += self.roots.len();
         let last = self.roots.len() - 1;
         let lowest = &self.layers[last];
         let waves = || Waves::new(lowest, k, self.roots[last]);

@@ -142,21 +142,6 @@ impl FormFactors {
         self.shapes.len().div_ceil(LANES)
     }
 
-    /// Whether the table of a panel is stored: at Gauss points, or by Legendre coefficients if it is halved.
-    pub(crate) fn keeps(&self, panel: Panel, halved: bool) -> bool {
-        let room = match (panel.level, halved) {
-            (_, true) => self.legendre.len(),
-            (0, false) => self.values.len(),
-            (level, false) => self.wide_room(level),
-        };
-        panel.index < room
-    }
-
-    /// Number of points from which Legendre coefficients are computed.
-    pub(crate) fn projection(&self) -> f64 {
-        self.fine.nodes.len() as f64
-    }
-
     /// Number of wide panels of a level whose tables are stored.
     fn wide_room(&self, level: u32) -> usize {
         self.room.min((1 << 17) >> level)

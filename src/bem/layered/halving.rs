@@ -74,13 +74,13 @@ pub(crate) fn last_coefficients<const N: usize>(
 }
 
 impl Wavenumbers {
-    /// Calls `take` with each panel, the result on it, and the number of evaluations of C in its halves.
+    /// Calls `take` with each panel and the result on it.
     pub(super) fn resolve(
         &self,
         panels: usize,
         work: &mut Scratch,
         symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
-        take: &mut dyn FnMut(Panel, Found, usize),
+        take: &mut dyn FnMut(Panel, Found),
     ) -> std::result::Result<(), f64> {
         let allowed = self.sample(panels, work, symbol);
         for place in 0..work.samples.len() {
@@ -88,12 +88,12 @@ impl Wavenumbers {
             work.wide.clear();
             loop {
                 let [left, width] = self.forms.extent(panel);
-                let (below, before) = (panel.level == 0, work.evaluations);
+                let below = panel.level == 0;
                 if self.resolved(&samples, left, width, allowed[usize::from(below)]) {
-                    take(panel, Found::Samples(&samples), 0);
+                    take(panel, Found::Samples(&samples));
                 } else if below {
                     let moments = self.halved(left, allowed[1], work, symbol)?;
-                    take(panel, Found::Moments(&moments), work.evaluations - before);
+                    take(panel, Found::Moments(&moments));
                 } else {
                     let [one, two] = panel.halves();
                     work.wide.extend([two, one]);

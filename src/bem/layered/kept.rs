@@ -38,7 +38,7 @@ pub(crate) struct KeptBlocks {
     blocks: [OnceLock<Result<Block>>; BLOCKS],
     /// Locked by the thread that computes.
     making: Mutex<()>,
-    pub(crate) file: Option<PathBuf>,
+    file: Option<PathBuf>,
     /// Numbers of classes and of kinds.
     sizes: [usize; 2],
 }
@@ -68,11 +68,6 @@ impl KeptBlocks {
     /// Range of `wanted` from the first block that is not stored.
     pub(crate) fn missing(&self, wanted: Range<usize>) -> Range<usize> {
         wanted.start + wanted.clone().take_while(|number| self.has(*number)).count()..wanted.end
-    }
-
-    /// Whether the passivity gate has been evaluated, passed or not.
-    pub(crate) fn is_checked(&self) -> bool {
-        self.checked.get().is_some()
     }
 
     /// Fingerprint from `check`, which runs once; afterwards the blocks of the file are stored.

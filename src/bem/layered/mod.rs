@@ -5,7 +5,6 @@
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
 //! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
-//! | cost | cost of convolution weights, estimated in advance |
 //! | passivity | the gate that checks convolution weights |
 //! | kept | blocks of convolution weights in memory and in a file |
 //! | weights | convolution weights for a history |
@@ -14,7 +13,6 @@
 mod coefficients;
 mod compliance;
 mod contour;
-mod cost;
 mod form_factors;
 mod halving;
 mod impedance;
@@ -30,13 +28,10 @@ mod weights;
 
 pub(super) use coefficients::Quadrature;
 pub(super) use compliance::{Compliance, SurfaceCompliance};
-pub use cost::Cost;
-pub(super) use cost::{MOST_HALVING, Outlook, Priced};
 pub(super) use form_factors::{DEGREES, POINTS, legendre};
 pub(super) use halving::{FLOOR, SHARE, by_halves, last_coefficients, median};
 pub use impedance::{StripContact, StripImpedance};
 pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedances};
-pub(super) use passivity::POINTS as GATE_POINTS;
 #[cfg(test)]
 pub(super) use passivity::margin;
 pub use runge_kutta::Stages;

@@ -112,39 +112,6 @@ pub(super) struct Scratch {
     pub(super) evaluations: usize,
 }
 
-/// Estimated amount of work for integrals.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Counts {
-    /// Number of panels summed.
-    pub(crate) panels: f64,
-    /// Number of panels halved below the narrowest width.
-    pub(crate) halved: f64,
-    /// Number of integrals, and of integrals whose K depends on the thickness of the top layer.
-    pub(crate) integrals: f64,
-    pub(crate) deep: f64,
-    /// Number of evaluations of C.
-    pub(crate) evaluations: f64,
-    /// Number of evaluations of C in halves.
-    pub(crate) halves: f64,
-    /// Number of layers used in evaluations, without the first.
-    pub(crate) layers: f64,
-}
-
-impl Counts {
-    /// Combines each number with the same number of `other`.
-    pub(crate) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            panels: combine(self.panels, other.panels),
-            halved: combine(self.halved, other.halved),
-            integrals: combine(self.integrals, other.integrals),
-            deep: combine(self.deep, other.deep),
-            evaluations: combine(self.evaluations, other.evaluations),
-            halves: combine(self.halves, other.halves),
-            layers: combine(self.layers, other.layers),
-        }
-    }
-}
-
 /// Result on a panel: C at its points, or the moments of its halves.
 pub(super) enum Found<'a> {
     Samples(&'a [SurfaceCompliance; POINTS]),
@@ -233,45 +200,6 @@ impl Wavenumbers {
         }
     }
 
-    /// Counts the work for the compliances at `s`, without the work for pairs.
-    ///
-    /// `meet` is called with each panel, and whether it is halved.
-    ///
-    /// # Errors
-    /// As for [`Compliances::compliance`].
-    pub(crate) fn counts(
-        &self,
-        profile: &SoilProfile,
-        s: Complex,
-        work: &mut Workspace,
-        mut meet: impl FnMut(Panel, bool),
-    ) -> Result<Counts> {
-        let Workspace { compliance, panels: work } = work;
-        compliance.set(profile, s)?;
-        let (reach, deep) = (Self::reach(compliance), deep(profile));
-        let panels = self.panels(reach.max(deep))?;
-        let deep = if deep > reach { 1.0 } else { 0.0 };
-        let mut counts = Counts { integrals: 1.0, deep, ..Counts::default() };
-        compliance.visited = 0;
-        let before = work.evaluations;
-        let mut count = |panel: Panel, found: Found, evaluations: usize| {
-            counts.panels += 1.0;
-            let halved = matches!(found, Found::Moments(_));
-            meet(panel, halved);
-            if halved {
-                counts.halved += 1.0;
-                counts.halves += evaluations as f64;
-            }
-        };
-        let resolved = self.resolve(panels, work, &mut |k| compliance.at(k), &mut count);
-        resolved.map_err(|k| unresolved(s, k))?;
-        counts.evaluations = (work.evaluations - before) as f64;
-        // The lowest layer is a half-plane, or costs half as much as another layer if it is on a rigid base.
-        let lowest = if compliance.half_plane().is_some() { 1.0 } else { 0.5 };
-        counts.layers = compliance.visited as f64 - lowest * counts.evaluations;
-        Ok(counts)
-    }
-
     /// Compliances at s = 0 with `symbol` for C, up to a wavenumber of at least `least` (1/m).
     ///
     /// Beyond, the static tail of the top layer of `compliance` is used.
@@ -321,7 +249,7 @@ impl Wavenumbers {
         let mut sums = std::mem::take(&mut work.sums);
         sums.clear();
         sums.resize(forms.blocks(), Sums::default());
-        let outcome = self.resolve(panels, work, symbol, &mut |panel, found, _| match found {
+        let outcome = self.resolve(panels, work, symbol, &mut |panel, found| match found {
             Found::Samples(samples) => {
                 let half = 0.5 * forms.extent(panel)[1];
                 let coefficients: [[f64; 6]; POINTS] =
@@ -334,19 +262,6 @@ impl Wavenumbers {
         });
         work.sums = sums;
         outcome
-    }
-
-    /// Number of initial panels of an integral at `s`.
-    ///
-    /// # Errors
-    /// As for [`Compliances::compliance`].
-    pub(crate) fn widest(&self, profile: &SoilProfile, s: Complex) -> Result<usize> {
-        let mut compliance = Compliance::default();
-        compliance.set(profile, s)?;
-        let panels = self.panels(Self::reach(&compliance).max(deep(profile)))?;
-        let mut widest = vec![];
-        self.begin(panels, &mut vec![], |panel| widest.push(panel));
-        Ok(widest.len())
     }
 
     /// Adds the series for wavenumbers beyond the last panel.

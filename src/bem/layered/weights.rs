@@ -4,11 +4,10 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::coefficients::{Block, Quadrature, Samples};
-use super::cost::{Cost, Outlook, Priced};
 use super::kept::{KeptBlocks, copy_lags, last_block, threads};
 use super::passivity;
 use super::runge_kutta::Stages;
-use super::wavenumber::Wavenumbers;
+use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
 use crate::geometry::{ContactElement, SERIES};
 use crate::history::{
@@ -27,16 +26,13 @@ pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     mesh: Vec<f64>,
     kept: KeptBlocks,
     spectra: SharedSpectra,
-    /// Largest processor time for the weights, s.
-    limit: f64,
 }
 
 /// Weights of a layered ground under strips.
 pub(in crate::bem) type StripWeights = QuadratureWeights<Wavenumbers, STRIP_KINDS>;
 
 impl StripWeights {
-    /// Weights of `profile` under `elements`; the numbers are time step, tolerance and limit of processor
-    /// time.
+    /// Weights of `profile` under `elements` for a time step (s) and a relative tolerance.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an invalid time step,
@@ -46,7 +42,7 @@ impl StripWeights {
         profile: SoilProfile,
         elements: &[ContactElement],
         stages: Stages,
-        [time_step, tolerance, limit]: [f64; 3],
+        [time_step, tolerance]: [f64; 2],
         file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;
@@ -55,29 +51,22 @@ impl StripWeights {
         let classes = PairClasses::new(elements.to_vec())?;
         let quadrature = Quadrature::new(profile, &classes, stages, time_step, tolerance);
         let mesh = elements.iter().flat_map(|element| [element.left, element.right]).collect();
-        Ok(Self::new(quadrature, classes, None, mesh, limit, file))
+        Ok(Self::new(quadrature, classes, None, mesh, file))
     }
 }
 
-impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
+impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     /// Weights of `classes`, not yet computed; the gate uses only the elements of `sample`, if given.
     pub(in crate::bem) fn new(
         quadrature: Quadrature<I, KINDS>,
         classes: PairClasses,
         sample: Option<PairClasses>,
         mesh: Vec<f64>,
-        limit: f64,
         file: Option<PathBuf>,
     ) -> Self {
         let kept = KeptBlocks::new([classes.count(), KINDS], file);
         let spectra = SharedSpectra::default();
-        Self { quadrature, classes, sample, mesh, kept, spectra, limit }
-    }
-
-    /// Cost of the weights up to lag `lags`.
-    pub(in crate::bem) fn cost(&self, lags: usize) -> Result<Cost> {
-        let blocks = 0..last_block(lags.max(1))? + 1;
-        Ok(self.quadrature.cost(blocks, Some(self.gate().layout().len()))?.0)
+        Self { quadrature, classes, sample, mesh, kept, spectra }
     }
 
     /// Elements for which the passivity gate is evaluated.
@@ -92,33 +81,12 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         })
     }
 
-    /// Fingerprint of the weights, after the passivity gate and the limit of processor time.
-    ///
-    /// Returns an error if the gate is not passed, or if the missing blocks of `wanted` cost too much.
-    /// `outlook` holds the samples of these blocks.
-    fn admit(
-        &self,
-        wanted: Range<usize>,
-        outlook: Option<&Outlook>,
-        watch: &mut Watch,
-    ) -> Result<u64> {
-        let missing = self.kept.missing(wanted.clone());
-        let gate = (!self.kept.is_checked()).then(|| self.gate().layout().len());
-        // A file may contain all blocks that are wanted.
-        let late = gate.is_some() && self.kept.file.is_some();
-        let first = if late { 0..0 } else { missing };
-        if gate.is_some() || !first.is_empty() {
-            self.quadrature.afford(first, gate, self.limit, outlook.filter(|_| !late))?;
-        }
-        let fingerprint = self.kept.gate(watch, |watch| {
+    /// Fingerprint of the weights, after the passivity gate.
+    fn admit(&self, watch: &mut Watch) -> Result<u64> {
+        self.kept.gate(watch, |watch| {
             self.quadrature.integrals.make_ready(watch)?;
             passivity::check(&self.quadrature, self.gate(), &self.mesh, watch)
-        })?;
-        let rest = self.kept.missing(wanted);
-        if late && !rest.is_empty() {
-            self.quadrature.afford(rest, None, self.limit, None)?;
-        }
-        Ok(fingerprint)
+        })
     }
 
     /// Error unless the blocks up to the last of `missing` fit into memory.
@@ -130,23 +98,20 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
-    /// Computes the blocks of lags up to `lags`; samples are counted in advance only for an observer.
+    /// Computes the blocks of lags up to `lags`.
     fn compute(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
         let last = last_block(lags.max(1))?;
         let missing = self.kept.missing(0..last + 1);
         self.fits(&missing)?;
-        let mut expected = vec![0; last + 1];
-        let mut watch = Watch::nobody();
-        let mut outlook = None;
-        if let Some(observer) = observer {
-            // If samples cannot be counted in advance, the computation fails as without an observer.
-            outlook = self.quadrature.outlook(missing.clone(), &mut I::Workspace::default()).ok();
-            let counts = outlook.iter().flat_map(Outlook::counts);
-            expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);
-            let total = passivity::POINTS + expected.iter().sum::<usize>();
-            watch = Watch::new("convolution weights of layered ground", total, observer);
-        }
-        let fingerprint = self.admit(0..last + 1, outlook.as_ref(), &mut watch)?;
+        // Upper limits: panels of the contour spare most samples of a long block.
+        let most = |number| self.quadrature.most_samples(number);
+        let expected = (0..=last).map(|n| if missing.contains(&n) { most(n) } else { 0 });
+        let expected: Vec<usize> = expected.collect();
+        let total = passivity::POINTS + expected.iter().sum::<usize>();
+        let mut watch = observer.map_or_else(Watch::nobody, |observer| {
+            Watch::new("convolution weights of layered ground", total, observer)
+        });
+        let fingerprint = self.admit(&mut watch)?;
         let complete = self.kept.missing(0..last + 1).is_empty();
         let mut done = passivity::POINTS;
         watch.reach(done)?;
@@ -172,14 +137,14 @@ impl<I: Priced<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         copy_lags(class, first_lag, values, |number| {
             if !self.kept.has(number) {
                 self.fits(&(number..number + 1))?;
-                self.admit(number..number + 1, None, &mut Watch::nobody())?;
+                self.admit(&mut Watch::nobody())?;
             }
             self.block(number, &mut Watch::nobody(), 0..0)
         })
     }
 }
 
-impl<I: Priced<KINDS>, const KINDS: usize> ConvolutionWeights for QuadratureWeights<I, KINDS> {
+impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for QuadratureWeights<I, KINDS> {
     fn classes(&self) -> &PairClasses {
         &self.classes
     }

@@ -153,26 +153,9 @@ impl FormTable {
         self.lattice.diagonal()
     }
 
-    /// Number of directions of all means.
-    pub(super) fn directions(&self) -> usize {
-        let means = AngularMeans::new(&self.lattice);
-        let middles = (0..self.end).map(|panel| self.width * (panel as f64 + 0.5));
-        middles.map(|k| POINTS * means.directions(k)).sum()
-    }
-
-    /// Number of offsets between two cells.
-    pub(super) fn offsets(&self) -> usize {
-        self.lattice.extent().into_iter().product()
-    }
-
     /// Number of panels up to the largest K.
     pub(super) fn most_panels(&self) -> usize {
         self.legendre.len()
-    }
-
-    /// Memory of the tabulated forms, bytes.
-    pub(super) fn memory(&self) -> f64 {
-        8.0 * (FORMS * POINTS * self.classes * self.most_panels()) as f64
     }
 
     /// κ, 1/m.

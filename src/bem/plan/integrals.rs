@@ -145,27 +145,6 @@ impl Compliances<SERIES> for Integrals {
 }
 
 impl Integrals {
-    /// Number of panels of an integral, of halved panels, and of evaluations of C.
-    pub(super) fn counts(
-        &self,
-        profile: &SoilProfile,
-        s: Complex,
-        work: &mut Workspace,
-    ) -> Result<[usize; 3]> {
-        let Workspace { ground, panels: work } = work;
-        ground.set(profile, s)?;
-        let panels = self.table.panels(ground.root());
-        let (modulus, _, a2) = ground.top();
-        let rest = series(a2)[0].map(|d| modulus.inverse().scale(d));
-        let (mut halved, before) = (0, work.evaluations);
-        let mut count = |panel: Option<usize>, _: &mut Scratch| {
-            halved += usize::from(panel.is_some());
-        };
-        self.resolve(panels, work, &mut Symbol { ground, rest }, &mut count)
-            .map_err(|wavenumber| unresolved(s, wavenumber))?;
-        Ok([panels, halved, work.evaluations - before])
-    }
-
     /// Integrals for `profile` at all Laplace variables of `list`; `tolerance` relative to a cell's own
     /// compliance.
     ///

@@ -1,15 +1,10 @@
-//! Convolution weights of a ground under cells of a lattice, and their cost, by counting as for
-//! [strips](crate::bem::layered).
+//! Convolution weights of a ground under cells of a lattice.
 
-use std::ops::Range;
 use std::path::PathBuf;
 
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
-use crate::bem::layered::{
-    Compliances, Cost, GATE_POINTS, MOST_HALVING, Outlook, POINTS, Priced, Quadrature,
-    QuadratureWeights, Stages, on_circle,
-};
+use crate::bem::layered::{Compliances, Quadrature, QuadratureWeights, Stages, on_circle};
 use crate::error::{Result, Watch, positive, same_length};
 use crate::geometry::{Lattice, SERIES};
 use crate::history::PairClasses;
@@ -49,10 +44,9 @@ pub(in crate::bem) fn static_compliance(
 pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES>;
 
 impl LatticeKernel {
-    /// Weights of `profile` under the cells of `plan`, for steps of `time_step` seconds.
+    /// Weights of `profile` under the cells of `plan` for a time step (s) and a relative tolerance.
     ///
-    /// To a relative `tolerance`. Weights are read from `file` if it contains them; computing others takes at most
-    /// `limit` seconds of a processor.
+    /// Weights that the file contains are not computed again.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step,
@@ -61,7 +55,7 @@ impl LatticeKernel {
         profile: SoilProfile,
         plan: &Plan,
         stages: Stages,
-        [time_step, tolerance, limit]: [f64; 3],
+        [time_step, tolerance]: [f64; 2],
         file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;
@@ -82,7 +76,7 @@ impl LatticeKernel {
         let sample = some.map(|cells| PairClasses::in_plan(plan.lattice.clone(), cells, 0.0));
         let Lattice { pitch, counts } = &plan.lattice;
         let mesh = pitch.iter().copied().chain(counts.iter().map(|count| *count as f64)).collect();
-        Ok(Self::new(quadrature, classes, sample.transpose()?, mesh, limit, file))
+        Ok(Self::new(quadrature, classes, sample.transpose()?, mesh, file))
     }
 }
 
@@ -100,74 +94,6 @@ fn scattered(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
         order.swap(place, other);
     }
     order.into_iter().take(SOME_CELLS).map(|place| cells[place]).collect()
-}
-
-/// Measured times of one thread, nanoseconds: an evaluation of the surface compliance, and each further layer in
-/// it; a product of a kernel and a form; a direction of the forms at a wavenumber, and a product there; a
-/// multiply–add of the passivity check's factorisation, and an entry of its matrix; a class at a point of a
-/// circle.
-const EVALUATION: f64 = 200.0;
-const LAYER: f64 = 200.0;
-const PRODUCT: f64 = 0.2;
-const DIRECTION: f64 = 170.0;
-const MEAN: f64 = 0.2;
-const FACTOR: f64 = 0.1;
-const ENTRY: f64 = 15.0;
-const POINT: f64 = 300.0;
-/// Products for a class at a wavenumber: two numbers of each sum that a form contributes to.
-const SUMS: f64 = 16.0;
-/// Products for an offset of two cells in a direction.
-const MEANS: f64 = 5.0;
-
-impl Priced<SERIES> for Integrals {
-    fn shortest(&self) -> f64 {
-        self.finest
-    }
-
-    /// Infinite with the passivity check, whose forms and factorisation are no samples.
-    fn most(
-        quadrature: &Quadrature<Self, SERIES>,
-        samples: f64,
-        gate: Option<usize>,
-    ) -> Result<f64> {
-        if gate.is_some() {
-            return Ok(f64::INFINITY);
-        }
-        let evaluation = EVALUATION + LAYER * quadrature.profile.layers().len() as f64;
-        let each = MOST_HALVING * evaluation + SUMS * PRODUCT * quadrature.classes as f64;
-        let panels = (POINTS * quadrature.integrals.table.most_panels()) as f64;
-        Ok(1e-9 * samples * panels * each)
-    }
-
-    fn cost(
-        quadrature: &Quadrature<Self, SERIES>,
-        outlook: &Outlook,
-        missing: Range<usize>,
-        gate: Option<usize>,
-    ) -> Result<(Cost, &'static str)> {
-        let (table, classes) = (&quadrature.integrals.table, quadrature.classes as f64);
-        let layers = quadrature.profile.layers().len() as f64;
-        let mut nanoseconds = gate.map_or(0.0, |order| {
-            let order = order as f64;
-            let check = order.powi(2) * (FACTOR * order / 6.0 + ENTRY);
-            let offsets = table.offsets() as f64;
-            table.directions() as f64 * (DIRECTION + MEAN * MEANS * offsets)
-                + GATE_POINTS as f64 * check
-        });
-        let (mut evaluations, mut work) = (0.0, Workspace::default());
-        quadrature.look(outlook, gate.is_some(), |s, samples| {
-            let [panels, halved, own] =
-                quadrature.integrals.counts(&quadrature.profile, s, &mut work)?;
-            let (rows, own) = ((POINTS * (panels + halved)) as f64, own as f64);
-            evaluations += samples * own;
-            let each = own * (EVALUATION + LAYER * layers) + rows * classes * SUMS * PRODUCT;
-            nanoseconds += samples * each;
-            Ok(())
-        })?;
-        nanoseconds += POINT * quadrature.points(&missing) as f64 * classes;
-        let memory = table.memory() + quadrature.memory(missing.end);
-        Ok((Cost { seconds: 1e-9 * nanoseconds, evaluations, memory }, "larger cells"))
-    }
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 //! | cells, faces | plan: cells on a lattice under faces, discs, masks |
 //! | forms, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
-//! | kernel | convolution weights by convolution quadrature, and their cost |
+//! | kernel | convolution weights by convolution quadrature |
 //! | sectors, impedance | rigid mats at one frequency |
 
 mod cells;

@@ -3,15 +3,6 @@
 use super::*;
 use crate::bem::{Grading, Strip};
 
-impl FormFactors {
-    /// Number of tables computed: narrowest panels, wide panels and halved panels.
-    pub(crate) fn made(&self) -> [usize; 3] {
-        let made = |tables: &[OnceLock<_>]| tables.iter().filter(|it| it.get().is_some()).count();
-        let wide = self.wide.iter().filter_map(OnceLock::get).map(|tables| made(tables)).sum();
-        [made(&self.values), wide, made(&self.legendre)]
-    }
-}
-
 /// Integrals by a wide panel equal the sum of its narrow panels, for elements with themselves and far apart.
 #[test]
 fn wide_panels_are_sums_of_narrow_ones() {

@@ -15,7 +15,7 @@ fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
 fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKernel {
     let [columns, rows] = lattice.counts;
     let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
-    LatticeKernel::in_plan(profile, &plan, stages, [STEP, 1e-10, 600.0], None).unwrap()
+    LatticeKernel::in_plan(profile, &plan, stages, [STEP, 1e-10], None).unwrap()
 }
 
 fn half_space() -> SoilProfile {
