@@ -283,8 +283,8 @@ pub enum Error {
     },
     /// A matrix of the step too ill-conditioned for double precision.
     #[error(
-        "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; what \
-         makes it so: {quantity}, {ratio:.1e}"
+        "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; \
+         cause: {quantity}, {ratio:.1e}"
     )]
     IllConditioned {
         /// Name of the matrix.
@@ -301,8 +301,8 @@ pub enum Error {
     /// The static state under the structure's weight was not found.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
-         (the resultants of the loads do not tell why, nor is the structure at rest a mechanism: is a part of it, or of \
-         its soil, loaded beyond what it can carry?)"
+         (loads are balanced and the structure is not a mechanism: check whether a part of it, or of its soil, is loaded \
+         beyond its capacity)"
     )]
     Preload {
         /// Iterations made.
