@@ -1,88 +1,122 @@
-//! Titles of columns, and the units that they name.
+//! The title of a column, and the unit that it names.
 
 use super::AccelerationUnit;
+use super::unit_name::{SECONDS, is_ratio, is_unit};
 use crate::error::RecordError;
 use crate::text::column::excerpt;
 
-/// Units in brackets of a title that are no units of acceleration.
-const OTHERS: [&str; 30] = [
-    "s", "sec", "secs", "second", "seconds", "ms", "msec", "min", "h", "hz", "m", "cm", "mm", "in",
-    "ft", "m/s", "cm/s", "mm/s", "in/s", "ft/s", "cm/sec", "m/sec", "mg", "mgal", "milli-g", "%g",
-    "count", "counts", "v", "mv",
-];
-/// Names of the second, the unit of a column of times.
-const SECONDS: [&str; 5] = ["s", "sec", "secs", "second", "seconds"];
-
-/// The titles in the fields of a line; a unit in brackets belongs to the title before it.
-pub(super) fn titles(fields: &[&str]) -> Vec<String> {
-    let mut titles: Vec<String> = Vec::new();
-    for field in fields {
-        let field = field.trim_start_matches('#').trim();
-        match titles.last_mut() {
-            Some(title) if field.starts_with(['(', '[']) => {
-                title.push(' ');
-                title.push_str(field);
-            }
-            _ if field.is_empty() => {}
-            _ => titles.push(field.to_owned()),
-        }
-    }
-    titles
-}
+/// Names of units, in lower case, that have another meaning without brackets: the least, the input, the main shock.
+const AMBIGUOUS: [&str; 12] =
+    ["s", "ms", "us", "min", "h", "v", "in", "%", "day", "days", "sample", "samples"];
+/// First words of titles of other quantities than accelerations, in lower case.
+const OTHER_QUANTITIES: [&str; 6] = ["t", "time", "vel", "velocity", "disp", "displacement"];
 
 /// Error if the title of a column of times names a unit other than the second.
 pub(super) fn check_time(title: &str) -> Result<(), RecordError> {
-    let fault = || Err(RecordError::TitleUnit { text: excerpt(title), unit: "s".into() });
-    match bracketed(title).or_else(|| appended(title).filter(|unit| unit.len() > 1)) {
-        Some(unit) if SECONDS.contains(&unit.to_ascii_lowercase().as_str()) => Ok(()),
-        Some(unit) if is_unit(&unit) => fault(),
+    match time_unit(title) {
+        Some(unit) if !SECONDS.contains(&unit.to_lowercase().trim_end_matches('.')) => {
+            Err(RecordError::TitleUnit { text: excerpt(title), unit: "s".into() })
+        }
         _ => Ok(()),
     }
 }
 
-/// Error if the title of a column of accelerations names a unit other than `expected`, or times.
+/// Error if the title of a column of accelerations names a unit other than `expected`, or another quantity.
 pub(super) fn check_acceleration(
     title: &str,
     expected: AccelerationUnit,
 ) -> Result<(), RecordError> {
-    let name = title.split(['(', '[', '_', ' ']).next().unwrap_or(title).to_ascii_lowercase();
-    if name == "t" || name == "time" {
-        let unit = expected.to_string();
-        return Err(RecordError::TitleUnit { text: excerpt(title), unit });
+    let same = |unit: &str| AccelerationUnit::named(unit) == Some(expected);
+    let other = OTHER_QUANTITIES.contains(&first_word(title).as_str())
+        && !title.to_lowercase().contains("acc");
+    if other || acceleration_unit(title).is_some_and(|unit| !same(unit)) {
+        return Err(RecordError::TitleUnit { text: excerpt(title), unit: expected.to_string() });
     }
-    let known = |unit: String| AccelerationUnit::named(&unit).is_some();
-    // After a name without brackets `s` may mean South.
-    let unit = bracketed(title).or_else(|| appended(title).filter(|unit| known(unit.clone())));
-    match unit {
-        Some(unit) if AccelerationUnit::named(&unit) == Some(expected) => Ok(()),
-        Some(unit) if is_unit(&unit) => {
-            Err(RecordError::TitleUnit { text: excerpt(title), unit: expected.to_string() })
+    Ok(())
+}
+
+/// The first word of a title, in lower case.
+pub(super) fn first_word(title: &str) -> String {
+    let title = title.trim_start_matches(['"', '\'']);
+    let word = title.split(|sign: char| !sign.is_alphanumeric()).next();
+    word.unwrap_or(title).to_lowercase()
+}
+
+/// The unit that the title of a column of times names.
+pub(super) fn time_unit(title: &str) -> Option<&str> {
+    bracketed(title).or_else(|| {
+        let known = |unit: &str| {
+            is_unit(unit) && unit != "in" && (unit == title || unit.len() > 1 || unit == "s")
+        };
+        endings(title).find(|unit| known(unit))
+    })
+}
+
+/// The unit that the title of a column of accelerations names.
+pub(super) fn acceleration_unit(title: &str) -> Option<&str> {
+    bracketed(title).or_else(|| {
+        let known = |unit: &str| {
+            // Behind a name `m` may be the middle.
+            let clear = !AMBIGUOUS.contains(&unit.to_lowercase().as_str())
+                && (unit == title || unit.len() > 1);
+            AccelerationUnit::named(unit).is_some() || is_ratio(unit) || clear && is_unit(unit)
+        };
+        endings(title).find(|unit| known(unit))
+    })
+}
+
+/// Whether a title is the name of a unit alone, in brackets or not.
+pub(super) fn is_unit_alone(title: &str) -> bool {
+    let bare = title.trim_matches(['(', ')', '[', ']', '{', '}', '"', '\'', ' ']);
+    is_unit(bare) || AccelerationUnit::named(bare).is_some()
+}
+
+/// The last unit in brackets in a title: `a (cm/s2)`, `acc[g] filtered`, `a (in cm/s2, corrected)`.
+fn bracketed(title: &str) -> Option<&str> {
+    let groups = groups(title);
+    let pieces = groups.iter().rev().flat_map(|group| group.split([',', ';']));
+    pieces.map(without_words).find(|piece| is_unit(piece))
+}
+
+/// A text without the words before a unit: `unit: g`, `in cm/s2`.
+fn without_words(text: &str) -> &str {
+    let text = text.trim();
+    let words = ["in units of ", "units of ", "units: ", "unit: ", "units ", "unit ", "in "];
+    words.iter().find_map(|word| text.strip_prefix(word)).unwrap_or(text).trim()
+}
+
+/// The texts in the outer brackets of a title; the last bracket may be open.
+fn groups(title: &str) -> Vec<&str> {
+    let (mut groups, mut depth, mut begin) = (Vec::new(), 0, 0);
+    for (at, sign) in title.char_indices() {
+        match sign {
+            '(' | '[' | '{' => {
+                if depth == 0 {
+                    begin = at + 1;
+                }
+                depth += 1;
+            }
+            ')' | ']' | '}' if depth > 0 => {
+                depth -= 1;
+                if depth == 0 {
+                    groups.push(&title[begin..at]);
+                }
+            }
+            _ => {}
         }
-        _ => Ok(()),
     }
-}
-
-/// Whether a text is a unit of acceleration or another unit; a single letter only in lower case.
-fn is_unit(text: &str) -> bool {
-    let lower = text.to_ascii_lowercase();
-    let other = OTHERS.contains(&lower.as_str()) && (text.len() > 1 || lower == text);
-    other || AccelerationUnit::named(text).is_some()
-}
-
-/// The text in the last brackets of a title: `a (cm/s2)`, `acc[g]`.
-fn bracketed(title: &str) -> Option<String> {
-    let (_, text) = title.rsplit_once(['(', '['])?;
-    let (text, _) = text.split_once([')', ']'])?;
-    Some(text.trim().to_owned())
-}
-
-/// The unit behind the name in a title: `time_ms`, `acceleration_m_per_s2`, `acc in g`.
-fn appended(title: &str) -> Option<String> {
-    if let Some((name, below)) = title.rsplit_once("_per_") {
-        let (_, above) = name.rsplit_once('_')?;
-        return Some(format!("{above}/{below}"));
+    if depth > 0 {
+        groups.push(&title[begin..]);
     }
-    Some(title.rsplit_once(['_', ' '])?.1.to_owned())
+    groups
+}
+
+/// The title and its ends behind a separator, from the longest to the shortest: `acc in cm/s2`, `in cm/s2`, `cm/s2`.
+fn endings(title: &str) -> impl Iterator<Item = &str> {
+    let title = title.trim_matches(['"', '\'', ' ']);
+    let separators = title.match_indices([' ', '_', ',', '=', '/', '-']);
+    let ends = separators.map(|(at, sign)| title[at + sign.len()..].trim());
+    std::iter::once(title).chain(ends)
 }
 
 #[cfg(test)]
@@ -90,45 +124,89 @@ mod tests {
     use super::*;
 
     #[test]
-    fn titles_name_units() {
-        use AccelerationUnit::{Gal, MetrePerSecondSquared, StandardGravity};
-        for title in ["t", "time (s)", "time[sec]", "Zeit", "time_s", "TIME (SEC)", "t (corrected)"]
-        {
+    fn titles_of_times_name_units() {
+        for title in [
+            "t",
+            "time (s)",
+            "time[sec]",
+            "Zeit",
+            "time_s",
+            "TIME (SEC)",
+            "t (corrected)",
+            "s",
+            "t / s",
+            "Time, s",
+            "t (sec.)",
+            "time (hh:mm:ss)",
+            "hh:mm:ss",
+            "\"time (s)\"",
+            "T",
+            "t [s] (UTC)",
+            "S",
+        ] {
             assert_eq!(check_time(title), Ok(()), "{title}");
         }
-        for title in ["time(ms)", "t [msec]", "time_ms", "time (min)", "t (g)", "a (cm/s2)"] {
+        for title in [
+            "time(ms)",
+            "t [msec]",
+            "time_ms",
+            "time (min)",
+            "t (g)",
+            "a (cm/s2)",
+            "ms",
+            "t / ms",
+            "cm/s2",
+            "Time, ms",
+            "h",
+            "\"ms\"",
+            "t (milliseconds)",
+            "t (µs)",
+            "sample",
+        ] {
             assert!(check_time(title).is_err(), "{title}");
         }
-        for (title, unit) in [
-            ("a", Gal),
-            ("N-S", Gal),
-            ("N_S", Gal),
-            ("acc (S)", Gal),
-            ("a (cm/s2)", Gal),
-            ("a [gal]", Gal),
-            ("acceleration_m_per_s2", MetrePerSecondSquared),
-            ("(m/s^2)", MetrePerSecondSquared),
-            ("acc_g", StandardGravity),
-            ("Acc. in g", StandardGravity),
-            ("a (filtered)", Gal),
+    }
+
+    #[test]
+    fn titles_of_accelerations_name_units() {
+        use AccelerationUnit::{Gal, MetrePerSecondSquared, StandardGravity};
+        for (titles, unit) in [
+            (
+                "a|N-S|N_S|acc (S)|a (cm/s2)|a [gal]|a (filtered)|a (NS)|a (H1)|a (MS-2)|S|H/V|a_min|a_in|in|min",
+                Gal,
+            ),
+            (
+                "a (cm/s2) filtered|a (cm/s2, filtered)|a (in cm/s2)|acc (NS, gal)|a, gal|cm/sec²|a_cm_s2|a/Gal",
+                Gal,
+            ),
+            (
+                "acceleration_m_per_s2|(m/s^2)|a (m s-2)|a / (m/s^2)|a (m/(s^2))|a (m/s\u{fffd})|ms-2|acc_m_s2",
+                MetrePerSecondSquared,
+            ),
+            ("acc_g|Acc. in g|g|\"g\"|a (g)|a [G]|N_G|50g (NS)|a_ms", StandardGravity),
         ] {
-            assert_eq!(check_acceleration(title, unit), Ok(()), "{title}");
+            for title in titles.split('|') {
+                assert_eq!(check_acceleration(title, unit), Ok(()), "{title}");
+            }
         }
-        for (title, unit) in [
-            ("a (cm/s2)", MetrePerSecondSquared),
-            ("acc[g]", Gal),
-            ("acc_g", Gal),
-            ("a (mg)", StandardGravity),
-            ("v (cm/s)", Gal),
-            ("time (s)", Gal),
-            ("u (m)", Gal),
-            ("t", Gal),
-            ("Time", Gal),
-            ("acceleration_m_per_s2", StandardGravity),
+        for (titles, unit) in [
+            (
+                "a (cm/s2)|cm/s2|a, gal|a_cm_s2|cm/sec²|acc (gal, NS)|a (cm/s\u{fffd})",
+                MetrePerSecondSquared,
+            ),
+            (
+                "a (mg)|a (%g)|mg|%g|a_mg|a (m s-2)|a (cm/sec²)|a (ms-2)|acceleration_m_per_s2|ms-2|a (10^-3 g)",
+                StandardGravity,
+            ),
+            (
+                "acc[g]|acc_g|v (cm/s)|velocity_m_per_s|time (s)|t|Time|u (m)|disp_cm|counts|a (counts)|velocity|acc (G)",
+                Gal,
+            ),
+            ("a (g, filtered|a (unit: g)|a (in g)|a (mm/s2)|a (m/s^-2)|cm/s|a/g|\"t\"", Gal),
         ] {
-            assert!(check_acceleration(title, unit).is_err(), "{title}");
+            for title in titles.split('|') {
+                assert!(check_acceleration(title, unit).is_err(), "{title}");
+            }
         }
-        assert_eq!(titles(&["#time", "(ms)", "a", "[cm/s2]"]), ["time (ms)", "a [cm/s2]"]);
-        assert_eq!(titles(&["#", "t", "a"]), ["t", "a"]);
     }
 }

@@ -234,6 +234,11 @@ impl<'a> Fields<'a> {
         Self { line, separator, texts }
     }
 
+    /// Number of fields without the empty ones at the end of the line.
+    pub(super) fn filled(&self) -> usize {
+        self.texts.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1)
+    }
+
     /// Time (s) in a column, counted from 1: seconds or a time of day.
     pub(super) fn time(
         &self,

@@ -19,6 +19,7 @@ mod fixed_columns;
 mod format;
 mod free_field;
 mod geonet;
+mod header_line;
 mod integral;
 mod k_net;
 mod k_net_csv;
@@ -32,6 +33,7 @@ mod smc;
 mod spectrum;
 mod travelling_wave;
 mod unit;
+mod unit_name;
 
 pub use afad::AfadFormat;
 pub use baseline::Baseline;

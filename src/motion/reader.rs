@@ -5,7 +5,7 @@
 use std::io::Read;
 
 use super::clock::Clock;
-use super::column_title::{check_acceleration, check_time, titles};
+use super::header_line::{ColumnTitles, HeaderLines};
 use super::lines::{
     Fields, Lines, Reason, Series, component, is_failure, is_header, is_like_number, record,
     records,
@@ -39,8 +39,10 @@ const COARSE: f64 = 3.0;
 /// rounded to twelve digits, or the second time where all are exact multiples of it, as [`Record::csv`] writes
 /// them. The first time may be any; the record starts there. If times are rounded too coarsely, for example 128
 /// samples a second to 1 ms, set `time_step`. A title that names another unit, such as `time (ms)` or `a (cm/s2)`
-/// in a file that is read in g, is an error. [`equally_spaced`](Self::equally_spaced) reads files without a time
-/// column. A file cut within its last number looks like a complete one: set `samples` where their number is known.
+/// in a file that is read in g, is an error. Every line before the numbers that has as many titles as there are
+/// columns counts, comments included; of several lines that name a unit for a column, the last one counts.
+/// [`equally_spaced`](Self::equally_spaced) reads files without a time column. A file cut within its last number
+/// looks like a complete one: set `samples` where their number is known.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -163,15 +165,14 @@ impl Table {
         let mut table = Self::default();
         let factor = format.unit.in_metres_per_second_squared();
         let mut header_may_come = true;
-        // Titles of the columns, from the last line before the numbers.
-        let mut title = Vec::new();
+        let mut header = HeaderLines::default();
         let mut chosen = Vec::new();
         let mut columns = None;
         while let Some(text) = lines.next()? {
             let passed = lines.number <= format.header_lines;
             if text.is_empty() || passed || text.starts_with('#') && !is_failure(&text) {
-                if columns.is_none() && !text.is_empty() {
-                    title = titles(&Fields::of(&text).texts);
+                if columns.is_none() {
+                    header.add(&text);
                 }
                 continue;
             }
@@ -179,13 +180,14 @@ impl Table {
             let is_header = header_may_come && is_header(&fields);
             header_may_come = false;
             if is_header {
-                title = titles(&fields.texts);
+                header.add(&text);
                 continue;
             }
             let found = fields.texts.len();
+            let filled = fields.filled();
             let refuse = |why| lines.refuse(in_header(why, &fields, columns.is_none()));
             if columns.is_none() {
-                chosen = chosen_columns(format, all, found);
+                chosen = chosen_columns(format, all, filled);
                 // Without times, only this check distinguishes `Station 7` from a sample.
                 if let Some(field) = first_word(&fields).filter(|_| format.time_step.is_some()) {
                     return Err(lines.refuse(RecordError::HeaderLine { text: excerpt(field) }));
@@ -196,8 +198,8 @@ impl Table {
                     .times
                     .push(fields.time(format.time_column, &mut table.clock).map_err(refuse)?);
             }
-            if !all && format.acceleration_column.is_none() && found > 1 {
-                return Err(refuse(RecordError::SeveralColumns { found }));
+            if !all && format.acceleration_column.is_none() && filled > 1 {
+                return Err(refuse(RecordError::SeveralColumns { found: filled }));
             }
             for (k, &column) in chosen.iter().enumerate() {
                 let value = fields.number(column).map_err(refuse)?;
@@ -207,9 +209,11 @@ impl Table {
                 table.columns[k].push(value * factor);
             }
             if columns.is_none() {
-                table.names =
-                    names(format, &title, &chosen, found).map_err(|why| lines.refuse(why))?;
+                let titles = header.titles(&(filled..=found));
+                table.names = names(format, &titles, &chosen).map_err(|why| lines.refuse(why))?;
             }
+            // The cells behind the last comma may be empty in all lines.
+            let found = if all { filled } else { found };
             let expected = *columns.get_or_insert(found);
             // A comma of thousands, or an empty field between tabs, has shifted the following columns.
             let moved = fields.separator == Some(',') || text.contains("\t\t") || all;
@@ -287,21 +291,15 @@ fn chosen_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<usize> 
 /// Names of the chosen columns; an error if a title names another unit.
 fn names(
     format: &ColumnFormat,
-    titles: &[String],
+    titles: &ColumnTitles,
     chosen: &[usize],
-    found: usize,
 ) -> std::result::Result<Vec<String>, RecordError> {
-    // A different number of words means that they are no titles.
-    let title = |column: usize| titles.get(column - 1).filter(|_| titles.len() == found);
-    if format.time_step.is_none()
-        && let Some(title) = title(format.time_column)
-    {
-        check_time(title)?;
+    if format.time_step.is_none() {
+        titles.check_time(format.time_column)?;
     }
     let name = |&column: &usize| {
-        let Some(title) = title(column) else { return Ok(format!("column {column}")) };
-        check_acceleration(title, format.unit)?;
-        Ok(title.clone())
+        titles.check_acceleration(column, format.unit)?;
+        Ok(titles.name(column).map_or_else(|| format!("column {column}"), str::to_owned))
     };
     chosen.iter().map(name).collect()
 }

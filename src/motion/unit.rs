@@ -1,11 +1,9 @@
 //! Units of acceleration, and quantities with units in the titles of records.
 
 use std::fmt;
-use std::str::FromStr;
 
-use crate::error::{Error, RecordError, Result};
+use crate::error::RecordError;
 use crate::text::column::{excerpt, finite};
-use crate::text::words::unknown;
 
 /// Standard gravity, 9.80665 m/s² (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -51,31 +49,6 @@ impl AccelerationUnit {
             Self::InchPerSecondSquared => 0.0254,
         }
     }
-
-    /// The unit with this name in files, in upper or lower case.
-    pub(super) fn named(name: &str) -> Option<Self> {
-        let name = name.trim().trim_end_matches('.').to_ascii_lowercase();
-        match name.as_str() {
-            "g" | "g's" | "gs" => return Some(Self::StandardGravity),
-            "gal" | "gals" => return Some(Self::Gal),
-            _ => {}
-        }
-        let (length, time) = name.split_once('/')?;
-        if !matches!(
-            time.trim(),
-            "s2" | "s²" | "s^2" | "s**2" | "s/s" | "sec2" | "sec^2" | "sec**2" | "sec/sec"
-        ) {
-            return None;
-        }
-        match length.trim() {
-            "m" => Some(Self::MetrePerSecondSquared),
-            "cm" | "cms" => Some(Self::Gal),
-            "mm" => Some(Self::MillimetrePerSecondSquared),
-            "ft" => Some(Self::FootPerSecondSquared),
-            "in" => Some(Self::InchPerSecondSquared),
-            _ => None,
-        }
-    }
 }
 
 /// The name of the unit: `m/s²`, `g`, `Gal`.
@@ -89,25 +62,6 @@ impl fmt::Display for AccelerationUnit {
             Self::FootPerSecondSquared => "ft/s²",
             Self::InchPerSecondSquared => "in/s²",
         })
-    }
-}
-
-/// Also accepts the names in files: `cm/s2`, `m/s^2`, `m/sec/sec`, in upper or lower case.
-///
-/// ```
-/// use basemat::motion::AccelerationUnit;
-/// assert_eq!("cm/s^2".parse(), Ok(AccelerationUnit::Gal));
-/// assert_eq!("m/s²".parse(), Ok(AccelerationUnit::MetrePerSecondSquared));
-/// assert!("mg".parse::<AccelerationUnit>().is_err());
-/// ```
-impl FromStr for AccelerationUnit {
-    type Err = Error;
-
-    /// # Errors
-    /// [`Error::Word`] with the known units.
-    fn from_str(text: &str) -> Result<Self> {
-        let known = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
-        Self::named(text).ok_or_else(|| unknown("unit of acceleration", text, known))
     }
 }
 

@@ -12,6 +12,7 @@ mod motion_formats;
 mod motion_reader;
 mod odd_columns;
 mod odd_headers;
+mod odd_titles;
 mod parts_and_files;
 mod records;
 mod response_spectrum;

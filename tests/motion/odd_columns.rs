@@ -170,38 +170,6 @@ fn an_empty_field_between_tabs_is_not_passed_over() {
     is_read("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
 }
 
-/// A title that names another unit than the file is read in.
-#[test]
-fn titles_are_held_against_the_format() {
-    for text in [
-        "time(ms),a\n0,1\n0.02,2\n",
-        "# time (ms), a (m/s2)\n0,1\n0.02,2\n",
-        "time (ms) a\n0 1\n0.02 2\n",
-        "t,a (cm/s2)\n0,1\n0.02,2\n",
-        "t a [g]\n0 1\n0.02 2\n",
-        "time_s,velocity (cm/s)\n0,1\n0.02,2\n",
-        "time_s,acceleration_g\n0,1\n0.02,2\n",
-        "a (m/s2),t (s)\n0,1\n0.02,2\n",
-    ] {
-        let (line, reason) = refusal(text, &pairs());
-        assert!(line == 2 && matches!(reason, RecordError::TitleUnit { .. }), "{text:?}: {reason}");
-    }
-    for text in [
-        "time (s),a (m/s2)\n0,1\n0.02,2\n",
-        "time_s,acceleration_m_per_s2\n0,1\n0.02,2\n",
-        "t (sec) a (m/sec/sec)\n0 1\n0.02 2\n",
-        "t,a (filtered)\n0,1\n0.02,2\n",
-        // Of other columns, and of other lines.
-        "t,a,v (cm/s)\n0,1,5\n0.02,2,5\n",
-        "# time (ms), a\nt,a\n0,1\n0.02,2\n",
-        "# (ms)\n0,1\n0.02,2\n",
-    ] {
-        is_read(text, &pairs(), &[1.0, 2.0]);
-    }
-    let (_, reason) = refusal("acc (cm/s2)\n1\n2\n", &alone());
-    assert!(matches!(reason, RecordError::TitleUnit { .. }), "{reason}");
-}
-
 #[test]
 fn lines_of_header_are_passed_over() {
     let after = |header_lines| ColumnFormat { header_lines, ..pairs() };

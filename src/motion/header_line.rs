@@ -1,0 +1,265 @@
+//! Lines before the numbers of a file with columns, and the titles of columns in them.
+
+use std::collections::VecDeque;
+use std::ops::RangeInclusive;
+
+use super::AccelerationUnit;
+use super::column_title::{
+    acceleration_unit, check_acceleration, check_time, first_word, is_unit_alone, time_unit,
+};
+use super::unit_name::is_unit;
+use crate::error::RecordError;
+use crate::text::column::finite;
+
+/// Most lines before the numbers in which titles are sought.
+const MOST_LINES: usize = 100;
+
+/// The lines before the numbers of a file with columns.
+#[derive(Default)]
+pub(super) struct HeaderLines(VecDeque<String>);
+
+impl HeaderLines {
+    /// Adds a line.
+    pub(super) fn add(&mut self, line: &str) {
+        let line = line.trim_start_matches('#').trim();
+        // Other marks of a comment; a `%` may begin a unit.
+        let marks = ["% ", "// ", "! ", "; ", "* "];
+        let line = marks.iter().find_map(|mark| line.strip_prefix(mark)).unwrap_or(line);
+        if line.contains(char::is_alphabetic) {
+            if self.0.len() == MOST_LINES {
+                self.0.pop_front();
+            }
+            self.0.push_back(line.to_owned());
+        }
+    }
+
+    /// The titles in each line. The number of columns may be any of a range, as the last cells of a line may be empty.
+    pub(super) fn titles(&self, columns: &RangeInclusive<usize>) -> ColumnTitles {
+        ColumnTitles(self.0.iter().map(|line| LineTitles::of(line, columns)).collect())
+    }
+}
+
+/// Titles of columns, line by line.
+pub(super) struct ColumnTitles(Vec<LineTitles>);
+
+impl ColumnTitles {
+    /// Error if the titles of a column of times, counted from 1, name a unit other than the second.
+    pub(super) fn check_time(&self, column: usize) -> Result<(), RecordError> {
+        let alone = |word: &str| word == "t" || word == "time";
+        let lines = self.0.iter().rev();
+        let mut titles = lines.filter_map(|line| line.title(column).or_else(|| line.alone(alone)));
+        titles.find(|title| time_unit(title).is_some()).map_or(Ok(()), check_time)
+    }
+
+    /// Error if the titles of a column of accelerations name a unit other than `expected`, or another quantity.
+    pub(super) fn check_acceleration(
+        &self,
+        column: usize,
+        expected: AccelerationUnit,
+    ) -> Result<(), RecordError> {
+        if let Some(name) = self.name(column) {
+            check_acceleration(name, expected)?;
+        }
+        let alone = |word: &str| word.starts_with("acc");
+        let lines = self.0.iter().rev();
+        let mut titles = lines.filter_map(|line| line.title(column).or_else(|| line.alone(alone)));
+        let title = titles.find(|title| acceleration_unit(title).is_some());
+        title.map_or(Ok(()), |title| check_acceleration(title, expected))
+    }
+
+    /// The name of a column: its last title that is more than a unit.
+    pub(super) fn name(&self, column: usize) -> Option<&str> {
+        let mut titles = self.0.iter().rev().filter_map(|line| line.title(column));
+        titles.find(|title| !is_unit_alone(title))
+    }
+}
+
+/// Titles in a line.
+enum LineTitles {
+    /// Titles of all columns.
+    All(Vec<String>),
+    /// A line for one of several columns, or for none.
+    One(String),
+}
+
+impl LineTitles {
+    fn of(line: &str, columns: &RangeInclusive<usize>) -> Self {
+        let white = |sign: char| sign.is_whitespace();
+        let sign = [';', ','].into_iter().find(|&sign| line.contains(sign));
+        let mut readings: Vec<_> =
+            sign.iter().map(|&sign| with_brackets(cells(line, sign))).collect();
+        readings.push(with_brackets(words(line, white, 1)));
+        readings.push(words(line, |sign| sign == '\t', 1));
+        readings.push(words(line, white, 2));
+        readings.push(behind_brackets(line));
+        let more: Vec<_> = readings.iter().map(|titles| with_units(titles)).collect();
+        readings.extend(more);
+        readings.push(vec![line.to_owned()]);
+        let fits = |titles: &Vec<String>| {
+            let last = titles.iter().rposition(|title| !title.is_empty());
+            last.is_some_and(|last| columns.contains(&(last + 1)))
+                && !titles.iter().any(|title| states_a_number(title))
+        };
+        match readings.into_iter().find(fits) {
+            Some(titles) => Self::All(titles),
+            None => Self::One(line.to_owned()),
+        }
+    }
+
+    /// The title of a column, counted from 1, if the line has one.
+    fn title(&self, column: usize) -> Option<&str> {
+        let Self::All(titles) = self else { return None };
+        titles.get(column.checked_sub(1)?).map(String::as_str).filter(|title| !title.is_empty())
+    }
+
+    /// The line, if it is a title alone and its first word is a known one.
+    fn alone(&self, known: fn(&str) -> bool) -> Option<&str> {
+        let Self::One(line) = self else { return None };
+        (known(&first_word(line)) && !states_a_number(line)).then_some(line)
+    }
+}
+
+/// The cells between the `separator`s of a line, empty ones included. Brackets keep a cell together.
+fn cells(line: &str, separator: char) -> Vec<String> {
+    let mut depth = 0;
+    let apart = line.split(|sign| {
+        depth = depth_after(sign, depth);
+        sign == separator && depth == 0
+    });
+    apart.map(|cell| cell.trim().to_owned()).collect()
+}
+
+/// The words of a line, with at least `least` separators between them. Brackets keep a word together.
+fn words(line: &str, separates: fn(char) -> bool, least: usize) -> Vec<String> {
+    let (mut words, mut depth, mut gap) = (vec![String::new()], 0, String::new());
+    for sign in line.chars() {
+        depth = depth_after(sign, depth);
+        if separates(sign) && depth == 0 {
+            gap.push(sign);
+            continue;
+        }
+        if gap.chars().count() >= least {
+            words.push(String::new());
+        } else if let Some(word) = words.last_mut() {
+            word.push_str(&gap);
+        }
+        gap.clear();
+        if let Some(word) = words.last_mut() {
+            word.push(sign);
+        }
+    }
+    let words = words.into_iter().map(|word| word.trim().to_owned());
+    words.filter(|word| !word.is_empty()).collect()
+}
+
+/// The number of open brackets behind a sign.
+fn depth_after(sign: char, depth: usize) -> usize {
+    match sign {
+        '(' | '[' | '{' => depth + 1,
+        ')' | ']' | '}' => depth.saturating_sub(1),
+        _ => depth,
+    }
+}
+
+/// Titles in which brackets belong to the title before them, unless that has brackets of its own.
+fn with_brackets(titles: Vec<String>) -> Vec<String> {
+    let bracket = ['(', '[', '{'];
+    let mut merged: Vec<String> = Vec::new();
+    for title in titles {
+        match merged.last_mut().filter(|last| !last.is_empty() && !last.contains(bracket)) {
+            Some(last) if title.starts_with(bracket) => {
+                last.push(' ');
+                last.push_str(&title);
+            }
+            _ => merged.push(title),
+        }
+    }
+    merged
+}
+
+/// Titles in which a unit belongs to the title before it, unless that has a unit of its own: `t in s  a in g`.
+fn with_units(titles: &[String]) -> Vec<String> {
+    let mut merged: Vec<String> = Vec::new();
+    let mut has_unit = true;
+    for title in titles {
+        let word = title == "in";
+        match merged.last_mut().filter(|_| !has_unit && (word || is_unit(title))) {
+            Some(last) => {
+                last.push(' ');
+                last.push_str(title);
+                has_unit = !word;
+            }
+            None => {
+                merged.push(title.clone());
+                has_unit = title.contains(['(', '[', '{']);
+            }
+        }
+    }
+    merged
+}
+
+/// The parts of a line that end with brackets: `Elapsed time [s] Ground acceleration [cm/s2]`.
+fn behind_brackets(line: &str) -> Vec<String> {
+    let mut depth = 0;
+    let parts = line.split_inclusive(|sign| {
+        let before = depth;
+        depth = depth_after(sign, depth);
+        before > 0 && depth == 0
+    });
+    let parts = parts.map(|part| part.trim_matches([' ', '\t', ',', ';']).to_owned());
+    parts.filter(|part| !part.is_empty()).collect()
+}
+
+/// Whether a text states a value, as `PGA (g) 0.31` does; `CH 1` and `H 090` are names.
+fn states_a_number(text: &str) -> bool {
+    let is_name = |word: &str| {
+        let digits = word.bytes().all(|sign| sign.is_ascii_digit());
+        digits
+            && (word.len() < 3
+                || word.len() == 3 && (word.starts_with('0') || word == "180" || word == "270"))
+    };
+    let mut words = text.split([' ', '\t', '=', ':', ',']).filter(|word| !word.is_empty());
+    finite(text).is_some() || words.any(|word| finite(word).is_some() && !is_name(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_read_as_titles_in_many_ways() {
+        for (line, titles) in [
+            ("t,a", "t|a"),
+            ("time (ms) a [cm/s2]", "time (ms)|a [cm/s2]"),
+            ("(s),(cm/s2)", "(s)|(cm/s2)"),
+            ("(s) (cm/s2)", "(s)|(cm/s2)"),
+            ("time, (ms), a, (g)", "time (ms)|a (g)"),
+            ("t (s), a (g, filtered)", "t (s)|a (g, filtered)"),
+            (
+                "Elapsed time [s] Ground acceleration [cm/s2]",
+                "Elapsed time [s]|Ground acceleration [cm/s2]",
+            ),
+            ("Elapsed time\tGround acceleration", "Elapsed time|Ground acceleration"),
+            ("Elapsed time  Ground acceleration", "Elapsed time|Ground acceleration"),
+            ("t ms a cm/s2", "t ms|a cm/s2"),
+            ("t in s a in g", "t in s|a in g"),
+            ("Time, s; Acc, g", "Time, s|Acc, g"),
+            ("Time, s, Acc, g", "Time s|Acc g"),
+            ("t (s), CH 1 (g)", "t (s)|CH 1 (g)"),
+            ("t,a,", "t|a|"),
+        ] {
+            let LineTitles::All(found) = LineTitles::of(line, &(2..=2)) else { panic!("{line}") };
+            assert_eq!(found.join("|"), titles, "{line}");
+        }
+        for line in [
+            "PGA (g) 0.31",
+            "PGA (g): 312",
+            "one two three",
+            "dt = 0.02",
+            "Station 1000",
+            "time (s)",
+        ] {
+            assert!(matches!(LineTitles::of(line, &(2..=2)), LineTitles::One(_)), "{line}");
+        }
+    }
+}
