@@ -7,8 +7,12 @@
 use std::io::Read;
 
 use super::agreement;
-use super::lines::{Lines, Reason, Series, component, count, push_numbers, record, records};
-use super::unit::HeaderNumber;
+use super::column_title::check_acceleration;
+use super::header_line::titles_of_words;
+use super::lines::{
+    Lines, Reason, Series, component, count, is_like_number, push_numbers, record, records,
+};
+use super::unit::{HeaderNumber, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
@@ -19,8 +23,8 @@ use crate::text::column::finite;
 ///
 /// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line with the
 /// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`] returns all components.
-/// An error if samples or peaks (`RAW PGA VALUES (gal)`) differ from the header. Newer files of AFAD (`.asc`) have
-/// the layout of [`EsmFormat`](super::EsmFormat).
+/// An error if samples or peaks (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of
+/// acceleration other than gal. Newer files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
 ///
 /// ```
 /// use basemat::motion::{AfadFormat, Record};
@@ -58,6 +62,8 @@ impl RecordFormat for AfadFormat {
     }
 }
 
+const GAL: AccelerationUnit = AccelerationUnit::Gal;
+
 /// Entries of the header that are used.
 #[derive(Default)]
 struct Header {
@@ -69,21 +75,26 @@ struct Header {
 
 impl Header {
     fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), RecordError> {
-        let key = key.to_ascii_uppercase();
-        if key.starts_with("NUMBER OF DATA") {
+        let upper = key.to_ascii_uppercase();
+        if upper.starts_with("NUMBER OF DATA") {
             self.points = HeaderNumber::Points.read(value)?.and_then(count);
-        } else if let Some(unit) = key.strip_prefix("SAMPLING INTERVAL") {
+        } else if let Some(unit) = upper.strip_prefix("SAMPLING INTERVAL") {
             self.interval = HeaderNumber::TimeStep.read(&format!("{value} {}", unit.trim()))?;
-        } else if key.contains("PGA") && key.contains("(GAL)") {
-            value.clone_into(&mut self.peaks);
+        } else if upper.contains("PGA") {
+            check_acceleration(key, GAL)?;
+            self.peaks = value.to_ascii_uppercase();
         }
         Ok(())
     }
 
     /// Peak of a component, gal; zero if there is none: `(N-S) 13.2 (E-W) 12.2`.
-    fn peak(&self, name: &str) -> f64 {
+    fn peak(&self, name: &str) -> std::result::Result<f64, RecordError> {
+        let name = name.split(['(', '[']).next().unwrap_or(name).trim().to_ascii_uppercase();
         let text = self.peaks.split_once(&format!("({name})")).map_or("", |(_, text)| text);
-        text.split_whitespace().next().and_then(finite).unwrap_or(0.0)
+        match text.split_whitespace().next() {
+            Some(word) => finite(word).ok_or_else(|| unclear("peak acceleration", word)),
+            None => Ok(0.0),
+        }
     }
 }
 
@@ -93,7 +104,7 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
     let step = header.interval.filter(|&step| step > 0.0);
     let step = step.ok_or_else(|| missing("sampling interval (SAMPLING INTERVAL)"))?;
     let needed = header.points.ok_or_else(|| missing("number of samples (NUMBER OF DATA)"))?;
-    let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
+    let gal = GAL.in_metres_per_second_squared();
     let mut columns = vec![Vec::new(); names.len()];
     let mut row = first;
     loop {
@@ -119,8 +130,9 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
     }
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
-        let agrees = agreement::peak(&samples, header.peak(&name) * gal);
-        agrees.map_err(|reason| lines.refuse(reason))?;
+        let peak = header.peak(&name);
+        peak.and_then(|peak| agreement::peak(&samples, peak * gal))
+            .map_err(|reason| lines.refuse(reason))?;
         components.push(Series { name, step, samples });
     }
     Ok(components)
@@ -136,11 +148,14 @@ fn head(lines: &mut Lines) -> Reason<(Header, Vec<String>, Vec<f64>)> {
         if let Some((key, value)) = line.split_once(':') {
             let understood = header.read(key.trim(), value.trim());
             understood.map_err(|reason| lines.refuse(reason))?;
-        } else if push_numbers(&line, &mut row).is_ok() && !row.is_empty() {
-            let names: Vec<String> = title.split_whitespace().map(str::to_owned).collect();
+        } else if !line.is_empty() && line.split_whitespace().all(is_like_number) {
+            push_numbers(&line, &mut row).map_err(|reason| lines.refuse(reason))?;
+            let names = titles_of_words(&title);
             if names.is_empty() {
                 break;
             }
+            let units = names.iter().try_for_each(|name| check_acceleration(name, GAL));
+            units.map_err(|reason| lines.refuse(reason))?;
             return Ok((header, names, row));
         }
         if !line.is_empty() {

@@ -6,10 +6,10 @@ use crate::error::RecordError;
 use crate::text::column::excerpt;
 
 /// Names of units, in lower case, that have another meaning without brackets: the least, the input, the main shock.
-const AMBIGUOUS: [&str; 12] =
-    ["s", "ms", "us", "min", "h", "v", "in", "%", "day", "days", "sample", "samples"];
-/// First words of titles of other quantities than accelerations, in lower case.
-const OTHER_QUANTITIES: [&str; 6] = ["t", "time", "vel", "velocity", "disp", "displacement"];
+const AMBIGUOUS: [&str; 11] =
+    ["s", "ms", "min", "h", "v", "in", "%", "day", "days", "sample", "samples"];
+/// First words, in lower case, in titles of quantities other than acceleration.
+const OTHER_QUANTITIES: [&str; 5] = ["time", "vel", "velocity", "disp", "displacement"];
 
 /// Error if the title of a column of times names a unit other than the second.
 pub(super) fn check_time(title: &str) -> Result<(), RecordError> {
@@ -27,7 +27,10 @@ pub(super) fn check_acceleration(
     expected: AccelerationUnit,
 ) -> Result<(), RecordError> {
     let same = |unit: &str| AccelerationUnit::named(unit) == Some(expected);
-    let other = OTHER_QUANTITIES.contains(&first_word(title).as_str())
+    let word = first_word(title);
+    // `T` may be the transverse component.
+    let other = (OTHER_QUANTITIES.contains(&word.as_str())
+        || word == "t" && title.trim_start_matches(['"', '\'']).starts_with('t'))
         && !title.to_lowercase().contains("acc");
     if other || acceleration_unit(title).is_some_and(|unit| !same(unit)) {
         return Err(RecordError::TitleUnit { text: excerpt(title), unit: expected.to_string() });
@@ -67,7 +70,7 @@ pub(super) fn acceleration_unit(title: &str) -> Option<&str> {
 
 /// Whether a title is the name of a unit alone, in brackets or not.
 pub(super) fn is_unit_alone(title: &str) -> bool {
-    let bare = title.trim_matches(['(', ')', '[', ']', '{', '}', '"', '\'', ' ']);
+    let bare = title.trim_matches(['(', ')', '[', ']', '{', '}', '（', '）', '"', '\'', ' ']);
     is_unit(bare) || AccelerationUnit::named(bare).is_some()
 }
 
@@ -90,13 +93,13 @@ fn groups(title: &str) -> Vec<&str> {
     let (mut groups, mut depth, mut begin) = (Vec::new(), 0, 0);
     for (at, sign) in title.char_indices() {
         match sign {
-            '(' | '[' | '{' => {
+            '(' | '[' | '{' | '（' => {
                 if depth == 0 {
-                    begin = at + 1;
+                    begin = at + sign.len_utf8();
                 }
                 depth += 1;
             }
-            ')' | ']' | '}' if depth > 0 => {
+            ')' | ']' | '}' | '）' if depth > 0 => {
                 depth -= 1;
                 if depth == 0 {
                     groups.push(&title[begin..at]);
@@ -125,44 +128,14 @@ mod tests {
 
     #[test]
     fn titles_of_times_name_units() {
-        for title in [
-            "t",
-            "time (s)",
-            "time[sec]",
-            "Zeit",
-            "time_s",
-            "TIME (SEC)",
-            "t (corrected)",
-            "s",
-            "t / s",
-            "Time, s",
-            "t (sec.)",
-            "time (hh:mm:ss)",
-            "hh:mm:ss",
-            "\"time (s)\"",
-            "T",
-            "t [s] (UTC)",
-            "S",
-        ] {
+        let seconds = "t|time (s)|time[sec]|Zeit|time_s|TIME (SEC)|t (corrected)|s|t / s|Time, s|t (sec.)|S|T|\
+            time (hh:mm:ss)|hh:mm:ss|\"time (s)\"|t [s] (UTC)";
+        for title in seconds.split('|') {
             assert_eq!(check_time(title), Ok(()), "{title}");
         }
-        for title in [
-            "time(ms)",
-            "t [msec]",
-            "time_ms",
-            "time (min)",
-            "t (g)",
-            "a (cm/s2)",
-            "ms",
-            "t / ms",
-            "cm/s2",
-            "Time, ms",
-            "h",
-            "\"ms\"",
-            "t (milliseconds)",
-            "t (µs)",
-            "sample",
-        ] {
+        let others = "time(ms)|t [msec]|time_ms|time (min)|t (g)|a (cm/s2)|ms|t / ms|cm/s2|Time, ms|h|\"ms\"|\
+            t (milliseconds)|t (µs)|sample";
+        for title in others.split('|') {
             assert!(check_time(title).is_err(), "{title}");
         }
     }
@@ -183,7 +156,7 @@ mod tests {
                 "acceleration_m_per_s2|(m/s^2)|a (m s-2)|a / (m/s^2)|a (m/(s^2))|a (m/s\u{fffd})|ms-2|acc_m_s2",
                 MetrePerSecondSquared,
             ),
-            ("acc_g|Acc. in g|g|\"g\"|a (g)|a [G]|N_G|50g (NS)|a_ms", StandardGravity),
+            ("acc_g|Acc. in g|g|T|V|\"g\"|a (g)|a [G]|N_G|50g (NS)|a_ms", StandardGravity),
         ] {
             for title in titles.split('|') {
                 assert_eq!(check_acceleration(title, unit), Ok(()), "{title}");

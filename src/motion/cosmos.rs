@@ -100,7 +100,7 @@ impl RecordFormat for CosmosFormat {
 fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reason<Vec<Series>> {
     let (mut found, mut channels) = (0, Vec::new());
     let (mut header, mut notes) = (Header::default(), csmip::Notes::default());
-    let mut uncorrected = None;
+    let (mut uncorrected, mut other) = (None, None);
     // The line after a block.
     let mut next = None;
     while let Some(line) = match next.take() {
@@ -114,10 +114,16 @@ fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reas
         }
         let block = if csmip::is_title(&lower) {
             notes.block(&line, format.unit)
-        } else if is_title(&lower) {
+        } else if is_title(&lower, &["accel"]) {
             header.block(&line, format.unit)
         } else {
             notes.read(&lower);
+            if other.is_none()
+                && (is_title(&lower, &["vel", "disp"]) || csmip::is_other_title(&lower))
+            {
+                let text = line.trim().chars().take(60).collect();
+                other = Some(lines.refuse(RecordError::NotAcceleration { text }));
+            }
             if lines.number == 1 && lower.contains("uncorrected accelerogram") {
                 uncorrected = Some(line);
             }
@@ -136,6 +142,9 @@ fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reas
         }
         (header, notes) = (Header::default(), csmip::Notes::default());
     }
+    if let Some(other) = other.filter(|_| found == 0) {
+        return Err(other);
+    }
     match (uncorrected, wanted) {
         (Some(line), _) if found == 0 => {
             let kind = "uncorrected data in unequal steps";
@@ -151,11 +160,12 @@ fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reas
 /// Whether a line in lower case is the title of a block of acceleration.
 ///
 /// Examples: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
-fn is_title(line: &str) -> bool {
+fn is_title(line: &str, quantities: &[&str]) -> bool {
     let mut words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
     let mut before = "";
     words.any(|word| {
-        let key = before.starts_with("accel") && matches!(word, "pts" | "points");
+        let key = quantities.iter().any(|begin| before.starts_with(begin))
+            && matches!(word, "pts" | "points");
         before = word;
         key
     })

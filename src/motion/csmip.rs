@@ -8,12 +8,19 @@ use super::AccelerationUnit;
 use super::agreement;
 use super::block::{self, Block};
 use super::unit::{HeaderNumber, clause_end};
+use super::unit_name::is_unit;
 use crate::error::RecordError;
 use crate::text::column::finite;
 
 /// Whether a line in lower case is the title of a block of acceleration.
 pub(super) fn is_title(line: &str) -> bool {
     volume_2(line).is_some() || volume_1(line).is_some()
+}
+
+/// Whether a line in lower case is the title of a block of velocity or displacement.
+pub(super) fn is_other_title(line: &str) -> bool {
+    let before = line.split_once("equally spaced at").map_or("", |(before, _)| before);
+    before.contains("points of vel") || before.contains("points of disp")
 }
 
 /// `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`: the text after the key.
@@ -33,8 +40,8 @@ pub(super) struct Notes {
     points: Option<f64>,
     /// s.
     interval: Option<f64>,
-    /// Peak acceleration with its unit.
-    peak: Option<(f64, AccelerationUnit)>,
+    /// Peak acceleration, and the name of its unit.
+    peak: Option<(f64, String)>,
 }
 
 impl Notes {
@@ -70,10 +77,11 @@ impl Notes {
         let title = title.as_str();
         let points = block::points(title, "number of points")?;
         let step = block::step(step(title)?)?;
+        let peak = self.peak()?;
         let (unit, rest) = match unit_text(title) {
             Some(text) => block::unit(line, text)?,
             None => (
-                block::unnamed(title, self.peak.map(|(_, unit)| unit).or(unnamed))?,
+                block::unnamed(title, peak.map(|(_, unit)| unit).or(unnamed))?,
                 volume_2(title).map_or("", |text| &text[time_end(text)..]),
             ),
         };
@@ -82,8 +90,19 @@ impl Notes {
         let factor = |other: AccelerationUnit| {
             other.in_metres_per_second_squared() / unit.in_metres_per_second_squared()
         };
-        let peak = self.peak.map(|(value, other)| value * factor(other));
+        let peak = peak.map(|(value, other)| value * factor(other));
         Ok(Block { points, step, unit, columns, peak })
+    }
+
+    /// The peak acceleration, if the word behind it is a unit. Error if it is another unit than of acceleration.
+    fn peak(&self) -> Result<Option<(f64, AccelerationUnit)>, RecordError> {
+        let Some((value, name)) = &self.peak else { return Ok(None) };
+        match AccelerationUnit::named(name) {
+            None if is_unit(name) => {
+                Err(RecordError::NotAcceleration { text: format!("peak of {value} {name}") })
+            }
+            unit => Ok(unit.map(|unit| (*value, unit))),
+        }
     }
 
     /// Error if the header states another number of points or another interval than the title.
@@ -98,11 +117,11 @@ impl Notes {
     }
 }
 
-/// A number and its unit at the beginning of a text.
-fn peak(text: &str) -> Option<(f64, AccelerationUnit)> {
+/// A number at the beginning of a text, and the word behind it.
+fn peak(text: &str) -> Option<(f64, String)> {
     let mut words = text.split_whitespace();
     let value = finite(words.next()?)?;
-    Some((value, AccelerationUnit::named(words.next()?.trim_end_matches([',', '.']))?))
+    Some((value, words.next()?.trim_end_matches([',', '.']).to_owned()))
 }
 
 /// Time step of a title, s.

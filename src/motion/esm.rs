@@ -11,7 +11,6 @@ use super::lines::{Lines, Reason, Series, count, push_numbers, record, records, 
 use super::unit::HeaderNumber;
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
-use crate::text::column::finite;
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
 ///
@@ -59,7 +58,7 @@ impl Header {
         let not_acceleration = || RecordError::NotAcceleration {
             text: format!("{key}: {value}").chars().take(60).collect(),
         };
-        match key {
+        match key.to_ascii_uppercase().as_str() {
             "SAMPLING_INTERVAL_S" => self.interval = HeaderNumber::TimeStep.read(value)?,
             "NDATA" => self.points = HeaderNumber::Points.read(value)?.and_then(count),
             "DURATION_S" => self.duration = HeaderNumber::Duration.read(value)?,
@@ -71,9 +70,11 @@ impl Header {
                 return Err(not_acceleration());
             }
             "STREAM" => value.clone_into(&mut self.stream),
-            _ => {
-                let unit = key.strip_prefix("PGA_").and_then(AccelerationUnit::named);
-                if let Some((unit, value)) = unit.zip(finite(value)) {
+            other => {
+                let unit = other.strip_prefix("PGA_").and_then(AccelerationUnit::named);
+                if let Some(unit) = unit
+                    && let Some(value) = HeaderNumber::Peak.read(value)?
+                {
                     self.peak = value * unit.in_metres_per_second_squared();
                 }
             }

@@ -12,6 +12,7 @@ use super::lines::{
     Lines, Reason, Series, component, count, read_numbers, record, records, scaled,
 };
 use super::unit::HeaderNumber;
+use super::unit_name::is_unit;
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 use crate::text::column::finite;
@@ -89,6 +90,8 @@ impl Header {
         } else if lower.starts_with("acceleration:") && lower.contains("mm/s/s") {
             self.peak = after("peak").unwrap_or(0.0);
             self.unit.get_or_insert(1.0);
+        } else if lower.starts_with("acceleration:") && words.iter().any(|word| is_unit(word)) {
+            return Err(RecordError::NotAcceleration { text: line.chars().take(60).collect() });
         } else if let Some((_, text)) = lower.split_once("in units of") {
             let (value, _) = text.split_once("mm/s/s").unwrap_or(("", ""));
             self.unit = HeaderNumber::Peak.read(value)?;
@@ -153,8 +156,10 @@ fn read_component(lines: &mut Lines) -> Reason<Series> {
     for others in [integers[34], integers[35]] {
         // Velocity and displacement, in lines of ten.
         let mut left = others;
-        while left > 0.0 && lines.next()?.is_some() {
-            left -= 10.0;
+        while left > 0.0
+            && let Some(line) = lines.next()?
+        {
+            left -= if line.is_empty() { 0.0 } else { 10.0 };
         }
     }
     Ok(Series { name: header.name, step, samples })

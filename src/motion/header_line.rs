@@ -60,7 +60,7 @@ impl ColumnTitles {
         if let Some(name) = self.name(column) {
             check_acceleration(name, expected)?;
         }
-        let alone = |word: &str| word.starts_with("acc");
+        let alone = |word: &str| word.starts_with("acc") || word == "unit" || word == "units";
         let lines = self.0.iter().rev();
         let mut titles = lines.filter_map(|line| line.title(column).or_else(|| line.alone(alone)));
         let title = titles.find(|title| acceleration_unit(title).is_some());
@@ -84,13 +84,12 @@ enum LineTitles {
 
 impl LineTitles {
     fn of(line: &str, columns: &RangeInclusive<usize>) -> Self {
-        let white = |sign: char| sign.is_whitespace();
         let sign = [';', ','].into_iter().find(|&sign| line.contains(sign));
         let mut readings: Vec<_> =
             sign.iter().map(|&sign| with_brackets(cells(line, sign))).collect();
-        readings.push(with_brackets(words(line, white, 1)));
+        readings.push(titles_of_words(line));
         readings.push(words(line, |sign| sign == '\t', 1));
-        readings.push(words(line, white, 2));
+        readings.push(words(line, char::is_whitespace, 2));
         readings.push(behind_brackets(line));
         let more: Vec<_> = readings.iter().map(|titles| with_units(titles)).collect();
         readings.extend(more);
@@ -117,6 +116,11 @@ impl LineTitles {
         let Self::One(line) = self else { return None };
         (known(&first_word(line)) && !states_a_number(line)).then_some(line)
     }
+}
+
+/// The titles in a line, one a word; brackets belong to the word before them.
+pub(super) fn titles_of_words(line: &str) -> Vec<String> {
+    with_brackets(words(line, char::is_whitespace, 1))
 }
 
 /// The cells between the `separator`s of a line, empty ones included. Brackets keep a cell together.
@@ -155,15 +159,15 @@ fn words(line: &str, separates: fn(char) -> bool, least: usize) -> Vec<String> {
 /// The number of open brackets behind a sign.
 fn depth_after(sign: char, depth: usize) -> usize {
     match sign {
-        '(' | '[' | '{' => depth + 1,
-        ')' | ']' | '}' => depth.saturating_sub(1),
+        '(' | '[' | '{' | '（' => depth + 1,
+        ')' | ']' | '}' | '）' => depth.saturating_sub(1),
         _ => depth,
     }
 }
 
 /// Titles in which brackets belong to the title before them, unless that has brackets of its own.
 fn with_brackets(titles: Vec<String>) -> Vec<String> {
-    let bracket = ['(', '[', '{'];
+    let bracket = ['(', '[', '{', '（'];
     let mut merged: Vec<String> = Vec::new();
     for title in titles {
         match merged.last_mut().filter(|last| !last.is_empty() && !last.contains(bracket)) {
@@ -183,16 +187,14 @@ fn with_units(titles: &[String]) -> Vec<String> {
     let mut has_unit = true;
     for title in titles {
         let word = title == "in";
-        match merged.last_mut().filter(|_| !has_unit && (word || is_unit(title))) {
-            Some(last) => {
-                last.push(' ');
-                last.push_str(title);
-                has_unit = !word;
-            }
-            None => {
-                merged.push(title.clone());
-                has_unit = title.contains(['(', '[', '{']);
-            }
+        let last = merged.last_mut().filter(|_| !has_unit && (word || is_unit(title)));
+        if let Some(last) = last {
+            last.push(' ');
+            last.push_str(title);
+            has_unit = !word;
+        } else {
+            merged.push(title.clone());
+            has_unit = title.contains(['(', '[', '{', '（']);
         }
     }
     merged

@@ -6,6 +6,7 @@
 use std::io::Read;
 
 use super::agreement;
+use super::column_title::check_acceleration;
 use super::lines::{Lines, Reason, Series, push_numbers, record, records, scaled};
 use super::unit::{HeaderNumber, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
@@ -63,7 +64,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
         let Some(line) = lines.next()? else {
             return Err(lines.refuse(RecordError::Missing { quantity: "line `Memo.`" }));
         };
-        if line.starts_with("Memo") {
+        if line.to_ascii_lowercase().starts_with("memo") {
             break;
         }
         let understood = header.read(&line);
@@ -100,20 +101,25 @@ fn read(lines: &mut Lines) -> Reason<Series> {
 impl Header {
     /// Stores the value of a header line with a needed key.
     fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
-        let positive = |quantity: HeaderNumber, unit| match line.split_once(unit) {
-            Some((_, text)) => Ok(quantity.read(text)?.filter(|&value| value > 0.0)),
+        let lower = line.to_ascii_lowercase();
+        let positive = |quantity: HeaderNumber, unit: &str| match lower.find(unit) {
+            Some(at) => {
+                let value = quantity.read(&line[at + unit.len()..])?;
+                Ok(value.filter(|&value| value > 0.0))
+            }
             None => Ok::<_, RecordError>(None),
         };
-        let (known, value) = if line.starts_with("Sampling Freq") {
-            (&mut self.frequency, positive(HeaderNumber::Frequency, "(Hz)")?)
-        } else if line.starts_with("Duration Time") {
+        let (known, value) = if lower.starts_with("sampling freq") {
+            (&mut self.frequency, positive(HeaderNumber::Frequency, "(hz)")?)
+        } else if lower.starts_with("duration time") {
             (&mut self.duration, positive(HeaderNumber::Duration, "(s)")?)
-        } else if let Some(factor) = line.strip_prefix("Scale Factor") {
-            (&mut self.scale, scale(factor.trim())?)
-        } else if line.starts_with("Max") && line.contains("(gal)") {
+        } else if lower.starts_with("scale factor") {
+            (&mut self.scale, scale(line["scale factor".len()..].trim())?)
+        } else if lower.starts_with("max") && lower.contains("acc") {
+            check_acceleration(line, AccelerationUnit::Gal)?;
             (&mut self.peak, positive(HeaderNumber::Peak, "(gal)")?)
-        } else if let Some(direction) = line.strip_prefix("Dir.") {
-            direction.trim().clone_into(&mut self.direction);
+        } else if lower.starts_with("dir.") {
+            line["dir.".len()..].trim().clone_into(&mut self.direction);
             return Ok(());
         } else {
             return Ok(());
@@ -128,7 +134,8 @@ impl Header {
 
 /// Gal per count: `3920(gal)/6182761`. `None` if the text has another form or is not a scale.
 fn scale(text: &str) -> std::result::Result<Option<f64>, RecordError> {
-    let Some((range, counts)) = text.split_once("(gal)/") else { return Ok(None) };
+    let Some(at) = text.to_ascii_lowercase().find("(gal)/") else { return Ok(None) };
+    let (range, counts) = (&text[..at], &text[at + "(gal)/".len()..]);
     let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));
     let scale = value(range)? / value(counts)?;
     Ok((scale.is_finite() && scale != 0.0).then_some(scale))

@@ -83,7 +83,8 @@ impl Header {
             self.frequency = HeaderNumber::Frequency.read(value)?;
         } else if key.starts_with("duration time") {
             self.duration = HeaderNumber::Duration.read(value)?;
-        } else if key.starts_with("max") && key.contains("(gal)") {
+        } else if key.starts_with("max") && key.contains("acc") {
+            check_acceleration(&key, GAL)?;
             self.peaks.clear();
             for value in values {
                 self.peaks.extend(HeaderNumber::Peak.read(value)?);
@@ -107,6 +108,8 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
     let mut times = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
     while let Some(line) = lines.next()? {
+        // A spreadsheet fills short lines with empty cells.
+        let line = line.trim_end_matches([',', ' ', '\t']);
         if line.is_empty() {
             continue;
         }

@@ -48,10 +48,16 @@ const FASTEST: f64 = 1e5;
 
 fn read(lines: &mut Lines) -> Reason<Series> {
     let mut name = String::new();
-    for number in 1..=TEXT_LINES {
+    let mut number = 0;
+    while number < TEXT_LINES {
         let Some(line) = lines.next()? else {
             return Err(lines.refuse(RecordError::Missing { quantity: "header of 11 lines" }));
         };
+        // Blank lines before the first one.
+        if number == 0 && line.is_empty() {
+            continue;
+        }
+        number += 1;
         let accelerogram = line.to_ascii_uppercase().contains("CORRECTED ACCELEROGRAM");
         if number == 1 && !accelerogram {
             let text = line.chars().take(60).collect();

@@ -28,14 +28,10 @@ const LENGTHS: [(&str, AccelerationUnit); 14] = [
     ("inches", AccelerationUnit::InchPerSecondSquared),
 ];
 
-/// Units of other quantities than acceleration, and multiples of g and gal, in lower case.
-const OTHERS: [&str; 54] = [
-    "s", "sec", "secs", "second", "seconds", "ms", "msec", "msecs", "millisecond", "milliseconds",
-    "us", "µs", "μs", "min", "mins", "minute", "minutes", "h", "hr", "hrs", "hour", "hours", "day",
-    "days", "sample", "samples", "hz", "m", "cm", "mm", "km", "in", "inch", "inches", "ft", "feet",
-    "mg", "milli-g", "millig", "milli g", "mgal", "mgals", "milligal", "%", "%g", "count", "counts",
-    "cnt", "cnts", "v", "volt", "volts", "mv", "mvolts",
-];
+/// Units of other quantities than acceleration, and multiples of g and gal, in lower case, between strokes.
+const OTHERS: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|milliseconds|µs|μs|min|mins|minute|\
+    minutes|h|hr|hrs|hour|hours|day|days|sample|samples|hz|m|cm|mm|km|in|inch|inches|ft|feet|mg|milli-g|millig|\
+    milli g|mgal|mgals|milligal|%|%g|count|counts|cnt|cnts|v|volt|volts|mv|mvolts|kine|kines";
 
 impl AccelerationUnit {
     /// The unit with this whole name in files, in upper or lower case: `cm/s2`, `m s^-2`, `g`.
@@ -71,8 +67,12 @@ impl FromStr for AccelerationUnit {
 pub(super) fn is_unit(text: &str) -> bool {
     let text = text.trim().trim_end_matches('.');
     let lower = text.to_lowercase();
-    let other = OTHERS.contains(&lower.as_str()) && (text.len() > 1 || lower == text);
+    let other = is_other(&lower) && (text.len() > 1 || lower == text);
     other || AccelerationUnit::named(text).is_some() || is_ratio(text) || is_multiple(text)
+}
+
+fn is_other(name: &str) -> bool {
+    OTHERS.split('|').any(|other| other == name)
 }
 
 /// Whether a text is a ratio of units: `cm/s`, `m/s3`, `rad/s2`, `V/g`.
@@ -81,7 +81,7 @@ pub(super) fn is_ratio(text: &str) -> bool {
     let known = |part: &str| {
         let part = part.trim().trim_end_matches(['2', '3', '²', '³']).trim_end_matches('^');
         // `H/V` is a ratio of components.
-        part != "h" && (OTHERS.contains(&part) || ["g", "gal", "rad", "deg"].contains(&part))
+        part != "h" && (is_other(part) || ["g", "gal", "rad", "deg"].contains(&part))
     };
     rate(text).is_some() || lower.contains('/') && lower.split('/').all(known)
 }
@@ -161,7 +161,8 @@ fn is_multiple(text: &str) -> bool {
             // `50g` is the level of a centrifuge.
             let small = finite(head.trim()).is_some_and(|factor| factor.abs() < 1.0);
             AccelerationUnit::named(tail).is_some() && (small || signs(head, &[]))
-                || AccelerationUnit::named(head).is_some() && signs(tail, &['/', '*', 'x', '×', '·'])
+                || AccelerationUnit::named(head).is_some()
+                    && signs(tail, &['/', '*', 'x', '×', '·'])
         })
 }
 
@@ -192,27 +193,22 @@ mod tests {
                 assert_eq!(AccelerationUnit::named(name), Some(unit), "{name}");
             }
         }
-        for name in [
-            "", "m", "s", "ms", "m/s", "m/s3", "mg", "mgal", "g2", "MS-2", "MS2", "mss", "cms", "m s",
-            "gal/s", "km/s2", "m/s2/s", "ins2", "gallery", "1 g", "m/min2",
-        ] {
+        let others = "|m|s|ms|m/s|m/s3|mg|mgal|g2|MS-2|MS2|mss|cms|m s|gal/s|km/s2|m/s2/s|ins2|gallery|1 g|m/min2";
+        for name in others.split('|') {
             assert_eq!(AccelerationUnit::named(name), None, "{name}");
         }
     }
 
     #[test]
     fn units_are_told_from_other_text() {
-        for text in [
-            "mg", "%g", "% g", "% of g", "percent g", "milli-g", "mgal", "10^-3 g", "1e-3 g", "0.001 g",
-            "0.01g", ".1 gal", "g/1000", "g*1000", "g x 1000", "cm/s2 x 10", "cm/s", "m/s3", "m s-1", "rad/s2",
-            "V/g", "counts", "ms", "MS", "sec.", "µs", "samples", "mps",
-        ] {
+        let units = "mg|%g|% g|% of g|percent g|milli-g|mgal|10^-3 g|1e-3 g|0.001 g|0.01g|.1 gal|g/1000|g*1000|\
+            g x 1000|cm/s2 x 10|cm/s|m/s3|m s-1|rad/s2|V/g|counts|ms|MS|sec.|µs|samples|mps";
+        for text in units.split('|') {
             assert!(is_unit(text), "{text}");
         }
-        for text in [
-            "", "NS", "EW", "UD", "S", "N", "V", "H", "H/V", "N/S", "H1", "G1", "S2", "MS2", "Z", "up", "ch 1", "1",
-            "50g", "2g", "filtered", "corrected", "360", "90 deg", "5 m", "HNE", "/", "e g", "hh:mm:ss", "x",
-        ] {
+        let others = "|NS|EW|UD|S|N|V|H|H/V|N/S|H1|G1|S2|MS2|Z|up|ch 1|1|50g|2g|filtered|corrected|360|90 deg|5 m|\
+            HNE|/|e g|hh:mm:ss|x|US";
+        for text in others.split('|') {
             assert!(!is_unit(text), "{text}");
         }
     }

@@ -11,6 +11,8 @@ use crate::error::{MatrixFileError, MeshFileError};
 const LONGEST: u64 = 65_536;
 /// UTF-8's byte-order mark.
 const MARK: &[u8] = b"\xef\xbb\xbf";
+/// The byte with which DOS ends a file.
+const END_OF_FILE: u8 = 0x1a;
 
 /// Reason why a line could not be read.
 pub(crate) enum Unread {
@@ -50,7 +52,12 @@ impl<R: Read> Lines<R> {
             Ok(count) if count as u64 == LONGEST && self.bytes.last() != Some(&b'\n') => {
                 Err(Unread::TooLong(count))
             }
-            Ok(count) => Ok(count > 0),
+            Ok(count) => {
+                if self.bytes.last() == Some(&END_OF_FILE) {
+                    self.bytes.pop();
+                }
+                Ok(count > 0)
+            }
         }
     }
 

@@ -11,11 +11,13 @@ mod inclined_waves;
 mod motion_formats;
 mod motion_reader;
 mod odd_columns;
+mod odd_files;
 mod odd_headers;
 mod odd_titles;
 mod parts_and_files;
 mod records;
 mod response_spectrum;
+mod stated_twice;
 
 use basemat::motion::{Record, RecordFormat};
 use basemat::{Error, RecordError};

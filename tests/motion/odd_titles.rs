@@ -28,7 +28,7 @@ fn is_refused(header: &str, rows: &str, format: &ColumnFormat) {
     match Record::from_reader("text", text.as_bytes(), format) {
         Ok(_) => panic!("{header:?} is read"),
         Err(error) => {
-            assert!(error.to_string().contains("names another unit"), "{header:?}: {error}")
+            assert!(error.to_string().contains("names another unit"), "{header:?}: {error}");
         }
     }
 }
@@ -75,6 +75,8 @@ fn every_line_of_the_header_counts() {
     ] {
         is_read(header, ROWS, &ColumnFormat { header_lines: lines, ..g });
     }
+    is_refused("# time, NS, EW\n# units: cm/s2", "0,1,2\n0.02,3,4\n", &g);
+    is_refused("時間（s）,加速度（gal）", ROWS, &g);
     // Names of components come from the line that has them.
     let text = "time,NS,EW\n(s),(g),(g)\n0,1,2\n0.02,3,4\n";
     let format = ColumnFormat { header_lines: 2, ..g };
