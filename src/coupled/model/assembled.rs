@@ -160,8 +160,8 @@ impl Assembled {
 
     /// The influence vectors, and the factored stiffness with its base held.
     ///
-    /// A rigid translation leaves K u = 0 and moves the contact nodes by one. It is therefore the solution r of (K
-    /// + γ NᵀN) r = γ Nᵀ 1 for every γ, whatever the degrees of freedom mean. Displacements are stepped relative
+    /// A rigid translation leaves K u = 0 and moves the contact nodes by one. It is therefore the solution r of
+    /// (K + γ NᵀN) r = γ Nᵀ 1 for every γ, whatever the degrees of freedom mean. Displacements are stepped relative
     /// to rigid translations, so R must be exact at the base: N R is 1 or 0 to rounding, and then so is B R.
     fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
         let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
