@@ -11,6 +11,8 @@ use crate::text::check_sum::CheckSum;
 const SAME: f64 = 1e-9;
 /// Number of parts of the run in which ground motion and loads are compared.
 const SAMPLES: usize = 64;
+/// Largest number of steps whose loads and motion are compared; a longer run is sampled.
+const MOST_INSTANTS: usize = 100_000;
 /// Largest number of evaluated entries of the structure's own load; larger structures are sampled at fewer steps.
 const LOAD_ENTRIES: usize = 10_000_000;
 /// Slip rates of sample states, m/s.
@@ -225,7 +227,8 @@ impl Simulation {
 
     /// Sums over the free field and over all loads in [`SAMPLES`] parts of the first `steps`.
     ///
-    /// A pulse may be as short as a step: external loads and the motion of one element count at every step.
+    /// A pulse may be as short as a step: external loads and the motion of one element count at every step of a usual
+    /// run.
     fn samples(&self, steps: usize) -> Result<(Vec<f64>, Vec<f64>)> {
         let Self { scene, structure, ground, motion, .. } = self;
         let count = steps.max(SAMPLES);
@@ -237,22 +240,24 @@ impl Simulation {
             *moved = mixed(&displacement);
         }
         let mut force = vec![0.0; scene.model.dofs];
-        let stride = count.div_ceil((LOAD_ENTRIES / force.len().max(1)).max(SAMPLES));
+        let instants = count.min(MOST_INSTANTS);
+        let stride = instants.div_ceil((LOAD_ENTRIES / force.len().max(1)).max(SAMPLES));
         let (is_plan, place) = (scene.layout().is_plan(), scene.base.elements().middle(0));
-        for step in 0..count {
-            let (part, weight) = (step * SAMPLES / count, mixing_weight(step));
-            let end = (step + 1) as f64 * scene.time_step;
+        for instant in 0..instants {
+            let (part, weight) = (instant * SAMPLES / instants, mixing_weight(instant));
+            let step = (instant as f64 * (count as f64 / instants as f64)).round();
+            let end = (step + 1.0) * scene.time_step;
             moved[part] += weight
                 * if is_plan {
                     mixed(&motion.displacement_at(place, end))
                 } else {
                     mixed(&motion.displacement(place[0], end))
                 };
-            let time = (step as f64 + scene.coefficients.load_fraction) * scene.time_step;
+            let time = (step + scene.coefficients.load_fraction) * scene.time_step;
             let external = scene.loads.iter().enumerate();
             let external = external.map(|(k, load)| mixing_weight(k) * load.mixed_value(time));
             loaded[part] += weight * external.sum::<f64>();
-            if step % stride == 0 {
+            if instant % stride == 0 {
                 force.fill(0.0);
                 structure.load(time, &mut force)?;
                 loaded[part] += weight * mixed(&force);

@@ -145,7 +145,7 @@ fn differences_that_rest_does_not_show_are_found() {
         ("interface law", weak(0.2, 0.005), weak(0.25, 0.005), 20),
         ("interface law", fast(0.2), fast(0.3), 20),
         ("load", blow(1e4), blow(3e4), 1000),
-        ("ground motion", knock(3.02), knock(3.13), 1000),
+        ("ground motion", knock(0.52), knock(0.63), 1000),
     ];
     for (quantity, one, other, steps) in cases {
         let mut one = one.build().unwrap();
