@@ -1,7 +1,7 @@
 //! The title of a column, and the unit that it names.
 
 use super::AccelerationUnit;
-use super::unit_name::{SECONDS, is_ratio, is_unit};
+use super::unit_name::{LONGEST, SECONDS, is_ratio, is_unit};
 use crate::error::RecordError;
 use crate::text::column::excerpt;
 
@@ -114,12 +114,14 @@ fn groups(title: &str) -> Vec<&str> {
     groups
 }
 
-/// The title and its ends behind a separator, from the longest to the shortest: `acc in cm/s2`, `in cm/s2`, `cm/s2`.
+/// The title and its ends behind a separator, from the longest to the shortest: `a in cm/s2`, `in cm/s2`, `cm/s2`.
+///
+/// Texts longer than any unit are left out.
 fn endings(title: &str) -> impl Iterator<Item = &str> {
     let title = title.trim_matches(['"', '\'', ' ']);
     let separators = title.match_indices([' ', '_', ',', '=', '/', '-']);
     let ends = separators.map(|(at, sign)| title[at + sign.len()..].trim());
-    std::iter::once(title).chain(ends)
+    std::iter::once(title).chain(ends).filter(|end| end.len() <= LONGEST)
 }
 
 #[cfg(test)]

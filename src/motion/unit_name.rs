@@ -33,9 +33,15 @@ const OTHERS: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|millis
     minutes|h|hr|hrs|hour|hours|day|days|sample|samples|hz|m|cm|mm|km|in|inch|inches|ft|feet|mg|milli-g|millig|\
     milli g|mgal|mgals|milligal|%|%g|count|counts|cnt|cnts|v|volt|volts|mv|mvolts|kine|kines";
 
+/// Longest name of a unit, bytes. Longer texts are not compared with the names.
+pub(super) const LONGEST: usize = 48;
+
 impl AccelerationUnit {
     /// The unit with this whole name in files, in upper or lower case: `cm/s2`, `m s^-2`, `g`.
     pub(super) fn named(name: &str) -> Option<Self> {
+        if name.len() > LONGEST {
+            return None;
+        }
         match name.trim().trim_end_matches('.').to_lowercase().as_str() {
             "g" | "g's" | "gs" => Some(Self::StandardGravity),
             "gal" | "gals" => Some(Self::Gal),
@@ -66,6 +72,9 @@ impl FromStr for AccelerationUnit {
 /// Whether a text is the name of a unit, of acceleration or another one; a letter alone only in lower case.
 pub(super) fn is_unit(text: &str) -> bool {
     let text = text.trim().trim_end_matches('.');
+    if text.len() > LONGEST {
+        return false;
+    }
     let lower = text.to_lowercase();
     let other = is_other(&lower) && (text.len() > 1 || lower == text);
     other || AccelerationUnit::named(text).is_some() || is_ratio(text) || is_multiple(text)
@@ -77,6 +86,9 @@ fn is_other(name: &str) -> bool {
 
 /// Whether a text is a ratio of units: `cm/s`, `m/s3`, `rad/s2`, `V/g`.
 pub(super) fn is_ratio(text: &str) -> bool {
+    if text.len() > LONGEST {
+        return false;
+    }
     let lower = text.to_lowercase();
     let known = |part: &str| {
         let part = part.trim().trim_end_matches(['2', '3', '²', '³']).trim_end_matches('^');

@@ -122,6 +122,10 @@ fn damage() -> impl Strategy<Value = Damage> {
         "(gal)/",
         "NPTS",
         "DT",
+        "(",
+        "[ms]",
+        "（",
+        "cm/s²_",
     ];
     prop_oneof![
         any::<u8>().prop_map(Damage::Overwrite),

@@ -237,3 +237,14 @@ fn titles_are_held_against_the_format() {
         );
     }
 }
+
+/// Titles that are as long as a line may be cost no more than their length.
+#[test]
+fn long_titles_are_read_at_once() {
+    let alone = ColumnFormat::equally_spaced(G, 0.02);
+    for word in ["a ", "a_", "(m/", "[", "m s ", "g x ", "1 g/", "n,"] {
+        let title = word.repeat(60_000 / word.len());
+        let header = vec![format!("# {title}"); 2].join("\n");
+        is_read(&header, "1\n2\n", &alone);
+    }
+}
