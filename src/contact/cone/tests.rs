@@ -284,7 +284,7 @@ fn each_method_finds_one_of_all_solutions() {
 fn endless_friction_is_limited_where_it_must_be() {
     let (mut random, mut limited, mut failed) = (Random(17), 0, 0);
     for case in 0..300 {
-        let size = 3 * (1 + case % 6);
+        let size = 3 * [1, 2, 3, 4, 20, 40][case % 6];
         let mut problem = problem(&mut random, size / 3, f64::INFINITY);
         problem.w.iter_mut().step_by(size + 1).for_each(|own| *own -= 0.29);
         problem.find_scales();
@@ -292,6 +292,7 @@ fn endless_friction_is_limited_where_it_must_be() {
         limited += usize::from(problem.bounds[0].grip < f64::INFINITY);
         assert!(problem.bounds[0].grip >= 3.0, "case {case}");
     }
+    println!("{limited} limited, {failed} without a solution");
     assert!(limited > 0 && failed < 6, "{limited} limited, {failed} without a solution");
 }
 

@@ -85,13 +85,14 @@ fn sensible_scenes_earn_no_warning_of_units() {
     assert!(tally.counted("functions") > 10 && tally.counted("records") > 20, "{tally}");
 }
 
-/// A record of 200 samples with this peak (m/s²) and time step (s), and so many waves that grow and fade.
+/// A record with this peak (m/s²) and time step (s), and so many waves that grow and fade in 200 samples; the response
+/// dies away in as long a time again and again.
 fn record_of((peak, time_step, waves): (f64, f64, f64)) -> Record {
     let sample = |k: usize| {
-        let phase = std::f64::consts::PI * k as f64 / 200.0;
+        let phase = std::f64::consts::PI * k.min(200) as f64 / 200.0;
         phase.sin().powi(2) * (2.0 * waves * phase).sin()
     };
-    let record = Record::new(time_step, (0..=200).map(sample).collect()).unwrap();
+    let record = Record::new(time_step, (0..=600).map(sample).collect()).unwrap();
     record.scaled_to_peak(peak).unwrap()
 }
 
