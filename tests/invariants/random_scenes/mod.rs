@@ -16,7 +16,7 @@ use basemat::coupled::{State, Warning};
 use basemat::motion::Record;
 use basemat::{Error, Simulation};
 use proptest::prelude::*;
-use recipe::{Recipe, recipes};
+use recipe::{Recipe, Scheme, recipes};
 use run_checks::Scales;
 use tally::{Tally, accepted, for_all};
 
@@ -52,12 +52,13 @@ fn every_run_is_finite_balanced_and_admissible() {
 /// most 2 g) by a function, and under records that are run to their end.
 #[test]
 fn sensible_scenes_earn_no_warning_of_units() {
-    // Without friction a base slides on after a record.
+    // Without friction a base slides on after a record, and these schemes make energy on soil: responses grow.
     let is_usual = |recipe: &Recipe| {
         let is_heavy = recipe.weight() > 2e3 * recipe::WIDTH && !recipe.weightless;
-        is_heavy && recipe.friction() > 0.1
+        let grows = matches!(recipe.scheme, Scheme::Newmark(_) | Scheme::Hht(_));
+        is_heavy && recipe.friction() > 0.1 && !grows
     };
-    let usual = recipes(1.0).prop_filter("usual weight and friction", is_usual);
+    let usual = recipes(1.0).prop_filter("usual weight, friction and scheme", is_usual);
     let record = (0.5..15.0, prop::sample::select(vec![0.0025, 0.005, 0.01, 0.02]), 1.0..8.0);
     let tally = for_all("units", 40, &(usual, record), |(recipe, shaking), tally| {
         let run = |built: Result<Simulation, Error>, tally: &mut Tally, kind| {
