@@ -1,7 +1,7 @@
 //! Errors of layered grounds, mats in plan and site response.
 
 use super::Error;
-use super::requirement::fault_of_file;
+use super::requirement::{fault_of_file, short};
 
 /// Reasons why a layered ground cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -160,7 +160,7 @@ pub enum KernelFileError {
 #[non_exhaustive]
 pub enum PlanError {
     /// A mat or a mask without a cell.
-    #[error("mat {mat} has no cell: cells are {} m x {} m (more of them help)", pitch[0], pitch[1])]
+    #[error("mat {mat} has no cell: cells are {} m x {} m (more of them help)", short(pitch[0]), short(pitch[1]))]
     NoCells {
         /// Mat, from 0 in the order of its first face.
         mat: usize,
@@ -177,8 +177,12 @@ pub enum PlanError {
     },
     /// Faces that overlap, or that the cells do not cover.
     #[error(
-        "cells inside the faces have an area of {cells} m2, but the faces one of {faces} m2: they overlap, or are too \
-         narrow for cells of {} m x {} m (at most a tenth may be missing)", pitch[0], pitch[1]
+        "cells inside the faces have an area of {} m2, but the faces one of {} m2: they overlap, or are too narrow for \
+         cells of {} m x {} m (at most a tenth may be missing)",
+        short(*cells),
+        short(*faces),
+        short(pitch[0]),
+        short(pitch[1])
     )]
     Uncovered {
         /// Area of the faces, m².
@@ -191,7 +195,7 @@ pub enum PlanError {
     /// Mats that share a cell, or have cells side by side.
     #[error(
         "mats {} and {} are closer to each other than one cell of {} m x {} m (more cells help; faces of one mat \
-         share corners)", mats[0], mats[1], pitch[0], pitch[1]
+         share corners)", mats[0], mats[1], short(pitch[0]), short(pitch[1])
     )]
     TooClose {
         /// Numbers of the two mats, from 0 in the order of their first faces.
@@ -215,8 +219,11 @@ pub enum PlanError {
     },
     /// Cells that do not resolve the waves of a frequency.
     #[error(
-        "cells of {cell} m are too large for {frequency} Hz: shear waves at the surface are {wavelength} m long there, \
-         and at least {needed} cells are needed in one"
+        "cells of {} m are too large for {} Hz: shear waves at the surface are {} m long there, \
+         and at least {needed} cells are needed in one",
+        short(*cell),
+        short(*frequency),
+        short(*wavelength)
     )]
     CoarseCells {
         /// Longer side of a cell, m.
@@ -237,7 +244,7 @@ pub enum PlanError {
 #[non_exhaustive]
 pub enum SiteError {
     /// A quantity of one layer out of its range.
-    #[error("{quantity} of layer {layer} is {value}, but must be {needed}")]
+    #[error("{quantity} of layer {layer} is {}, but must be {needed}", short(*value))]
     Layer {
         /// Layer, from 1 at the surface.
         layer: usize,

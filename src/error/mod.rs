@@ -300,7 +300,7 @@ pub enum Error {
     },
     /// The static state under the structure's weight was not found.
     #[error(
-        "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
+        "no static equilibrium after {iterations} iterations: residual {residual:.2e} of the load \
          (loads are balanced and the structure is not a mechanism: check whether a part of it, or of its soil, is loaded \
          beyond its capacity)"
     )]

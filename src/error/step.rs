@@ -1,6 +1,6 @@
 //! Errors of a run: steps that fail, checkpoints that cannot be resumed.
 
-use super::{Error, LawError, not_finite};
+use super::{Error, LawError, not_finite, short};
 
 /// Why a step failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -8,7 +8,7 @@ use super::{Error, LawError, not_finite};
 pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
-        "contact modes not found in {iterations} trials{}, residual {residual:e}, modes {} \
+        "contact modes not found in {iterations} trials{}, residual {residual:.2e}, modes {} \
          (`coupled::largest_convergent_step` finds a time step that gets through)",
         all(*sets), modes.join(" ")
     )]
@@ -26,7 +26,7 @@ pub enum StepError {
     },
     /// In plan: no contact forces were found that satisfy the interface laws.
     #[error(
-        "contact forces not found in {iterations} iterations, residual {residual:e}, elements {} \
+        "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
          (`coupled::largest_convergent_step` finds a time step that gets through)",
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
@@ -41,7 +41,7 @@ pub enum StepError {
     },
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
-        "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \
+        "Newton's iteration not converged in {iterations} iterations, residual {residual:.2e}, \
          modes {} (`coupled::largest_convergent_step` finds a time step that gets through)",
         modes.join(" ")
     )]
@@ -342,8 +342,9 @@ fn grip(elements: usize, reach: [f64; 2], axis: char) -> String {
 
 /// Text that names the base in a message.
 fn on([left, right]: [f64; 2], across: Option<[f64; 2]>) -> String {
-    let depth = across.map_or(String::new(), |[front, back]| format!(", y = {front} to {back} m"));
-    format!(" (base from x = {left} to {right} m{depth})")
+    let range = |ends: [f64; 2]| format!("{} to {} m", short(ends[0]), short(ends[1]));
+    let depth = across.map_or(String::new(), |ends| format!(", y = {}", range(ends)));
+    format!(" (base from x = {}{depth})", range([left, right]))
 }
 
 /// The unit of forces.

@@ -1267,7 +1267,8 @@ class Run(Summary):
     @property
     def ground_motion(self) -> dict[str, float | None]:
         """The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
-        record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run."""
+        record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run.
+        """
     @property
     def is_overturned(self) -> bool:
         """Whether the run ended because a base turned beyond the ``rotation_limit`` of the :class:`Simulation`."""
@@ -1304,7 +1305,8 @@ class Run(Summary):
     def to_frame(self) -> Any:
         """All time series as a pandas frame, indexed by the time (s).
 
-        Units of the columns of this and of all other frames are in ``frame.attrs["units"]``.
+        Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
+        motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
         """
     def contact_frame(self) -> Any:
         """Snapshots of the base as a tidy pandas frame: a row per frame and element.

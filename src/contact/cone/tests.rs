@@ -292,7 +292,6 @@ fn endless_friction_is_limited_where_it_must_be() {
         limited += usize::from(problem.bounds[0].grip < f64::INFINITY);
         assert!(problem.bounds[0].grip >= 3.0, "case {case}");
     }
-    println!("{limited} limited, {failed} without a solution");
     assert!(limited > 0 && failed < 6, "{limited} limited, {failed} without a solution");
 }
 
