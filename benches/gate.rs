@@ -14,7 +14,7 @@ use basemat::motion::el_centro_1940;
 use basemat::results::Recorder;
 use basemat::soil::SoilProfile;
 use basemat::structure::RigidBlock;
-use basemat::{Result, Simulation, Soil};
+use basemat::{Result, Simulation, Soil, unobserved};
 use basemat_problems::headline;
 
 const REPETITIONS: usize = 3;
@@ -78,7 +78,7 @@ fn half_plane() -> Result<Timed> {
     let elements = Strip::graded(-5.0..5.0, 16)?.elements();
     Ok(Box::new(move || {
         let kernel = PatchKernel::new(headline::soil()?, elements, 2.0e-3)?;
-        DirectHistory::new(Arc::new(kernel)).reserve(400)
+        DirectHistory::new(Arc::new(kernel)).prepare(400, &mut unobserved)
     }))
 }
 
@@ -86,10 +86,7 @@ fn layers() -> Result<Timed> {
     let rock = Soil::new(1.0e9, 0.25, 2200.0)?;
     let profile = SoilProfile::on_half_plane(rock).with_layer(headline::soil()?, 8.0)?;
     let mut ground = ElasticGround::new(profile, Strip::graded(-5.0..5.0, 8)?)?;
-    Ok(Box::new(move || {
-        ground.prepare(5.0e-3)?;
-        ground.expect_steps(200, None)
-    }))
+    Ok(Box::new(move || ground.prepare(5.0e-3, Some(200), &mut unobserved)))
 }
 
 fn convolution() -> Result<Timed> {
@@ -97,7 +94,7 @@ fn convolution() -> Result<Timed> {
     let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(headline::soil()?, elements, 2.0e-3)?);
     let mut history = RelaxedFftHistory::new(kernel);
-    history.reserve(10_000)?;
+    history.prepare(10_000, &mut unobserved)?;
     Ok(Box::new(move || {
         let mut displacement = vec![0.0; 20];
         let traction: Vec<f64> = (0..20).map(|i| f64::from(i).sin()).collect();

@@ -15,7 +15,7 @@ use basemat::results::log_spaced;
 use basemat::site::{EquivalentLinear, EquivalentLinearOptions, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile, StrainCurves};
 use basemat::structure::ModalDamping;
-use basemat::{Result, plot};
+use basemat::{Result, plot, unobserved};
 
 const STEP: f64 = 0.01;
 
@@ -63,24 +63,24 @@ fn main() -> Result<()> {
     let rock = rock.padded(0.0, 15.0)?;
     let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     let options = EquivalentLinearOptions::of_magnitude(6.9);
-    let compatible = column.equivalent_linear(&rock, &curves, &options)?;
+    let compatible = column.equivalent_linear(&rock, &curves, &options, &mut unobserved)?;
     println!("{compatible}\n\n{}\n", compatible.profile);
 
     // The same site with small-strain properties.
     let small = |curves: &StrainCurves| Ok(StrainCurves::Linear { damping: curves.at(0.0)?[1] });
     let small = curves.iter().map(small).collect::<Result<Vec<_>>>()?;
-    let linear = column.equivalent_linear(&rock, &small, &options)?;
+    let linear = column.equivalent_linear(&rock, &small, &options, &mut unobserved)?;
 
     let periods = log_spaced(0.05, 3.0, 121)?;
     let mut comparison = Comparison::default();
-    let mut spectra = vec![("rock", rock.response_spectrum(&periods, 0.05)?)];
+    let mut spectra = vec![("rock", rock.response_spectrum(&periods, 0.05, &mut unobserved)?)];
     for (name, site) in [("linear", &linear), ("strain-compatible", &compatible)] {
         let (run, floor) = shake(site)?;
         let highest = floor.iter().fold(0.0_f64, |most, o| most.max(o.pseudo_acceleration));
         let [surface, roof] = [site.peak_accelerations[0], highest].map(|a| a / STANDARD_GRAVITY);
         println!("{name:<18} surface {surface:.2} g, peak of the roof's spectrum {roof:.1} g");
         comparison.add(name, run);
-        spectra.push((name, site.surface.response_spectrum(&periods, 0.05)?));
+        spectra.push((name, site.surface.response_spectrum(&periods, 0.05, &mut unobserved)?));
     }
     println!("\n{comparison}");
     let spectra: Vec<_> = spectra.iter().map(|(name, list)| (*name, &list[..])).collect();

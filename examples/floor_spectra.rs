@@ -8,10 +8,10 @@
 //! that floor, so its response spectrum is the floor spectrum. Peaks are broadened by 15 % for uncertain
 //! properties of soil and structure (U.S. NRC Regulatory Guide 1.122).
 
-use basemat::Result;
 use basemat::prelude::*;
 use basemat::results::{broadened, log_spaced};
 use basemat::structure::ModalDamping;
+use basemat::{Result, unobserved};
 
 /// Damping ratio of the equipment.
 const DAMPING: f64 = 0.05;
@@ -43,7 +43,7 @@ fn main() -> Result<()> {
     let periods = log_spaced(0.05, 2.0, 61)?;
     let (held, free) = (shake(Bonded)?, shake(Coulomb::new(0.25)?)?);
 
-    let ground = el_centro_1940().response_spectrum(&periods, DAMPING)?;
+    let ground = el_centro_1940().response_spectrum(&periods, DAMPING, &mut unobserved)?;
     let spectra = [
         ("free field", ground),
         ("1st, bonded", held.floor_spectrum("first floor", &periods, DAMPING)?),

@@ -14,7 +14,7 @@ use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, Coulomb, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
-use basemat::{Result, Soil};
+use basemat::{Result, Soil, unobserved};
 
 const STEP: f64 = 1.0e-3;
 const STEPS: usize = 8000;
@@ -51,8 +51,7 @@ fn main() -> Result<()> {
     let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();
     let (count, size) = (centers.len(), 2 * centers.len());
 
-    ground.prepare(STEP)?;
-    ground.expect_steps(STEPS, None)?;
+    ground.prepare(STEP, Some(STEPS), &mut unobserved)?;
     let mut delassus = vec![0.0; size * size];
     ground.step_compliance(&mut delassus)?;
     for column in 0..size {

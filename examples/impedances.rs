@@ -18,6 +18,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::plot::{Curve, curves};
 use basemat::prelude::*;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::unobserved;
 
 /// Half the strip's width, m.
 const HALF: f64 = 3.0;
@@ -95,9 +96,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let on_rigid_base = ElasticGround::new(on_rigid_base, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
     let contact = StripContact::Bonded;
     let cases = [
-        ("half-plane", half_plane.impedances(&frequencies, contact)?),
-        ("layer on rock, 5 %", on_rock.impedances(&frequencies, contact)?),
-        ("layer on a rigid base, 5 %", on_rigid_base.impedances(&frequencies, contact)?),
+        ("half-plane", half_plane.impedances(&frequencies, contact, &mut unobserved)?),
+        ("layer on rock, 5 %", on_rock.impedances(&frequencies, contact, &mut unobserved)?),
+        (
+            "layer on a rigid base, 5 %",
+            on_rigid_base.impedances(&frequencies, contact, &mut unobserved)?,
+        ),
     ];
 
     print(&cases, soil, unit);

@@ -19,7 +19,7 @@ use basemat::results::log_spaced;
 use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::ModalDamping;
-use basemat::{Result, plot};
+use basemat::{Result, plot, unobserved};
 
 const STEP: f64 = 5.0e-3;
 const ELEMENTS: usize = 10;
@@ -73,7 +73,8 @@ fn main() -> Result<()> {
     println!("{damped}\n");
     let outcrop = el_centro_1940().scaled_to_peak(0.15 * STANDARD_GRAVITY)?.resampled(STEP)?;
     let column = SoilColumn::new(damped.clone(), VerticalWave::Shear)?;
-    let surface = column.to_surface(ControlPoint::Outcrop, STEP, outcrop.accelerations())?;
+    let surface =
+        column.to_surface(ControlPoint::Outcrop, STEP, outcrop.accelerations(), &mut unobserved)?;
     let surface = Record::new(STEP, surface.samples)?;
 
     let half_plane = |speed, poisson, density| {

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use basemat::bem::layered::{StripContact, StripImpedance};
 use basemat::coupled::{Load, SimulationBuilder};
 use basemat::prelude::*;
-use basemat::{Complex, Result};
+use basemat::{Complex, Result, unobserved};
 
 const WIDTH: f64 = 6.0;
 const HEIGHT: f64 = 2.0;
@@ -97,7 +97,7 @@ fn run_up(law: impl InterfaceLaw + 'static) -> Result<Run> {
 fn main() -> Result<()> {
     let frequencies = [4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0];
     println!("Top of the block, mm, bonded\n\n  Hz   marched   frequency domain   difference");
-    for impedance in ground()?.impedances(&frequencies, StripContact::Bonded)? {
+    for impedance in ground()?.impedances(&frequencies, StripContact::Bonded, &mut unobserved)? {
         let (hertz, wanted) = (impedance.frequency, in_frequency_domain(&impedance)?);
         let found = marched(hertz)?;
         let error = found / wanted - 1.0;

@@ -13,6 +13,7 @@ use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{Grading, Strip};
 use basemat::prelude::*;
 use basemat::soil::SoilProfile;
+use basemat::unobserved;
 
 /// Half the mat's width, m.
 const HALF: f64 = 10.0;
@@ -26,9 +27,10 @@ fn main() -> basemat::Result<()> {
 
     // 16 cells along a side; the outermost cells extend a tenth of a cell beyond the edge.
     let mat = Plan::rectangle(-HALF..HALF, -HALF..HALF, 16)?;
-    let mats = impedances_in_plan(&profile, &mat, &frequencies, StripContact::Bonded)?;
+    let mats =
+        impedances_in_plan(&profile, &mat, &frequencies, StripContact::Bonded, &mut unobserved)?;
     let ground = ElasticGround::new(soil, Strip::new(-HALF..HALF, 24, Grading::Cosine)?)?;
-    let strips = ground.impedances(&frequencies, StripContact::Bonded)?;
+    let strips = ground.impedances(&frequencies, StripContact::Bonded, &mut unobserved)?;
 
     println!(
         "   f (Hz)  motion      spring, mat   dashpot, mat   strip/mat: spring  dashpot   damping ratio: mat, strip"

@@ -8,13 +8,13 @@
 
 use std::path::Path;
 
-use basemat::Result;
 use basemat::bem::Grading;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::paraview;
 use basemat::plot::{self, Svg};
 use basemat::prelude::*;
 use basemat::results::{DeformedShape, log_spaced};
+use basemat::{Result, unobserved};
 
 const STEPS: usize = 2400;
 const FRICTION: f64 = 0.3;
@@ -71,7 +71,7 @@ fn main() -> Result<()> {
     save("energy", plot::energy("Energy", &free)?)?;
 
     let periods = log_spaced(0.05, 2.0, 100)?;
-    let ground = el_centro_1940().response_spectrum(&periods, 0.05)?;
+    let ground = el_centro_1940().response_spectrum(&periods, 0.05, &mut unobserved)?;
     let roofs = [&bonded, &free].map(|run| run.floor_spectrum("roof", &periods, 0.05));
     let [held, loose] = roofs;
     let spectra =

@@ -13,7 +13,7 @@ use basemat::bem::{ContactElement, Ground, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
-use basemat::{Result, Simulation, Soil};
+use basemat::{Observer, Result, Simulation, Soil};
 
 struct Columns {
     elements: Vec<ContactElement>,
@@ -54,7 +54,12 @@ impl Ground for Columns {
         &self.elements
     }
 
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        _steps: Option<usize>,
+        _observer: &mut Observer<'_>,
+    ) -> Result<()> {
         self.time_step = time_step;
         self.displacement.fill(0.0);
         Ok(())

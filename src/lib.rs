@@ -214,7 +214,7 @@ pub use coupled::simulation::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, CoarseBaseError, Error, KernelFileError, LawError,
     LayeredError, MemoryError, Observer, PlanError, Progress, RecordError, ReducedError, Result,
-    SiteError, StabilityError, StepError, SweepError, memory_limit, set_memory_limit,
+    SiteError, StabilityError, StepError, SweepError, memory_limit, set_memory_limit, unobserved,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

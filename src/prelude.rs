@@ -1,6 +1,5 @@
 //! Names that most programs use: `use basemat::prelude::*;`.
 
-pub use crate::Simulation;
 pub use crate::bem::{ElasticGround, Ground, SpringGround, Strip};
 pub use crate::coupled::{Load, Probe, State};
 pub use crate::interface::{Bonded, Coulomb, InterfaceLaw};
@@ -12,3 +11,4 @@ pub use crate::structure::{
     StructureGroup, Triplets,
 };
 pub use crate::sweep::{Parameter, Sweep};
+pub use crate::{Simulation, unobserved};

@@ -7,7 +7,6 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use basemat::Simulation;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
@@ -18,6 +17,7 @@ use basemat::results::Recorder;
 use basemat::structure::{
     NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, Triplets,
 };
+use basemat::{Simulation, unobserved};
 
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI, block, friction, scene, soil, tower};
@@ -174,8 +174,7 @@ fn histories_in_plan_do_not_allocate() {
         let plan = Plan::rectangle(-2.0..2.0, -3.0..3.0, 4).unwrap();
         let mut ground = ElasticGround::in_plan(soil(SI), plan).unwrap();
         ground = ground.with_history(options).unwrap();
-        ground.prepare(0.01).unwrap();
-        ground.expect_steps(WARM + STEPS, None).unwrap();
+        ground.prepare(0.01, Some(WARM + STEPS), &mut unobserved).unwrap();
         let size = 3 * ground.elements().len();
         let (mut displacement, traction) = (vec![0.0; size], vec![1.0; size]);
         let mut before = 0;

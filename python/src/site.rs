@@ -122,7 +122,7 @@ impl PyColumn {
         let curves: Vec<_> = curves.iter().map(|curves| curves.get().0.clone()).collect();
         let (column, record) = (&self.0, &record.0);
         let call = |observer: &mut Observer<'_>| {
-            column.equivalent_linear_observed(record, &curves, &options, observer)
+            column.equivalent_linear(record, &curves, &options, observer)
         };
         Ok(PyEquivalentLinear(py.detach(|| watched(None, call))?))
     }

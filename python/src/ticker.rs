@@ -102,31 +102,51 @@ pub(crate) fn progress_function(
     }
 }
 
+/// Observer of a long call of the core; to be used without the GIL.
+pub(crate) struct Watching {
+    ticker: Ticker,
+    stopped: Option<PyErr>,
+    last: Option<Progress>,
+}
+
+impl Watching {
+    pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
+        Self { ticker: Ticker::new(progress), stopped: None, last: None }
+    }
+
+    pub(crate) fn see(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.last = Some(progress);
+        match self.ticker.tick(progress.done, progress.total) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.stopped = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    /// Result of the call, or the exception that ended it.
+    pub(crate) fn end<T>(&mut self, result: basemat::Result<T>) -> PyResult<T> {
+        if let Some(raised) = take_raised().or(self.stopped.take()) {
+            return Err(raised);
+        }
+        let made = result.or_raise()?;
+        // Ends a line that has begun.
+        if let Some(Progress { total, .. }) = self.last
+            && self.ticker.told.is_some_and(|told| told < total)
+        {
+            Python::attach(|py| self.ticker.look(py, total, total))?;
+        }
+        Ok(made)
+    }
+}
+
 /// Makes a long call of the core; to be called without the GIL.
 pub(crate) fn watched<T>(
     progress: Option<Py<PyAny>>,
     call: impl FnOnce(&mut Observer<'_>) -> basemat::Result<T>,
 ) -> PyResult<T> {
-    let (mut ticker, mut stopped, mut last) = (Ticker::new(progress), None, None);
-    let result = call(&mut |progress: Progress| {
-        last = Some(progress);
-        match ticker.tick(progress.done, progress.total) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                stopped = Some(error);
-                ControlFlow::Break(())
-            }
-        }
-    });
-    if let Some(raised) = take_raised().or(stopped) {
-        return Err(raised);
-    }
-    let made = result.or_raise()?;
-    // Ends a line that has begun.
-    if let Some(Progress { total, .. }) = last
-        && ticker.told.is_some_and(|told| told < total)
-    {
-        Python::attach(|py| ticker.look(py, total, total))?;
-    }
-    Ok(made)
+    let mut watching = Watching::new(progress);
+    let result = call(&mut |progress| watching.see(progress));
+    watching.end(result)
 }

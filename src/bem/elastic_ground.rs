@@ -6,24 +6,27 @@ use std::sync::Arc;
 use super::elastic_source::ElasticSource;
 use super::layered::Stages;
 use super::plan::{Plan, gate_sample, static_compliance};
-use super::{Grading, Ground, SharedKernels, Strip, WeightsGround, WeightsSource};
+use super::{
+    Grading, Ground, GroundDescription, PlanElement, SharedKernels, Strip, WeightsGround,
+    WeightsSource,
+};
 use crate::error::{Observer, Result, require};
 use crate::geometry::{ContactElement, SPACE, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
-use crate::soil::{Soil, SoilProfile};
+use crate::soil::SoilProfile;
 use crate::structure::Structure;
 
 /// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
 /// its surface.
 ///
-/// A [`Soil`] makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
+/// A [`Soil`](crate::Soil) makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
 /// element means of the displacement at step ends under tractions constant over element and step,
 /// from the closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
 ///
 /// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
 /// mobility (Radau IIA), with the same tractions. The number of stages follows [`Stages::for_profile`] and is reported
-/// by [`Ground::history_choice`].
+/// by [`Ground::description`].
 ///
 /// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
 /// free field is that of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion
@@ -34,7 +37,7 @@ use crate::structure::Structure;
 /// use basemat::bem::{ElasticGround, Ground, Strip};
 /// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 /// let mut ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 20)?)?;
-/// ground.prepare(1.0e-4)?;
+/// ground.prepare(1.0e-4, None, &mut basemat::unobserved)?;
 /// let mut matrix = vec![0.0; 40 * 40];
 /// ground.step_compliance(&mut matrix)?;
 /// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
@@ -67,7 +70,7 @@ use crate::structure::Structure;
 ///     .build()?;
 /// let run = simulation.run(400, |_| {})?;
 /// assert!(run.energy_error < 1e-9);
-/// assert!(simulation.ground().history_choice().unwrap().to_string().contains("3 stages"));
+/// assert!(simulation.ground().description().history.unwrap().to_string().contains("3 stages"));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct ElasticGround {
@@ -80,7 +83,7 @@ pub struct ElasticGround {
 short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
 
 impl ElasticGround {
-    /// Ground of a [`Soil`] or a [`SoilProfile`] under a [`Strip`], or several of them from left to
+    /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] under a [`Strip`], or several of them from left to
     /// right, coupled through the soil.
     ///
     /// Damping that is not causal serves [`impedances`](ElasticGround::impedances) only: a simulation
@@ -97,7 +100,7 @@ impl ElasticGround {
         Ok(Self { source, used: None, ground })
     }
 
-    /// Ground of a [`Soil`] or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`]: each is a contact
+    /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`]: each is a contact
     /// element with three directions. A profile's half-plane is a half-space then. Cells are coupled through the soil,
     /// those of several mats too.
     ///
@@ -107,7 +110,7 @@ impl ElasticGround {
     /// use basemat::bem::{ElasticGround, Ground};
     /// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     /// let mut ground = ElasticGround::in_plan(soil, Plan::rectangle(-5.0..5.0, -5.0..5.0, 4)?)?;
-    /// ground.prepare(1.0e-3)?;
+    /// ground.prepare(1.0e-3, None, &mut basemat::unobserved)?;
     /// let mut matrix = vec![0.0; 48 * 48];
     /// ground.step_compliance(&mut matrix)?;
     /// // Before waves reach the next cell, a pressure moves the surface by p·t/(ρ c₁), but for the edges.
@@ -187,7 +190,7 @@ impl ElasticGround {
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
     /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
     /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
-    /// ground.with_kernel_file(&path).weights(0.01)?.prepare(100)?;
+    /// ground.with_kernel_file(&path).weights(0.01)?.prepare(100, &mut basemat::unobserved)?;
     /// // Four distances, three components, 128 lags, and six words around them.
     /// assert_eq!(std::fs::metadata(&path).unwrap().len(), 8 * (4 * 3 * 128 + 6));
     /// # std::fs::remove_file(path).unwrap();
@@ -269,24 +272,25 @@ impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
-        fn directions(&self) -> usize;
-        fn depth(&self, element: usize) -> [f64; 2];
-        fn fraction_inside(&self, element: usize) -> f64;
-        fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()>;
+        fn in_plan(&self, element: usize) -> Option<PlanElement>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);
         fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
-        fn shear_wave_speed(&self) -> Option<f64>;
         fn increment_error_bound(&self) -> f64;
         fn save(&self) -> Result<Vec<f64>>;
         fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
         fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
     }
 
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut Observer<'_>,
+    ) -> Result<()> {
         self.source.profile.check_causal()?;
-        self.ground.prepare(time_step)?;
+        self.ground.prepare(time_step, steps, observer)?;
         self.used = self.source.stages(time_step);
         Ok(())
     }
@@ -304,16 +308,14 @@ impl Ground for ElasticGround {
         Ok(Some(matrix))
     }
 
-    fn soils(&self) -> Vec<Soil> {
-        self.profile().soils().map(|(soil, _)| soil).collect()
-    }
-
-    fn sampled_cells(&self) -> Option<[usize; 2]> {
-        self.source.plan.as_ref().and_then(gate_sample)
-    }
-
-    fn history_choice(&self) -> Option<HistoryChoice> {
+    fn description(&self) -> GroundDescription {
+        let description = self.ground.description();
         let stages = self.used.map(Stages::count);
-        self.ground.history_choice().map(|choice| HistoryChoice { stages, ..choice })
+        GroundDescription {
+            soils: self.profile().soils().map(|(soil, _)| soil).collect(),
+            sampled_cells: self.source.plan.as_ref().and_then(gate_sample),
+            history: description.history.map(|history| HistoryChoice { stages, ..history }),
+            ..description
+        }
     }
 }

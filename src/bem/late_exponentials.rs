@@ -21,7 +21,7 @@
 //! | `β_ij` | Legendre coefficients of Φ(s(ξ−η)) over the patch |
 
 use super::{InfluenceKernel, PatchKernel};
-use crate::error::Result;
+use crate::error::{Result, require};
 use crate::fundamental::rayleigh::TERMS;
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, PairClasses, TailProduct};
@@ -30,6 +30,8 @@ use crate::linalg::gauss;
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
 /// the coefficients themselves are summed from the same series.
 const CROSSINGS: f64 = 3.0;
+/// Number of poles that no tolerance needs.
+const MOST: f64 = 1e4;
 /// Polynomials that a pole may have.
 const DEGREES: usize = 24;
 /// Share of the tolerance for polynomials left out.
@@ -74,8 +76,16 @@ fn tail(
     let begin = window * step;
     let fastest = (1.5 * (5.0 - tolerance.ln()) / begin).ln();
     let slowest = (DROPPED * tolerance / (horizon * step)).ln();
+    let count = ((fastest - slowest) / h).ceil();
+    // Infinite where the horizon is longer than any number.
+    require(
+        "number of exponentials",
+        count,
+        count < MOST,
+        "below 10000: the time step is too long",
+    )?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
-    let count = ((fastest - slowest) / h).ceil() as usize;
+    let count = count as usize;
     let differences = differences();
     let mut poles: Vec<Pole> = (0..count)
         .map(|k| {

@@ -7,7 +7,7 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 //!
-//! A ground in plan has three [directions](Ground::directions): its vectors have 3Q entries, down, along x (to the
+//! A ground [in plan](Ground::in_plan) has three directions: its vectors have 3Q entries, down, along x (to the
 //! right) and along y (away from the reader). Its elements are rectangles, in any order.
 
 mod elastic_ground;
@@ -18,7 +18,6 @@ mod influence;
 mod late_exponentials;
 pub mod layered;
 pub mod plan;
-mod prepared;
 mod shared;
 mod spring;
 mod static_kernel;
@@ -60,43 +59,29 @@ pub trait Ground: Any + Send {
     /// The elements, from left to right, not overlapping; of a ground in plan their sides along x, in any order.
     fn elements(&self) -> &[ContactElement];
 
-    /// Directions in which elements move: two in the plane (the default), three in plan. Forces, moments and energies
-    /// are then those of the whole body, in N, N m and J.
-    fn directions(&self) -> usize {
-        PLANE
+    /// Place of an element in plan, of every element or of none; `None` (the default) in the plane.
+    ///
+    /// In plan elements move in three directions; forces, moments and energies are those of the whole body, in N, N m
+    /// and J.
+    fn in_plan(&self, _element: usize) -> Option<PlanElement> {
+        None
     }
 
-    /// Front and back end of an element along y, m, for a ground in plan. The default is a metre, as in the plane.
-    fn depth(&self, _element: usize) -> [f64; 2] {
-        [0.0, 1.0]
-    }
-
-    /// Part of an element's area that is inside the outline of the mat, above 0 and at most 1 (the default): pressures,
-    /// shear tractions and strengths of a simulation refer to it. Tractions of a ground are those of the whole element.
-    fn fraction_inside(&self, _element: usize) -> f64 {
-        1.0
-    }
-
-    /// Prepares for steps of `time_step` seconds and forgets all tractions. Called once, first.
+    /// Prepares for steps of `time_step` seconds, and forgets all tractions.
+    ///
+    /// `steps` is the number of steps in all, those so far included; `None` if no end is known. Weights are computed
+    /// and memory is allocated here. [`build`](crate::coupled::SimulationBuilder::build) calls it, and so does a run that
+    /// goes on beyond `steps`: before the first step, or with [`Ground::save`] before and [`Ground::restore`] after it.
     ///
     /// # Errors
-    /// If this ground cannot march with this step; [`Error::part`](crate::Error::part) makes an
-    /// error of a ground of your own.
-    fn prepare(&mut self, time_step: f64) -> Result<()>;
-
-    /// Hint that up to `steps` steps will have been made in all, those so far included; zero if that is not known.
-    /// Results do not depend on it, but for rounding where it decides how the history is computed.
-    ///
-    /// What depends on the number of steps is chosen, and memory reserved for them; not for more than 100 000 steps to
-    /// come, as a run without end may be stopped long before. With an `observer` the convolution weights of all `steps`
-    /// are computed first, those of the first step if `steps` is zero. The default does nothing.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`] by the observer, and the ground is as it was; as for
-    /// [`Ground::history`].
-    fn expect_steps(&mut self, _steps: usize, _observer: Option<&mut Observer<'_>>) -> Result<()> {
-        Ok(())
-    }
+    /// If this ground cannot march with this step ([`Error::part`](crate::Error::part) makes an error of a ground of
+    /// your own) or so many steps; [`Error::Stopped`] by the observer. The ground is then as it was.
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut Observer<'_>,
+    ) -> Result<()>;
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the displacement at the end of a step
     /// due to unit tractions during it. Symmetric when rows are weighted by element lengths if
@@ -133,27 +118,9 @@ pub trait Ground: Any + Send {
         Ok(None)
     }
 
-    /// Speed of shear waves in the soil, m/s, which decides what elements resolve; `None` (the default) for
-    /// a ground without waves.
-    fn shear_wave_speed(&self) -> Option<f64> {
-        None
-    }
-
-    /// The soils that it is made of; none (the default) if there are none to be named. A run warns of
-    /// one that is unlike any: [`Warning::UnusualSoil`](crate::coupled::Warning::UnusualSoil).
-    fn soils(&self) -> Vec<Soil> {
-        Vec::new()
-    }
-
-    /// Numbers of cells in the sample whose passivity is checked, and of all; `None` (the default) if all are checked.
-    /// A run warns: [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
-    fn sampled_cells(&self) -> Option<[usize; 2]> {
-        None
-    }
-
-    /// History that the ground keeps, and why; `None` (the default) if there is nothing to choose.
-    fn history_choice(&self) -> Option<HistoryChoice> {
-        None
+    /// Soil and history of the ground, for warnings and pages; nothing by default.
+    fn description(&self) -> GroundDescription {
+        GroundDescription::default()
     }
 
     /// Upper bound of the error of any element's displacement increment due to past tractions, m.
@@ -184,10 +151,10 @@ pub trait Ground: Any + Send {
     /// Overwrites `displacement` (2Q or 3Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let layout = ContactLayout::new(self.directions(), self.elements().len());
+        let layout = ContactLayout::new(directions(self), self.elements().len());
         if layout.components() == SPACE {
             for (e, element) in self.elements().iter().enumerate() {
-                let [front, back] = self.depth(e);
+                let [front, back] = self.in_plan(e).map_or(METRE, |place| place.depth);
                 let place = [element.center(), 0.5 * (front + back)];
                 let [east, north, up] = motion.displacement_at(place, time);
                 for (place, value) in layout.places::<SPACE>(e).into_iter().zip([-up, east, north])
@@ -206,6 +173,42 @@ pub trait Ground: Any + Send {
     }
 }
 
+/// Place of a contact element in plan: its ends along y, and its part inside the outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanElement {
+    /// Front and back end along y, m.
+    pub depth: [f64; 2],
+    /// Part of the area inside the outline of the mat, above 0 and at most 1.
+    ///
+    /// Pressures, shear tractions and strengths of a simulation refer to it; tractions of a ground are those of the
+    /// whole element.
+    pub fraction_inside: f64,
+}
+
+/// Soil and history of a ground.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct GroundDescription {
+    /// Speed of shear waves near the surface, m/s, for the resolution of elements; `None` without waves.
+    pub shear_wave_speed: Option<f64>,
+    /// Soils of the ground; a run warns of an unusual one:
+    /// [`Warning::UnusualSoil`](crate::coupled::Warning::UnusualSoil).
+    pub soils: Vec<Soil>,
+    /// Numbers of cells in the sample whose passivity is checked, and of all; `None` if all are checked.
+    ///
+    /// A run warns of a sample: [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
+    pub sampled_cells: Option<[usize; 2]>,
+    /// Convolution history; `None` without one.
+    pub history: Option<HistoryChoice>,
+}
+
+/// Ends along y of an element in the plane, m: a metre of depth.
+const METRE: [f64; 2] = [0.0, 1.0];
+
+/// Number of directions in which the elements of a ground move.
+pub(crate) fn directions(ground: &(impl Ground + ?Sized)) -> usize {
+    ground.in_plan(0).map_or(PLANE, |_| SPACE)
+}
+
 /// Error of a ground before its time step is known.
 const NOT_PREPARED: Error = Error::Scene {
     quantity: "ground",
@@ -215,9 +218,16 @@ const NOT_PREPARED: Error = Error::Scene {
 /// The elements of a ground, checked.
 pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     let elements = ground.elements().to_vec();
-    let depths = (0..elements.len()).map(|element| ground.depth(element)).collect();
-    let inside = (0..elements.len()).map(|element| ground.fraction_inside(element)).collect();
-    Patch::new(ground.directions(), elements, depths, inside)
+    let places: Vec<_> = (0..elements.len()).map(|element| ground.in_plan(element)).collect();
+    if places.windows(2).any(|pair| pair[0].is_some() != pair[1].is_some()) {
+        return Err(Error::Scene {
+            quantity: "contact elements of the ground",
+            needed: "all of them, or none, in plan",
+        });
+    }
+    let depths = places.iter().map(|place| place.map_or(METRE, |place| place.depth)).collect();
+    let inside = places.iter().map(|place| place.map_or(1.0, |place| place.fraction_inside));
+    Patch::new(directions(ground), elements, depths, inside.collect())
 }
 
 /// A soil that has convolution weights and a static compliance: all that
@@ -242,7 +252,7 @@ pub trait WeightsSource: Any + Send {
     /// If the slice has the wrong length.
     fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()>;
 
-    /// Speed of shear waves near the surface, m/s, as [`Ground::shear_wave_speed`].
+    /// Speed of shear waves near the surface, m/s, as in [`GroundDescription`].
     fn shear_wave_speed(&self) -> Option<f64> {
         None
     }

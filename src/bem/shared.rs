@@ -23,15 +23,14 @@ const KEPT: usize = 8;
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
 /// use basemat::sweep::Sweep;
-/// use basemat::{Error, Soil};
+/// use basemat::{Error, Soil, unobserved};
 /// let kernels = SharedKernels::default();
 /// Sweep::new(3).run(
 ///     |case| {
 ///         let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 ///         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 10)?)?;
 ///         let mut ground = ground.with_shared_kernels(&kernels);
-///         ground.prepare(2.0e-3)?;
-///         ground.expect_steps(100 * case.index, None)
+///         ground.prepare(2.0e-3, Some(100 * case.index), &mut unobserved)
 ///     },
 ///     |_, result| assert_eq!(result, Ok(())),
 /// );

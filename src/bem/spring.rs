@@ -1,8 +1,10 @@
 //! Winkler's spring bed: a ground without history.
 
 use super::plan::Plan;
-use super::{Grading, Ground, NOT_PREPARED, Strip};
-use crate::error::{CheckpointError, Result, not_negative, positive, require, same_length};
+use super::{Grading, Ground, NOT_PREPARED, PlanElement, Strip};
+use crate::error::{
+    CheckpointError, Observer, Result, not_negative, positive, require, same_length,
+};
 use crate::geometry::{ContactElement, ContactLayout, PLANE, SPACE, check_count, check_order};
 use crate::structure::Structure;
 
@@ -15,7 +17,7 @@ use crate::structure::Structure;
 /// ```
 /// use basemat::bem::{Ground, SpringGround};
 /// let mut bed = SpringGround::new(-2.0..2.0, 4, 20.0e6, 10.0e6)?.with_dashpots(4.0e5, 0.0)?;
-/// bed.prepare(1.0e-3)?;
+/// bed.prepare(1.0e-3, None, &mut basemat::unobserved)?;
 /// let mut matrix = vec![0.0; 64];
 /// bed.step_compliance(&mut matrix)?;
 /// assert!((matrix[0] - 1.0 / (0.5 * 20.0e6 + 4.0e5 / 1.0e-3)).abs() < 1e-18);
@@ -177,15 +179,17 @@ impl Ground for SpringGround {
         &self.elements
     }
 
-    fn directions(&self) -> usize {
-        if self.depths.is_some() { SPACE } else { PLANE }
+    fn in_plan(&self, element: usize) -> Option<PlanElement> {
+        let depth = *self.depths.as_ref()?.get(element)?;
+        Some(PlanElement { depth, fraction_inside: 1.0 })
     }
 
-    fn depth(&self, element: usize) -> [f64; 2] {
-        self.depths.as_ref().and_then(|depths| depths.get(element)).map_or([0.0, 1.0], |ends| *ends)
-    }
-
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        _steps: Option<usize>,
+        _observer: &mut Observer<'_>,
+    ) -> Result<()> {
         self.time_step = positive("time step", time_step)?;
         self.displacement.fill(0.0);
         Ok(())
@@ -253,7 +257,7 @@ mod tests {
     fn a_held_traction_tends_to_the_static_displacement() {
         let mut bed =
             SpringGround::new(0.0..1.0, 1, 100.0, 50.0).unwrap().with_dashpots(10.0, 5.0).unwrap();
-        bed.prepare(0.01).unwrap();
+        bed.prepare(0.01, None, &mut crate::unobserved).unwrap();
         let mut s = [0.0; 2];
         for _ in 0..10 {
             bed.commit(&[200.0, -50.0]);

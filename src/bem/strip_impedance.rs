@@ -1,32 +1,35 @@
 //! Dynamic stiffness of the strips of an elastic ground.
 
 use super::layered::{StripContact, StripImpedance, impedance_watch, strip_impedances};
-use super::{ElasticGround, Ground};
-use crate::error::{Error, Observer, Result, Watch};
+use super::{ElasticGround, Ground, directions};
+use crate::error::{Error, Observer, Result};
 use crate::geometry::SPACE;
 
 impl ElasticGround {
     /// Dynamic stiffness of all strips together as one rigid body, at each of `frequencies` (Hz).
     ///
-    /// Cosine-graded strips converge with second order.
+    /// Cosine-graded strips converge with second order. The observer's parts are points of the Laplace plane, eight
+    /// per frequency.
     ///
     /// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, including hysteretic
     /// damping.
     ///
     /// ```
-    /// use basemat::Soil;
+    /// use basemat::{Soil, unobserved};
     /// use basemat::bem::layered::StripContact;
     /// use basemat::bem::{ElasticGround, Strip};
     /// use basemat::soil::SoilProfile;
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
     /// let strip = Strip::graded(-3.0..3.0, 16)?;
-    /// let found = ElasticGround::new(soil, &strip)?.impedances(&[2.0, 8.0], StripContact::Bonded)?;
+    /// let ground = ElasticGround::new(soil, &strip)?;
+    /// let found = ground.impedances(&[2.0, 8.0], StripContact::Bonded, &mut unobserved)?;
     /// // Vertical dashpots come near the dashpot of plane waves, ρ c₁ per area.
     /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
     /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
     ///
     /// let layer = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
-    /// let found = ElasticGround::new(layer, strip)?.impedances(&[1.0, 9.0], StripContact::Bonded)?;
+    /// let ground = ElasticGround::new(layer, strip)?;
+    /// let found = ground.impedances(&[1.0, 9.0], StripContact::Bonded, &mut unobserved)?;
     /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
     /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
     /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
@@ -37,41 +40,21 @@ impl ElasticGround {
     /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not
     /// finite, or 0 on a half-plane, whose static stiffness is 0;
     /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which
-    /// guided waves begin; [`Error::Singular`] if elements are too similar to be distinguished.
+    /// guided waves begin; [`Error::Singular`] if elements are too similar to be distinguished;
+    /// [`Error::Stopped`] by the observer.
     pub fn impedances(
-        &self,
-        frequencies: &[f64],
-        contact: StripContact,
-    ) -> Result<Vec<StripImpedance>> {
-        self.strip_impedances(frequencies, contact, &mut Watch::nobody())
-    }
-
-    /// [`ElasticGround::impedances`] with an observer; its parts are points of the Laplace plane, eight per
-    /// frequency.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`]; as for [`ElasticGround::impedances`].
-    pub fn impedances_observed(
         &self,
         frequencies: &[f64],
         contact: StripContact,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        self.strip_impedances(frequencies, contact, &mut impedance_watch(frequencies, observer))
-    }
-
-    fn strip_impedances(
-        &self,
-        frequencies: &[f64],
-        contact: StripContact,
-        watch: &mut Watch,
-    ) -> Result<Vec<StripImpedance>> {
-        if self.directions() == SPACE {
+        if directions(self) == SPACE {
             return Err(Error::Scene {
                 quantity: "ground in plan",
                 needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
             });
         }
+        let watch = &mut impedance_watch(frequencies, observer);
         strip_impedances(self.profile(), self.elements(), frequencies, contact, watch)
     }
 }

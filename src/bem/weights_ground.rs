@@ -3,14 +3,10 @@
 use std::sync::Arc;
 
 use super::plan::Unions;
-use super::prepared::{Kept, Prepared};
-use super::{Ground, NOT_PREPARED, SharedKernels, WeightsSource};
+use super::{Ground, GroundDescription, NOT_PREPARED, PlanElement, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Observer, Result};
-use crate::geometry::{ContactElement, PLANE, SPACE, check_order};
-use crate::history::{
-    ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod,
-    HistoryOptions, SavedChoice,
-};
+use crate::geometry::{ContactElement, PLANE, check_order};
+use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryOptions};
 
 /// Any soil that has convolution weights and a static compliance, as a ground.
 ///
@@ -126,6 +122,13 @@ short_debug! {
     prepared: self.prepared.is_some(),
 }
 
+/// Weights and history for one time step.
+struct Prepared {
+    time_step: f64,
+    weights: Arc<dyn ConvolutionWeights>,
+    chosen: ChosenHistory,
+}
+
 /// Makes the history of convolution weights.
 type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
@@ -193,14 +196,16 @@ impl WeightsGround {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
-    /// Prepares the ground before the first step, with a history where none is to be chosen.
-    fn begin(&self, kernel: Arc<dyn ConvolutionWeights>) -> Result<Prepared> {
-        let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
-        let mut prepared = Prepared { kernel, history };
-        if self.options.method != HistoryMethod::Auto {
-            prepared.history(self.options, None)?;
+    /// Empty history of `weights` for `steps` steps.
+    fn begin(
+        &self,
+        weights: &Arc<dyn ConvolutionWeights>,
+        steps: Option<usize>,
+    ) -> Result<ChosenHistory> {
+        match &self.own_history {
+            Some(make) => Ok(ChosenHistory::own(make(Arc::clone(weights)))),
+            None => self.options.history(weights, steps),
         }
-        Ok(prepared)
     }
 }
 
@@ -209,104 +214,81 @@ impl Ground for WeightsGround {
         &self.elements
     }
 
-    fn directions(&self) -> usize {
-        if self.depths.is_some() { SPACE } else { PLANE }
+    fn in_plan(&self, element: usize) -> Option<PlanElement> {
+        let (depths, inside) = self.depths.as_ref()?;
+        Some(PlanElement { depth: *depths.get(element)?, fraction_inside: *inside.get(element)? })
     }
 
-    fn depth(&self, element: usize) -> [f64; 2] {
-        let ends = self.depths.as_ref().and_then(|(depths, _)| depths.get(element));
-        ends.map_or([0.0, 1.0], |ends| *ends)
-    }
-
-    fn fraction_inside(&self, element: usize) -> f64 {
-        let inside = self.depths.as_ref().and_then(|(_, inside)| inside.get(element));
-        inside.map_or(1.0, |inside| *inside)
-    }
-
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
-        let kernel = self.shared.kernel(&*self.source, &self.elements, time_step)?;
-        self.prepared = Some(self.begin(kernel)?);
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut Observer<'_>,
+    ) -> Result<()> {
+        let known = self.prepared.as_ref().filter(|prepared| prepared.time_step == time_step);
+        let weights = match known {
+            Some(prepared) => Arc::clone(&prepared.weights),
+            None => self.shared.kernel(&*self.source, &self.elements, time_step)?,
+        };
+        let mut chosen = self.begin(&weights, steps)?;
+        match steps {
+            Some(steps) => chosen.history.prepare(steps, observer)?,
+            // The step compliance is the first lag.
+            None => weights.prepare(1, observer)?,
+        }
+        self.prepared = Some(Prepared { time_step, weights, chosen });
         Ok(())
     }
 
-    fn expect_steps(&mut self, steps: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
-        let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
-        prepared.expect_steps(self.options, steps, observer)
-    }
-
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let Some(Prepared { kernel, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
+        let Some(Prepared { weights, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
         match &self.unions {
-            Some(unions) => unions.reduce(matrix, |cells| kernel.step_compliance(cells)),
-            None => kernel.step_compliance(matrix),
+            Some(unions) => unions.reduce(matrix, |cells| weights.step_compliance(cells)),
+            None => weights.step_compliance(matrix),
         }
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
-        let history = prepared.history(self.options, None)?;
+        let Some(Prepared { chosen, .. }) = &mut self.prepared else { return Err(NOT_PREPARED) };
         match &mut self.unions {
-            Some(unions) => unions.gather(displacement, |cells| history.evaluate(cells)),
-            None => history.evaluate(displacement),
+            Some(unions) => unions.gather(displacement, |cells| chosen.history.evaluate(cells)),
+            None => chosen.history.evaluate(displacement),
         }
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        let Some(prepared) = &mut self.prepared else { return };
-        // Where Auto has nothing to go by, it takes a history that can always be made.
-        if let Ok(history) = prepared.history(self.options, None) {
-            history.push(self.unions.as_mut().map_or(traction, |unions| unions.spread(traction)));
+        let Some(Prepared { chosen, .. }) = &mut self.prepared else { return };
+        let traction = self.unions.as_mut().map_or(traction, |unions| unions.spread(traction));
+        chosen.history.push(traction);
+    }
+
+    fn description(&self) -> GroundDescription {
+        let prepared = self.prepared.as_ref();
+        GroundDescription {
+            shear_wave_speed: self.source.shear_wave_speed(),
+            history: prepared.and_then(|prepared| prepared.chosen.choice()),
+            ..Default::default()
         }
-    }
-
-    fn shear_wave_speed(&self) -> Option<f64> {
-        self.source.shear_wave_speed()
-    }
-
-    fn history_choice(&self) -> Option<HistoryChoice> {
-        self.prepared.as_ref()?.choice()
     }
 
     fn increment_error_bound(&self) -> f64 {
-        let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
-        history.map_or(0.0, |history| history.any().increment_error_bound())
+        let prepared = self.prepared.as_ref();
+        prepared.map_or(0.0, |prepared| prepared.chosen.history.increment_error_bound())
     }
 
-    /// The choice of the history, its number of steps, and the state of the history.
     fn save(&self) -> Result<Vec<f64>> {
-        let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
-        let mut values = SavedChoice::new(prepared.choice()).numbers().to_vec();
-        if let Some(history) = &prepared.history {
-            values.extend(history.any().save()?);
-        }
-        Ok(values)
+        self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()
     }
 
+    /// Restores a history of the same kind; exponentials are fitted again if they had another horizon.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
-        let (saved, values) = SavedChoice::read(values)?;
-        let own = SavedChoice::new(prepared.choice());
-        let other = CheckpointError::OtherScene { quantity: "kind of history" };
-        if let Some(history) = prepared.history.as_mut().filter(|_| own == saved) {
-            return history.any_mut().restore(steps, values);
+        let Some(horizon) = prepared.chosen.restore(steps, values)? else { return Ok(()) };
+        let mut chosen = self.options.history(&prepared.weights, Some(horizon))?;
+        if chosen.restore(steps, values)?.is_some() {
+            return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
         }
-        if saved.kind == HistoryMethod::Auto {
-            // Nothing had been chosen yet, so that it is still to be.
-            if self.own_history.is_some() || steps > 0 || !values.is_empty() {
-                return Err(other.into());
-            }
-            let kernel = Arc::clone(&prepared.kernel);
-            self.prepared = Some(self.begin(kernel)?);
-            return Ok(());
-        }
-        // The same history is chosen again, and taken once it has the values.
-        let mut history = ChosenHistory::new(self.options, &prepared.kernel, saved.steps)?;
-        if history.choice().kind != saved.kind {
-            let later = history.succeeded(steps).ok().flatten();
-            history = later.filter(|later| later.choice().kind == saved.kind).ok_or(other)?;
-        }
-        history.restore(steps, values)?;
-        prepared.history = Some(Kept::Chosen(history));
+        prepared.chosen = chosen;
         Ok(())
     }
 

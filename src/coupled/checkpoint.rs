@@ -17,7 +17,7 @@ use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; raise it when the order of its numbers changes.
-const FORMAT: u32 = 9;
+const FORMAT: u32 = 10;
 /// Largest number of steps of a checkpoint: no run has more.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,

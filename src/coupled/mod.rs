@@ -81,6 +81,7 @@ mod identity;
 mod interaction;
 pub(crate) mod model;
 pub(crate) mod parts;
+mod preparation;
 mod refine;
 mod refine_each;
 pub(crate) mod run;

@@ -1,5 +1,6 @@
 //! Parts of a simulation, each checked alone.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::bem::{Ground, patch};
@@ -11,8 +12,8 @@ use crate::coupled::model::load::Load;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::coupled::serviceability::Serviceability;
 use crate::error::{
-    Error, Observer, Result, all_finite, finite, memory, not_negative, positive, require,
-    require_part, same_length,
+    Error, Progress, Result, all_finite, finite, memory, not_negative, positive, require,
+    require_part, same_length, unobserved,
 };
 use crate::geometry::Patch;
 use crate::interface::{
@@ -62,6 +63,7 @@ pub struct SimulationBuilder {
     pub(crate) rotation_limit: f64,
     /// Whether the base is held instead of standing on the ground.
     pub(crate) held: bool,
+    pub(crate) observer: Box<dyn FnMut(Progress) -> ControlFlow<()> + Send>,
 }
 
 short_debug! {
@@ -102,6 +104,7 @@ impl SimulationBuilder {
             serviceability: Serviceability::default(),
             rotation_limit: ROTATION_LIMIT,
             held: false,
+            observer: Box::new(unobserved),
         }
     }
 
@@ -135,10 +138,7 @@ pub(crate) struct Parts {
 
 impl Parts {
     /// Checks each part alone, and prepares the ground for steps.
-    pub(crate) fn new(
-        mut given: SimulationBuilder,
-        observer: Option<&mut Observer<'_>>,
-    ) -> Result<Self> {
+    pub(crate) fn new(mut given: SimulationBuilder) -> Result<Self> {
         let time_step = positive("time step", given.time_step)?;
         positive("square of the time step", time_step * time_step)?;
         not_negative("gravity", given.gravity)?;
@@ -176,8 +176,8 @@ impl Parts {
         coefficients.check()?;
         let [x, y] = elements.center();
         let moment_center = [finite("moment center", given.moment_center.unwrap_or(x))?, y];
-        ground.prepare(time_step)?;
-        ground.expect_steps(given.steps, observer)?;
+        let steps = Some(given.steps).filter(|steps| *steps > 0);
+        ground.prepare(time_step, steps, &mut given.observer)?;
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
         let mut start_motion = vec![0.0; layout.len()];
         ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);

@@ -13,7 +13,7 @@ use crate::coupled::state::State;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::newton::Solver;
 use crate::coupled::step::{Forcing, Increment, StepData};
-use crate::error::{Error, Observer, Result, StepError, in_bounds};
+use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
@@ -44,6 +44,8 @@ pub struct Simulation {
     pub(crate) rotation_limit: f64,
     /// Expected steps of the builder, or zero.
     pub(crate) expected_steps: usize,
+    /// Number of steps for which the ground is prepared; zero if no end is known.
+    pub(crate) prepared: usize,
 }
 
 short_debug! {
@@ -245,16 +247,6 @@ impl Simulation {
         steps
     }
 
-    /// Computes the ground's convolution weights for `steps` further steps, with an observer.
-    ///
-    /// A run of as many steps then begins at once, with unchanged results. [`Observer`] has an example.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`] by the observer, and the simulation stays unchanged; as for [`Ground::history`].
-    pub fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        self.ground.expect_steps(self.state.step.saturating_add(steps), Some(observer))
-    }
-
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
     /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see [`Observed`].
@@ -264,22 +256,22 @@ impl Simulation {
     /// The run ends after the step in which a base exceeds the
     /// [`rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit), with [`Warning::Overturned`]; a
     /// further call continues from there. Missing convolution weights are computed before the first step, without
-    /// an observer: [`Simulation::precompute`] computes them before, with one.
+    /// an observer: [`Simulation::prepare`] computes them before, with one.
     ///
-    /// The first run chooses the ground's history for its number of steps, unless
-    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) was set. Without it, two runs of half
-    /// as many steps may differ from one run in the last bits.
+    /// How steps are divided into runs changes no bit, up to 2²⁰ steps or the
+    /// [expected](crate::coupled::SimulationBuilder::expected_steps) ones. Use [`usize::MAX`] steps for a run that only
+    /// `observe` ends: nothing is then prepared.
     ///
     /// # Errors
-    /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error; the simulation stays
+    /// [`Error::Memory`] before the first step, for more steps than fit into the memory of the ground's history;
+    /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error. The simulation stays
     /// at the last accepted step, which [`Simulation::state`] returns.
     pub fn run<R: Observed>(
         &mut self,
         steps: usize,
         mut observe: impl FnMut(&State) -> R,
     ) -> Result<Run> {
-        let announced = self.state.step.saturating_add(steps);
-        self.ground.expect_steps(announced, None)?;
+        self.prepare(steps, &mut unobserved)?;
         let mut run = self.begin_run();
         for _ in 0..steps {
             let stood = self.state.tilt() <= self.rotation_limit;
@@ -322,7 +314,7 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let (speed, state) = (self.ground.shear_wave_speed(), &self.state);
+        let (speed, state) = (self.ground.description().shear_wave_speed, &self.state);
         let resolution = Resolution::new(self.scene.time_step, speed, state);
         Run::start(state, &self.scene.serviceability, resolution)
     }

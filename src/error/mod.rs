@@ -21,7 +21,7 @@ pub use ground::{KernelFileError, LayeredError, PlanError, SiteError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub use part::{LawError, ReducedError};
 pub(crate) use progress::Watch;
-pub use progress::{Observer, Progress};
+pub use progress::{Observer, Progress, unobserved};
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, short,

@@ -44,11 +44,11 @@ impl fmt::Display for Progress {
 /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
 /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
 /// let weights = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?.weights(0.01)?;
-/// let stopped = weights.prepare_observed(500, &mut |progress: Progress| {
+/// let stopped = weights.prepare(500, &mut |progress: Progress| {
 ///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }
 /// });
 /// assert!(matches!(stopped, Err(Error::Stopped(progress)) if progress.done < progress.total));
-/// weights.prepare_observed(500, &mut |progress| {
+/// weights.prepare(500, &mut |progress| {
 ///     println!("{progress}");
 ///     Continue(())
 /// })?;
@@ -78,11 +78,11 @@ impl fmt::Display for Progress {
 ///     .motion(el_centro_1940())
 ///     .build()?;
 /// // A key pressed half way: nothing has changed, and the weights that are there stay.
-/// let stopped = simulation.precompute(300, &mut |progress| {
+/// let stopped = simulation.prepare(300, &mut |progress| {
 ///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }
 /// });
 /// assert!(matches!(stopped, Err(Error::Stopped(_))));
-/// simulation.precompute(300, &mut |progress| {
+/// simulation.prepare(300, &mut |progress| {
 ///     eprint!("\r{progress}");
 ///     Continue(())
 /// })?;
@@ -90,6 +90,17 @@ impl fmt::Display for Progress {
 /// # Ok::<(), Error>(())
 /// ```
 pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+
+/// [`Observer`] that hears of nothing and stops nothing: the default of long calls.
+///
+/// ```
+/// let record = basemat::motion::el_centro_1940();
+/// assert_eq!(record.response_spectrum(&[1.0], 0.05, &mut basemat::unobserved)?.len(), 1);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub fn unobserved(_: Progress) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
 
 /// The observer of a call, if any, and its last progress.
 pub(crate) struct Watch<'a> {
@@ -107,13 +118,8 @@ impl<'a> Watch<'a> {
         Self { observer: Some(observer), progress: Progress { task, done: 0, total } }
     }
 
-    /// Observer of the progress, if there is one.
-    pub(crate) fn observer(&mut self) -> Option<&mut Observer<'a>> {
-        self.observer.as_deref_mut()
-    }
-
     /// Whether the progress is observed.
-    pub(crate) fn is_observed(&self) -> bool {
+    pub(crate) fn has_observer(&self) -> bool {
         self.observer.is_some()
     }
 

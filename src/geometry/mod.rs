@@ -7,7 +7,7 @@ mod lattice;
 pub(crate) use footing::{Edge, Footing};
 pub(crate) use lattice::{Lattice, SERIES, offset};
 
-use crate::error::{Error, MemoryError, Result, at_least, finite, memory, positive, require};
+use crate::error::{MemoryError, Result, at_least, finite, memory, positive, require};
 
 /// Boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -152,12 +152,8 @@ impl Patch {
             require(quantity, part, part > 0.0 && part <= 1.0, "above 0 and at most 1")?;
         }
         match components {
-            PLANE => check_order(&elements)?,
             SPACE => check_cells(&elements, &depths)?,
-            _ => {
-                let (quantity, value) = ("number of directions of the ground", components as f64);
-                return Err(Error::Input { quantity, value, needed: "2 in the plane, 3 in plan" });
-            }
+            _ => check_order(&elements)?,
         }
         let sides = elements.iter().zip(&depths);
         let areas = sides.map(|(along, [front, back])| along.length() * (back - front));

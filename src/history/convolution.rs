@@ -1,9 +1,9 @@
 //! Convolutions: the traits of weights and of histories, and the direct sum.
 
-use super::exponentials::tail::ExponentialSum;
+use super::exponential_sum::ExponentialSum;
 use super::pair_classes::{KINDS, PairClasses};
-use super::relaxed_fft::wave_level::SharedSpectra;
-use crate::error::{CheckpointError, Error, Observer, Result, same_length};
+use super::shared_spectra::SharedSpectra;
+use crate::error::{CheckpointError, Error, Observer, Result, same_length, unobserved};
 use crate::geometry::SERIES;
 
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
@@ -14,20 +14,12 @@ pub trait ConvolutionHistory: Send {
     /// Inputs accepted so far.
     fn steps(&self) -> usize;
 
-    /// Hints that about `steps` inputs will come in all: kernels and memory are made ready.
+    /// Prepares weights and memory for `steps` inputs in all.
     ///
     /// # Errors
-    /// If a kernel cannot be evaluated.
-    fn reserve(&mut self, steps: usize) -> Result<()>;
-
-    /// [`reserve`](ConvolutionHistory::reserve) with an observer, which is not notified of quick work (the default).
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped), and all goes on as if nothing had been asked for; as for
-    /// [`ConvolutionHistory::reserve`].
-    fn reserve_observed(&mut self, steps: usize, _observer: &mut Observer<'_>) -> Result<()> {
-        self.reserve(steps)
-    }
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer, and the history is as it was;
+    /// [`Error::Memory`](crate::Error::Memory) for more steps than memory is allowed for; if weights cannot be computed.
+    fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()>;
 
     /// Overwrites `displacement` with the history at the end of the next step.
     ///
@@ -70,17 +62,6 @@ pub trait ConvolutionHistory: Send {
     }
 }
 
-/// An exact history, which has all tractions.
-pub(super) trait ExactHistory: ConvolutionHistory {
-    /// Overwrites `traction` with the input of `step`, one of those accepted.
-    fn traction(&mut self, step: usize, traction: &mut [f64]);
-
-    /// Whether memory has ended, and grows no more.
-    fn has_ended(&self) -> bool {
-        false
-    }
-}
-
 /// Error unless `values` are `steps` inputs of `size` each.
 pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<()> {
     if steps.checked_mul(size) == Some(values.len()) {
@@ -119,8 +100,7 @@ pub trait ConvolutionWeights: Send + Sync {
     /// The elements, and the classes of their pairs.
     fn classes(&self) -> &PairClasses;
 
-    /// Prepares the lags up to `lags` of all classes: kernels that compute many at once, or on several threads, do so
-    /// here. A closed form has nothing to prepare (the default).
+    /// Computes the lags up to `lags` of all classes; nothing for a closed form (the default).
     ///
     /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
     /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as
@@ -128,17 +108,9 @@ pub trait ConvolutionWeights: Send + Sync {
     /// it open.
     ///
     /// # Errors
-    /// If coefficients cannot be computed.
-    fn prepare(&self, _lags: usize) -> Result<()> {
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer; if coefficients cannot be computed.
+    fn prepare(&self, _lags: usize, _observer: &mut Observer<'_>) -> Result<()> {
         Ok(())
-    }
-
-    /// [`prepare`](ConvolutionWeights::prepare) with an observer, which is not notified of a closed form (the default).
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].
-    fn prepare_observed(&self, lags: usize, _observer: &mut Observer<'_>) -> Result<()> {
-        self.prepare(lags)
     }
 
     /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,
@@ -174,7 +146,7 @@ pub trait ConvolutionWeights: Send + Sync {
     }
 
     /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
-    /// default) if it never ends. An end saves time and memory.
+    /// default) if it never ends. If the weights become zero, older tractions need not be stored.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
@@ -189,7 +161,7 @@ pub trait ConvolutionWeights: Send + Sync {
     }
 
     /// Largest sum of the errors of late coefficients, relative to the sum of all; zero (the default) if they are
-    /// exact. It is the least tolerance of a memory that [forgets](super::HistoryOptions).
+    /// exact. It is the least [tolerance](super::HistoryOptions) at which late weights are left out.
     fn late_error(&self) -> f64 {
         0.0
     }
@@ -208,7 +180,7 @@ pub trait ConvolutionWeights: Send + Sync {
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
         same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
-        self.prepare(1)?;
+        self.prepare(1, &mut unobserved)?;
         if classes.plan().is_some() {
             scatter_first(classes, matrix, |class, lag| self.coefficients_in_plan(class, 1, lag))
         } else {

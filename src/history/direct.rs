@@ -2,17 +2,12 @@
 
 use std::sync::Arc;
 
-use super::convolution::{
-    ConvolutionHistory, ConvolutionWeights, ExactHistory, all_kinds, check_inputs,
-};
-use crate::error::{Result, same_length};
+use super::convolution::{ConvolutionHistory, ConvolutionWeights, all_kinds, check_inputs};
+use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 
 /// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
 const CHUNK: usize = 512;
-
-/// Steps ahead that a hint prepares for, at most; beyond, memory grows as it goes.
-pub(crate) const RESERVED_STEPS: usize = 100_000;
 
 /// Direct summation of the history: the oracle for all others.
 ///
@@ -28,6 +23,8 @@ pub struct DirectHistory {
     /// Per contact component: its value at every step.
     traction: Vec<Vec<f64>>,
     steps: usize,
+    /// Memory allowed, bytes.
+    memory: f64,
 }
 
 short_debug! {
@@ -40,15 +37,33 @@ impl DirectHistory {
         let classes = kernel.classes();
         let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
         let traction = vec![Vec::new(); classes.layout().len()];
-        Self { kernel, capacity: 0, kinds, traction, steps: 0 }
+        let memory = memory_limit() as f64;
+        Self { kernel, capacity: 0, kinds, traction, steps: 0, memory }
+    }
+
+    /// Limits the memory to `bytes`: more steps are [`Error::Memory`].
+    pub(super) fn within(mut self, bytes: usize) -> Self {
+        self.memory = self.memory.min(bytes as f64);
+        self
     }
 
     /// Makes lags up to `lags` available.
     fn grow(&mut self, lags: usize) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
+        let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
+        let needed = 8.0 * numbers as f64 * new as f64;
+        if needed > self.memory {
+            return Err(Error::Memory(MemoryError {
+                quantity: "steps of the convolution history",
+                asked: lags as f64,
+                needed,
+                limit: self.memory,
+                remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a checkpoint can go on there",
+            }));
+        }
         let own = self.kernel.classes().layout().components();
         let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
-        self.kernel.prepare(new)?;
+        self.kernel.prepare(new, &mut unobserved)?;
         for class in 0..self.kernel.classes().count() {
             let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
             let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
@@ -86,9 +101,7 @@ impl ConvolutionHistory for DirectHistory {
         (coefficients + traction) * size_of::<f64>()
     }
 
-    /// Prepares for 100 000 further steps at most: a larger hint may stand for a run without end.
-    fn reserve(&mut self, steps: usize) -> Result<()> {
-        let steps = steps.min(self.steps.saturating_add(RESERVED_STEPS));
+    fn prepare(&mut self, steps: usize, _observer: &mut Observer<'_>) -> Result<()> {
         if steps >= self.capacity {
             self.grow(steps.saturating_add(1))?;
         }
@@ -152,13 +165,5 @@ impl ConvolutionHistory for DirectHistory {
         self.steps = 0;
         values.chunks_exact(size).for_each(|traction| self.push(traction));
         Ok(())
-    }
-}
-
-impl ExactHistory for DirectHistory {
-    fn traction(&mut self, step: usize, traction: &mut [f64]) {
-        for (value, component) in traction.iter_mut().zip(&self.traction) {
-            *value = component[step];
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Last lag that a kernel in plan needs, since the effect of a traction dies out.
 
 use super::convolution::ConvolutionWeights;
-use crate::error::Result;
+use crate::error::{Observer, Progress, Result};
 use crate::geometry::SERIES;
 
 /// Shortest memory, lags.
@@ -21,10 +21,12 @@ pub(super) struct LastLag {
 impl LastLag {
     /// The least power of two beyond which all coefficients together are less than `tolerance` of all; `None` if that
     /// is not seen in the lags up to `most`. It depends on nothing else, so that it is the same however far is looked.
+    /// The observer's parts are lags; the search ends with fewer of them where the last lag is found.
     pub(super) fn of(
         kernel: &dyn ConvolutionWeights,
         tolerance: f64,
         most: usize,
+        observer: &mut Observer<'_>,
     ) -> Result<Option<Self>> {
         let Some((lattice, _)) = kernel.classes().plan() else { return Ok(None) };
         let area = lattice.pitch[0] * lattice.pitch[1];
@@ -36,7 +38,10 @@ impl LastLag {
         let mut done = 0;
         let mut lag = SHORTEST;
         while lag <= most / 2 {
-            kernel.prepare(2 * lag)?;
+            kernel.prepare(2 * lag, &mut |Progress { task, done: parts, total }| {
+                let lags = done + (2 * lag - done) * parts / total.max(1);
+                observer(Progress { task, done: lags, total: most })
+            })?;
             let mut late = vec![[0.0; SERIES]; all.len()];
             for begin in (done..2 * lag).step_by(SHORTEST) {
                 let sums = if begin < lag { &mut all } else { &mut late };

@@ -2,26 +2,30 @@
 //!
 //! A [`ConvolutionWeights`] gives the coefficients of a ground, lag by lag; the histories sum them over all
 //! past tractions, exactly ([`DirectHistory`], [`RelaxedFftHistory`]) or within a tolerance
-//! ([`ExponentialHistory`]). [`HistoryMethod::Auto`] chooses. Nothing here depends on what the ground is made of.
+//! ([`ExponentialHistory`]). [`HistoryOptions`] chooses by one rule. Nothing here depends on the soil.
 
-mod choice;
 mod chosen;
 mod convolution;
 mod direct;
+mod exponential_sum;
 mod exponentials;
 mod last_lag;
+mod method;
+mod options;
 mod pair_classes;
 mod relaxed_fft;
+mod shared_spectra;
 
-pub(crate) use choice::SavedChoice;
-pub use choice::{ChoiceReason, HistoryChoice, HistoryMethod};
 pub(crate) use chosen::ChosenHistory;
-pub use chosen::HistoryOptions;
+pub use chosen::HistoryChoice;
 pub(crate) use convolution::OTHER_KINDS;
 pub use convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
 pub use direct::DirectHistory;
-pub(crate) use direct::RESERVED_STEPS;
-pub use exponentials::{ExponentialFit, ExponentialHistory, ExponentialSum, TailProduct};
+pub use exponential_sum::{ExponentialSum, TailProduct};
+pub use exponentials::{ExponentialFit, ExponentialHistory};
+pub use method::HistoryMethod;
+pub use options::HistoryOptions;
 pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};
-pub use relaxed_fft::{RelaxedFftHistory, SharedSpectra};
+pub use relaxed_fft::RelaxedFftHistory;
+pub use shared_spectra::SharedSpectra;

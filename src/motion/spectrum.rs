@@ -91,10 +91,11 @@ impl Record {
     /// Jennings, "Calculation of response spectra from strong-motion earthquake records", Bull. Seism. Soc. Am. 59
     /// (1969), 909–922). Peaks between samples are found to 2e-6. The spectrum of a floor's acceleration is a
     /// floor spectrum. [`Record::coarse_spectrum`] warns of periods that are too short for the record's time step.
+    /// The observer's parts are samples of the record, counted again for every period.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
-    /// let spectrum = record.response_spectrum(&[0.5, 1.0], 0.05)?;
+    /// let spectrum = record.response_spectrum(&[0.5, 1.0], 0.05, &mut basemat::unobserved)?;
     /// let in_g = spectrum[0].pseudo_acceleration / 9.80665;
     /// assert!((in_g - 0.9187).abs() < 1e-4);
     /// # Ok::<(), basemat::Error>(())
@@ -102,37 +103,15 @@ impl Record {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `damping` < 1 and every period is positive and needs at
-    /// most 10⁹ substeps.
+    /// most 10⁹ substeps; [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn response_spectrum(
-        &self,
-        periods: &[f64],
-        damping: f64,
-    ) -> Result<Vec<SpectralOrdinate>> {
-        self.ordinates(periods, damping, &mut Watch::nobody())
-    }
-
-    /// Response spectrum with an observer.
-    ///
-    /// Parts are samples of the record, counted again for every period.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`Record::response_spectrum`].
-    pub fn response_spectrum_observed(
         &self,
         periods: &[f64],
         damping: f64,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<SpectralOrdinate>> {
         let total = self.len().saturating_mul(periods.len());
-        self.ordinates(periods, damping, &mut Watch::new("response spectrum", total, observer))
-    }
-
-    fn ordinates(
-        &self,
-        periods: &[f64],
-        damping: f64,
-        watch: &mut Watch,
-    ) -> Result<Vec<SpectralOrdinate>> {
+        let watch = &mut Watch::new("response spectrum", total, observer);
         damping_ratio("damping ratio of a response spectrum", damping)?;
         let mut found = Vec::with_capacity(periods.len());
         for (number, &period) in periods.iter().enumerate() {

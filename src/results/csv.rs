@@ -128,7 +128,7 @@ impl Run {
 ///
 /// ```
 /// use basemat::results::spectrum_csv;
-/// let spectrum = basemat::motion::el_centro_1940().response_spectrum(&[0.5, 1.0], 0.05)?;
+/// let spectrum = basemat::motion::el_centro_1940().response_spectrum(&[0.5, 1.0], 0.05, &mut basemat::unobserved)?;
 /// let text = spectrum_csv(&spectrum);
 /// let heading = "period_s,displacement_m,pseudo_velocity_m_per_s,pseudo_acceleration_m_per_s2,\
 ///                acceleration_m_per_s2";

@@ -2,7 +2,7 @@
 
 use super::TimeSeries;
 use crate::coupled::Probe;
-use crate::error::{Error, Result, not_negative, positive, require};
+use crate::error::{Error, Result, not_negative, positive, require, unobserved};
 use crate::motion::{Record, SpectralOrdinate};
 
 impl TimeSeries {
@@ -45,7 +45,7 @@ impl TimeSeries {
         periods: &[f64],
         damping: f64,
     ) -> Result<Vec<SpectralOrdinate>> {
-        self.acceleration_record(probe)?.response_spectrum(periods, damping)
+        self.acceleration_record(probe)?.response_spectrum(periods, damping, &mut unobserved)
     }
 }
 

@@ -72,8 +72,11 @@ impl SoilColumn {
     /// motions that [`SoilColumn::to_surface`] computes with it differ from `surface` by some per cent. Poisson's
     /// ratio stays constant, so pressure waves slow down with shear waves (below the water table they would not).
     ///
+    /// The observer counts the largest number of iterations as the total, and jumps to the end after the last
+    /// iteration.
+    ///
     /// ```
-    /// use basemat::Soil;
+    /// use basemat::{Soil, unobserved};
     /// use basemat::motion::el_centro_1940;
     /// use basemat::site::{EquivalentLinearOptions, SoilColumn, VerticalWave};
     /// use basemat::soil::{SoilProfile, StrainCurves};
@@ -85,7 +88,7 @@ impl SoilColumn {
     /// let curves = vec![StrainCurves::VuceticDobry { plasticity_index: 30.0 }; 4];
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// let options = EquivalentLinearOptions::of_magnitude(6.9);
-    /// let found = column.equivalent_linear(&el_centro_1940(), &curves, &options)?;
+    /// let found = column.equivalent_linear(&el_centro_1940(), &curves, &options, &mut unobserved)?;
     /// assert!(found.last_change < 1e-3 && found.layers[3].modulus_ratio < 0.9);
     /// println!("{found}");
     /// # Ok::<(), basemat::Error>(())
@@ -94,24 +97,8 @@ impl SoilColumn {
     /// # Errors
     /// [`SiteError`](crate::SiteError) for curves that do not fit the layers or have parameters out of range, and
     /// for a column of pressure waves; [`Error::Input`](crate::Error::Input) for options out of range and motions
-    /// that overflow.
+    /// that overflow; [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn equivalent_linear(
-        &self,
-        motion: &Record,
-        curves: &[StrainCurves],
-        options: &EquivalentLinearOptions,
-    ) -> Result<EquivalentLinear> {
-        self.compatible_response(motion, curves, options, &mut Watch::nobody())
-    }
-
-    /// [`equivalent_linear`](SoilColumn::equivalent_linear) with an observer.
-    ///
-    /// The observer counts the largest number of iterations as the total, and jumps to the end after the last
-    /// iteration.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`equivalent_linear`](SoilColumn::equivalent_linear).
-    pub fn equivalent_linear_observed(
         &self,
         motion: &Record,
         curves: &[StrainCurves],
@@ -120,22 +107,10 @@ impl SoilColumn {
     ) -> Result<EquivalentLinear> {
         let total = options.most_iterations.saturating_add(1).saturating_mul(Pace::PARTS);
         let mut watch = Watch::new("equivalent-linear response", total, observer);
-        let found = self.compatible_response(motion, curves, options, &mut watch)?;
-        watch.reach(total)?;
-        Ok(found)
-    }
-
-    fn compatible_response(
-        &self,
-        motion: &Record,
-        curves: &[StrainCurves],
-        options: &EquivalentLinearOptions,
-        watch: &mut Watch<'_>,
-    ) -> Result<EquivalentLinear> {
         let mut iteration = Iteration::new(self, motion, curves, options)?;
         let Converged { properties, strains, iterations, last_change } =
-            iteration.converged(watch)?;
-        let mut pace = Pace::part(watch, iterations);
+            iteration.converged(&mut watch)?;
+        let mut pace = Pace::part(&mut watch, iterations);
         let (surface, accelerations) = iteration.accelerations(&properties, &mut pace)?;
         let peak_accelerations = accelerations.iter().map(|own| largest(own)).collect();
         let cut_off = surface.before.max(surface.after) / surface.peak();
@@ -163,6 +138,7 @@ impl SoilColumn {
             warnings: vec![],
         };
         result.warn(options.tolerance, &iteration.curves, cut_off);
+        watch.reach(total)?;
         Ok(result)
     }
 

@@ -152,32 +152,9 @@ impl InclinedWave {
         control: InclinedControl,
         time_step: f64,
         motion: &[f64],
-    ) -> Result<[SiteMotion; 2]> {
-        self.cut_to(control, time_step, motion, &mut Watch::nobody())
-    }
-
-    /// [`InclinedWave::to_surface`] with an observer.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`InclinedWave::to_surface`].
-    pub fn to_surface_observed(
-        &self,
-        control: InclinedControl,
-        time_step: f64,
-        motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<[SiteMotion; 2]> {
-        let mut watch = Watch::new("motion of the surface", Pace::PARTS, observer);
-        self.cut_to(control, time_step, motion, &mut watch)
-    }
-
-    fn cut_to(
-        &self,
-        control: InclinedControl,
-        time_step: f64,
-        motion: &[f64],
-        watch: &mut Watch<'_>,
-    ) -> Result<[SiteMotion; 2]> {
+        let watch = &mut Watch::new("motion of the surface", Pace::PARTS, observer);
         let mut found = self.filtered(control, time_step, motion, watch)?;
         for found in &mut found {
             found.cut(motion.len());

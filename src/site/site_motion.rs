@@ -59,7 +59,7 @@ impl SiteMotion {
     /// [`Record::low_pass`]: crate::motion::Record::low_pass
     ///
     /// ```
-    /// use basemat::Soil;
+    /// use basemat::{Soil, unobserved};
     /// use basemat::motion::el_centro_1940;
     /// use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
     /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -70,7 +70,7 @@ impl SiteMotion {
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// let record = el_centro_1940().padded(10.0, 20.0)?;
     /// let down = |record: &basemat::motion::Record| {
-    ///     column.from_surface(ControlPoint::Outcrop, record.time_step(), record.accelerations())
+    ///     column.from_surface(ControlPoint::Outcrop, record.time_step(), record.accelerations(), &mut unobserved)
     /// };
     /// let found = down(&record)?;
     /// assert!(found.warning().is_some() && found.peak() > 100.0);

@@ -117,21 +117,8 @@ impl SoilColumn {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite,
     /// [`Error::Size`](crate::Error::Size) for none, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for
-    /// hysteretic damping.
+    /// hysteretic damping, [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn to_surface(
-        &self,
-        control: ControlPoint,
-        time_step: f64,
-        motion: &[f64],
-    ) -> Result<SiteMotion> {
-        self.filtered(control, time_step, motion, upwards, &mut Watch::nobody())
-    }
-
-    /// [`to_surface`](SoilColumn::to_surface) with an observer.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`to_surface`](SoilColumn::to_surface).
-    pub fn to_surface_observed(
         &self,
         control: ControlPoint,
         time_step: f64,
@@ -149,7 +136,7 @@ impl SoilColumn {
     /// damped layers amplify high frequencies, so remove noise from the record before.
     ///
     /// ```
-    /// # use basemat::Soil;
+    /// # use basemat::{Soil, unobserved};
     /// # use basemat::motion::el_centro_1940;
     /// # use basemat::site::{SoilColumn, ControlPoint, VerticalWave};
     /// # use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -160,8 +147,9 @@ impl SoilColumn {
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// // Room for what comes before and after.
     /// let record = el_centro_1940().padded(30.0, 30.0)?;
-    /// let surface = column.to_surface(ControlPoint::Outcrop, 0.02, record.accelerations())?;
-    /// let back = column.from_surface(ControlPoint::Outcrop, 0.02, &surface.samples)?;
+    /// let samples = record.accelerations();
+    /// let surface = column.to_surface(ControlPoint::Outcrop, 0.02, samples, &mut unobserved)?;
+    /// let back = column.from_surface(ControlPoint::Outcrop, 0.02, &surface.samples, &mut unobserved)?;
     /// assert!(surface.is_whole() && back.is_whole(), "{surface}; {back}");
     /// for (found, given) in back.samples.iter().zip(record.accelerations()) {
     ///     assert!((found - given).abs() < 1e-9 * record.peaks().acceleration);
@@ -172,19 +160,6 @@ impl SoilColumn {
     /// # Errors
     /// As for [`to_surface`](SoilColumn::to_surface).
     pub fn from_surface(
-        &self,
-        control: ControlPoint,
-        time_step: f64,
-        motion: &[f64],
-    ) -> Result<SiteMotion> {
-        self.filtered(control, time_step, motion, downwards, &mut Watch::nobody())
-    }
-
-    /// [`from_surface`](SoilColumn::from_surface) with an observer.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`to_surface`](SoilColumn::to_surface).
-    pub fn from_surface_observed(
         &self,
         control: ControlPoint,
         time_step: f64,
@@ -202,7 +177,7 @@ impl SoilColumn {
     /// [`to_surface`](SoilColumn::to_surface).
     ///
     /// ```
-    /// use basemat::Soil;
+    /// use basemat::{Soil, unobserved};
     /// use basemat::motion::{Triaxial, el_centro_1940};
     /// use basemat::site::{ControlPoint, SoilColumn};
     /// use basemat::soil::SoilProfile;
@@ -215,7 +190,8 @@ impl SoilColumn {
     ///     y: Some(record.scaled(0.8)?),
     ///     up: Some(record.scaled(0.5)?),
     /// };
-    /// let surface = SoilColumn::surface_in_plan(&profile, ControlPoint::Outcrop, &outcrop)?;
+    /// let control = ControlPoint::Outcrop;
+    /// let surface = SoilColumn::surface_in_plan(&profile, control, &outcrop, &mut unobserved)?;
     /// let peak = |record: &Option<_>| record.as_ref().map_or(0.0, |own: &basemat::motion::Record| own.peaks().acceleration);
     /// assert!(peak(&surface.x) > peak(&outcrop.x));
     /// # Ok::<(), basemat::Error>(())
@@ -227,30 +203,9 @@ impl SoilColumn {
         profile: &SoilProfile,
         control: ControlPoint,
         motion: &Triaxial,
-    ) -> Result<Triaxial> {
-        Self::in_plan(profile, control, motion, &mut Watch::nobody())
-    }
-
-    /// [`surface_in_plan`](SoilColumn::surface_in_plan) with an observer.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`surface_in_plan`](SoilColumn::surface_in_plan).
-    pub fn surface_in_plan_observed(
-        profile: &SoilProfile,
-        control: ControlPoint,
-        motion: &Triaxial,
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
-        let mut watch = Watch::new("motion of the surface", 3 * Pace::PARTS, observer);
-        Self::in_plan(profile, control, motion, &mut watch)
-    }
-
-    fn in_plan(
-        profile: &SoilProfile,
-        control: ControlPoint,
-        motion: &Triaxial,
-        watch: &mut Watch<'_>,
-    ) -> Result<Triaxial> {
+        let watch = &mut Watch::new("motion of the surface", 3 * Pace::PARTS, observer);
         let mut through = |part, wave, record: &Option<Record>| -> Result<Option<Record>> {
             let mut pace = Pace::part(watch, part);
             let Some(record) = record else {

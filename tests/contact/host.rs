@@ -8,7 +8,7 @@ use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{ContactNode, Structure, Triplets};
-use basemat::{Error, Simulation};
+use basemat::{Error, Simulation, unobserved};
 
 use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening};
 
@@ -80,7 +80,7 @@ fn by_hand() -> Vec<[f64; 3]> {
         }
         std::array::from_fn(|i| force[i] / MASS[i])
     };
-    ground.prepare(STEP).unwrap();
+    ground.prepare(STEP, None, &mut unobserved).unwrap();
     let mut delassus = vec![0.0; size * size];
     ground.step_compliance(&mut delassus).unwrap();
     for column in 0..size {

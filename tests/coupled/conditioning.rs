@@ -7,7 +7,7 @@ use basemat::coupled::{Coordinates, GravityStage, SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, CraigBampton, FemModel, RigidBlock, Structure, Triplets};
-use basemat::{Error, Simulation};
+use basemat::{Error, Simulation, unobserved};
 
 use basemat_problems::dense::condition_by_inverse;
 use basemat_problems::scenes::{self, SI, TIME_STEP, friction, ground, scene};
@@ -36,7 +36,7 @@ fn ground_and_delassus_match_their_inverses() {
     let (mass, inertia, height) = (9e3, 4e4, 2.0);
     for (grading, count) in [(Grading::Uniform, 3), (Grading::Cosine, 8)] {
         let mut soil: ElasticGround = ground(SI, count, grading);
-        soil.prepare(TIME_STEP).unwrap();
+        soil.prepare(TIME_STEP, None, &mut unobserved).unwrap();
         let size = 2 * count;
         let mut matrix = vec![0.0; size * size];
         soil.step_compliance(&mut matrix).unwrap();

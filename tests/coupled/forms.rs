@@ -33,7 +33,7 @@ use basemat::soil::{
 use basemat::structure::{
     ContactNode, DofCombination, IsolationLevel, ModalDamping, RayleighDamping, RigidBlock, Storey,
 };
-use basemat::{Complex, Simulation, Soil};
+use basemat::{Complex, Simulation, Soil, unobserved};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -332,7 +332,7 @@ fn records_are_their_samples() {
     let record = el_centro_1940();
     let form = kept(&record);
     assert_eq!(form.as_object().unwrap().keys().collect::<Vec<_>>(), ["acceleration", "time_step"]);
-    kept(&record.response_spectrum(&[0.2, 1.0], 0.05).unwrap());
+    kept(&record.response_spectrum(&[0.2, 1.0], 0.05, &mut unobserved).unwrap());
     for (bad, reason) in [
         (json!({"time_step": 0.0, "acceleration": [0.0, 1.0]}), "time step of the record is 0"),
         (json!({"time_step": 0.1, "acceleration": [0.0]}), "1 samples, at least 2"),

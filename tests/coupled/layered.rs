@@ -12,7 +12,7 @@ use basemat::motion::el_centro_1940;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::sweep::Sweep;
-use basemat::{Error, Simulation, Soil};
+use basemat::{Error, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{constant_q, two_stages};
 use basemat_problems::sampled_block::{distance, sample, under_pulse};
@@ -41,7 +41,7 @@ fn one_undamped_half_plane_is_the_closed_form_to_the_last_bit() {
     let run = |ground: Box<dyn Ground>| {
         let mut simulation = shaken(ground).build().unwrap();
         let states = states(&mut simulation, 200);
-        (states, simulation.ground().history_choice())
+        (states, simulation.ground().description().history)
     };
     let (found, choice) = run(Box::new(
         ElasticGround::new(profile.clone(), Strip::graded(-2.0..2.0, 8).unwrap()).unwrap(),
@@ -86,9 +86,8 @@ fn cut_and_resumed_runs_have_the_same_bits() {
 fn the_stages_are_said_and_follow_the_rule() {
     let choice = |ground: ElasticGround, step: f64| {
         let mut ground = ground;
-        ground.prepare(step).unwrap();
-        ground.expect_steps(100, None).unwrap();
-        ground.history_choice().unwrap()
+        ground.prepare(step, Some(100), &mut unobserved).unwrap();
+        ground.description().history.unwrap()
     };
     let found = choice(layered(3), 0.002);
     assert_eq!(found.stages, Some(2));
@@ -101,7 +100,7 @@ fn the_stages_are_said_and_follow_the_rule() {
 #[test]
 fn exponentials_are_refused() {
     let mut ground = layered(3).with_history(HistoryMethod::Exponentials).unwrap();
-    let found = ground.prepare(0.002).unwrap_err();
+    let found = ground.prepare(0.002, None, &mut unobserved).unwrap_err();
     assert!(matches!(found, Error::NoExponentials { .. }), "{found}");
 }
 
@@ -133,7 +132,7 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
         .unwrap(),
     ];
     for (index, ground) in others.into_iter().enumerate() {
-        ground.with_shared_kernels(&shared).prepare(TIME_STEP).unwrap();
+        ground.with_shared_kernels(&shared).prepare(TIME_STEP, None, &mut unobserved).unwrap();
         assert_eq!(shared.count(), 2 + index);
     }
 }

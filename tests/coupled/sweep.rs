@@ -8,7 +8,7 @@ use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
 use basemat::sweep::Sweep;
-use basemat::{CaseError, Error, Soil};
+use basemat::{CaseError, Error, Soil, unobserved};
 
 use basemat_problems::scenes::{SI, block, scene, soil, states};
 
@@ -115,7 +115,7 @@ fn shared_kernels_are_told_apart_and_bounded() {
         let mut ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, count).unwrap())
             .unwrap()
             .with_shared_kernels(&kernels);
-        ground.prepare(step).unwrap();
+        ground.prepare(step, None, &mut unobserved).unwrap();
         let mut matrix = vec![0.0; 4 * count * count];
         ground.step_compliance(&mut matrix).unwrap();
         matrix

@@ -10,7 +10,7 @@ use basemat::interface::{Bonded, Cohesive, Coulomb, Mode, PreviousContact, Varia
 use basemat::structure::{
     ContactNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
 };
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Observer, Result, Simulation};
 
 use super::{NOT_FINITE, error_with, soil};
 use basemat_problems::block_on_springs::bed;
@@ -332,7 +332,7 @@ impl Ground for Answering {
     fn elements(&self) -> &[ContactElement] {
         &self.0
     }
-    fn prepare(&mut self, _: f64) -> Result<()> {
+    fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
         Ok(())
     }
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {

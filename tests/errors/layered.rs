@@ -15,7 +15,7 @@ use basemat::soil::{
     SoilProfile,
 };
 use basemat::structure::RigidBlock;
-use basemat::{Complex, Error, LayeredError, SiteError, Soil};
+use basemat::{Complex, Error, LayeredError, SiteError, Soil, unobserved};
 
 use basemat_problems::profiles::{gmb, p1, two_stages};
 
@@ -46,12 +46,12 @@ fn hysteretic_damping_is_refused_in_time() {
         .with_damping(Hysteretic::new(0.05).unwrap());
     let mut ground =
         ElasticGround::new(profile.clone(), Strip::uniform(-3.0..3.0, 3).unwrap()).unwrap();
-    let found = ground.impedances(&[2.0], StripContact::Bonded).unwrap();
+    let found = ground.impedances(&[2.0], StripContact::Bonded, &mut unobserved).unwrap();
     assert!(found[0].vertical.re.is_finite() && found[0].dashpots()[1] > 0.0);
     let not_causal = |found: basemat::Result<()>| {
         matches!(found, Err(Error::Layered(LayeredError::NotCausal { layer: 1, .. })))
     };
-    assert!(not_causal(ground.prepare(0.01)));
+    assert!(not_causal(ground.prepare(0.01, None, &mut unobserved)));
     let built = basemat::Simulation::builder(0.01)
         .structure(RigidBlock::new(6.0, 3.0, 2000.0).unwrap())
         .ground(ground)
@@ -95,7 +95,9 @@ fn motions_through_extreme_sites_are_named() {
         SoilColumn::new(profile, VerticalWave::Shear).unwrap()
     };
     let surface = |column: SoilColumn, sample: f64| {
-        column.to_surface(ControlPoint::Outcrop, 0.01, &[0.0, sample, 1.0]).map(drop)
+        column
+            .to_surface(ControlPoint::Outcrop, 0.01, &[0.0, sample, 1.0], &mut unobserved)
+            .map(drop)
     };
     assert_eq!(surface(column(1e8, 3.0), 1.0), Ok(()));
     let stiff = surface(column(1e306, 1e-200), 1.0).unwrap_err().to_string();
@@ -134,7 +136,7 @@ fn kernels_are_validated() {
         Err(Error::Size { .. })
     ));
     assert!(kernel.coefficients(0, usize::MAX, [&mut list, &mut one, &mut [0.0; 2]]).is_err());
-    assert!(kernel.prepare(usize::MAX).is_err());
+    assert!(kernel.prepare(usize::MAX, &mut unobserved).is_err());
     assert!(kernel.coefficients(0, usize::MAX, [&mut [], &mut [], &mut []]).is_err());
     kernel.coefficients(0, 5, [&mut [], &mut [], &mut []]).unwrap();
 }
@@ -146,7 +148,7 @@ fn hopeless_scales_are_refused() {
     for step in [1e-9, 1e-30, 1e-300] {
         let profile = SoilProfile::on_half_plane(soil()).with_layer(soil(), 3.0).unwrap();
         let kernel = two_stages(profile, &strip()).weights(step).unwrap();
-        let found = kernel.prepare(1).unwrap_err();
+        let found = kernel.prepare(1, &mut unobserved).unwrap_err();
         let expected = matches!(
             found,
             Error::Layered(LayeredError::TooFine { .. } | LayeredError::Unresolved { .. })
@@ -167,7 +169,7 @@ fn long_work_is_heard_of_and_can_be_stopped() {
     let profile = SoilProfile::on_half_plane(soil()).with_layer(soil(), 2.5e-4).unwrap();
     let kernel = two_stages(profile, &strip()).weights(0.005).unwrap();
     let mut heard = vec![];
-    let found = kernel.prepare_observed(54_000, &mut |progress| {
+    let found = kernel.prepare(54_000, &mut |progress| {
         heard.push(progress);
         if heard.len() < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
@@ -197,8 +199,8 @@ fn what_takes_too_much_memory_is_refused_beforehand() {
     let kernel = whole.weights(0.005).unwrap();
     let most = 2.0_f64.powi(31);
     // Stopped at once if it begins.
-    refused(kernel.prepare_observed(1 << 31, &mut |_| ControlFlow::Break(())), most);
-    refused(kernel.prepare(1 << 31), most);
+    refused(kernel.prepare(1 << 31, &mut |_| ControlFlow::Break(())), most);
+    refused(kernel.prepare(1 << 31, &mut unobserved), most);
     let mut list = [0.0; 1];
     refused(kernel.coefficients(0, (1 << 31) - 1, [&mut list, &mut [0.0], &mut [0.0]]), most);
 
@@ -206,19 +208,21 @@ fn what_takes_too_much_memory_is_refused_beforehand() {
     let ground = |profile: SoilProfile, bytes: usize| {
         let ground = ElasticGround::new(profile, &strip).unwrap().with_stages(Stages::Two);
         let options = HistoryOptions { memory: bytes, ..HistoryOptions::default() };
-        let mut ground = ground.with_history(options).unwrap();
-        ground.prepare(0.005).unwrap();
-        ground
+        ground.with_history(options).unwrap()
     };
+    for bytes in [1_usize << 20, usize::MAX] {
+        let found = ground(profile(), bytes).prepare(0.005, Some(1 << 31), &mut unobserved);
+        let Err(Error::Memory(error)) = found else { panic!("{found:?}") };
+        let limit = (bytes as f64).min(basemat::memory_limit() as f64);
+        assert_eq!((error.asked, error.limit), (most, limit));
+    }
+    // Steps that fit are begun.
     let mut watched = |_: basemat::Progress| ControlFlow::Break(());
-    refused(ground(profile(), usize::MAX).expect_steps(1 << 31, Some(&mut watched)), most);
-    // As many lags as a history of a megabyte has: they are begun.
-    let begun = ground(profile(), 1 << 20).expect_steps(1 << 31, Some(&mut watched));
+    let begun = ground(profile(), 1 << 20).prepare(0.005, Some(1000), &mut watched);
     assert!(matches!(begun, Err(Error::Stopped(_))), "{begun:?}");
     let mut plain = ElasticGround::new(soil(), &strip).unwrap();
-    plain.prepare(0.005).unwrap();
-    plain.expect_steps(20_000_000, None).unwrap();
-    assert_eq!(plain.history_choice().unwrap().kind, HistoryMethod::Exponentials);
+    plain.prepare(0.005, Some(20_000_000), &mut unobserved).unwrap();
+    assert_eq!(plain.description().history.unwrap().kind, HistoryMethod::Exponentials);
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
 
@@ -234,7 +238,7 @@ fn strong_contrasts_are_resolved() {
             for step in [1e-2, 1.0] {
                 let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
                 let kernel = two_stages(profile.clone(), &strip()).weights(step).unwrap();
-                kernel.prepare(1).unwrap();
+                kernel.prepare(1, &mut unobserved).unwrap();
                 two_stages(profile, &strip()).static_compliance(&mut [0.0; 36]).unwrap();
             }
         }
@@ -283,7 +287,7 @@ fn laws_that_are_not_finite_are_refused() {
     for value in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
         let profile = p1(Broken(value), Elastic);
         let kernel = two_stages(profile.clone(), &strip()).weights(0.5).unwrap();
-        let found = kernel.prepare(1).unwrap_err();
+        let found = kernel.prepare(1, &mut unobserved).unwrap_err();
         let expected = matches!(
             found,
             Error::Layered(
@@ -293,7 +297,9 @@ fn laws_that_are_not_finite_are_refused() {
         );
         assert!(expected, "{found}");
         let contact = StripContact::Bonded;
-        assert!(two_stages(profile, &strip()).impedances(&[1.0], contact).is_err());
+        assert!(
+            two_stages(profile, &strip()).impedances(&[1.0], contact, &mut unobserved).is_err()
+        );
     }
 }
 

@@ -12,7 +12,7 @@ use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::motion::{Record, el_centro_1940};
 use basemat::structure::{MatrixModel, Triplets};
 use basemat::sweep::{Parameter, Sweep};
-use basemat::{Error, Result, Soil, memory_limit};
+use basemat::{Error, Result, Soil, memory_limit, unobserved};
 
 /// The most memory that this process has had, bytes; none where the system does not tell.
 fn peak() -> Option<f64> {
@@ -82,9 +82,9 @@ fn sizes_are_refused_before_memory_is_taken() {
     }
 }
 
-/// More steps than any run has are a hint that somebody will stop it.
+/// More steps than any run has are refused before anything is allocated, unless the history does not grow.
 #[test]
-fn hints_without_end_take_what_a_history_may() {
+fn steps_without_end_take_no_memory() {
     let soil = Soil::new(80e6, 0.33, 1900.0).unwrap();
     let mut displacement = [0.0; 32];
     for (kind, steps) in [
@@ -97,9 +97,13 @@ fn hints_without_end_take_what_a_history_may() {
         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 16).unwrap()).unwrap();
         let mut ground =
             ground.with_history(HistoryOptions { memory: 1 << 24, ..kind.into() }).unwrap();
-        ground.prepare(0.002).unwrap();
-        ground.expect_steps(steps, None).unwrap();
-        ground.history(&mut displacement).unwrap();
+        let found = ground.prepare(0.002, Some(steps), &mut unobserved);
+        if kind == HistoryMethod::Auto {
+            ground.history(&mut displacement).unwrap();
+        } else {
+            let Err(Error::Memory(error)) = found else { panic!("{kind}: {found:?}") };
+            assert!(error.asked == steps as f64 && error.limit == f64::from(1 << 24), "{error}");
+        }
         if let (Some(before), Some(after)) = (before, peak()) {
             assert!(after - before < 3e8, "{kind:?}: {before:e}, then {after:e} bytes");
         }

@@ -10,7 +10,7 @@ use basemat::history::ConvolutionWeights;
 use basemat::motion::{Record, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson};
 use basemat::structure::{ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey};
-use basemat::{Error, Soil};
+use basemat::{Error, Soil, unobserved};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused, soil};
 use basemat_problems::block_on_springs::bed;
@@ -57,9 +57,9 @@ fn strips_and_grounds() {
     refused("normal dashpot", &NEGATIVE, |x| bed(2).with_dashpots(x, 0.0));
     refused("tangential dashpot", &NEGATIVE, |x| bed(2).with_dashpots(0.0, x));
     refused("theta", &[0.49, 1.01, f64::NAN], |x| bed(2).with_theta(x));
-    refused("time step", &BAD, |x| bed(2).prepare(x));
+    refused("time step", &BAD, |x| bed(2).prepare(x, None, &mut unobserved));
     refused("time step", &BAD, |x| {
-        ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 2)?)?.prepare(x)
+        ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 2)?)?.prepare(x, None, &mut unobserved)
     });
 }
 
@@ -68,7 +68,6 @@ fn an_unprepared_half_plane_says_so() {
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     error_with("prepare", ground.step_compliance(&mut [0.0; 4]));
     error_with("prepare", ground.history(&mut [0.0; 2]));
-    error_with("prepare", ground.expect_steps(10, None));
 }
 
 #[test]
@@ -86,12 +85,11 @@ fn absurd_counts_do_not_panic() {
         error_with("contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
     }
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
-    ground.prepare(0.01).unwrap();
-    ground.expect_steps(usize::MAX, None).unwrap();
+    ground.prepare(0.01, Some(usize::MAX), &mut unobserved).unwrap();
 
     // Steps beside which the fronts' passage is no time at all must not split pieces without end.
     for step in [1e200, 1e300] {
-        ground.prepare(step).unwrap();
+        ground.prepare(step, None, &mut unobserved).unwrap();
         assert!(ground.step_compliance(&mut [0.0; 4]).is_ok());
     }
 
@@ -141,7 +139,7 @@ fn damping_ratios_in_per_cent() {
         ("Kelvin–Voigt", &|x| KelvinVoigt::with_ratio(x, 1.0).map(drop)),
         ("Kjartansson", &|x| Kjartansson::new(x, 1.0).map(drop)),
         ("hysteretic", &|x| Hysteretic::new(x).map(drop)),
-        ("spectrum", &|x| el_centro_1940().response_spectrum(&[0.5], x).map(drop)),
+        ("spectrum", &|x| el_centro_1940().response_spectrum(&[0.5], x, &mut unobserved).map(drop)),
     ];
     for (kind, make) in kinds {
         println!("{kind}");

@@ -10,7 +10,7 @@ use basemat::bem::full_plane::{
 use basemat::bem::{ElasticGround, Ground, Strip};
 use basemat::interface::Bonded;
 use basemat::structure::RigidBlock;
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Result, Simulation, unobserved};
 use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -65,19 +65,21 @@ fn marched(ground: &mut FullPlaneGround, steps: usize) -> f64 {
 #[test]
 fn growth_is_refused_and_is_that_of_the_march() {
     // β = 1/2.
-    let Err(Error::Unstable { growth_per_step, growing_modes }) = ground().prepare(0.25) else {
+    let Err(Error::Unstable { growth_per_step, growing_modes }) =
+        ground().prepare(0.25, None, &mut unobserved)
+    else {
         panic!("prepared")
     };
     assert!(growing_modes > 0);
     let mut allowed = ground().allow_growth();
-    allowed.prepare(0.25).unwrap();
+    allowed.prepare(0.25, None, &mut unobserved).unwrap();
     let found = allowed.stability().unwrap();
     assert_eq!(found.worst().growth_per_step, growth_per_step);
     assert!(found.require_bounded().is_err());
     // The base is free of traction: the growth of the uplifted state.
     let uplifted = found.uplifted.growth_per_step;
     let mut again = ground().allow_growth();
-    again.prepare(0.25).unwrap();
+    again.prepare(0.25, None, &mut unobserved).unwrap();
     let (early, late) = (marched(&mut allowed, 400), marched(&mut again, 800));
     close("growth", ((late / early).ln() / 400.0).exp_m1(), uplifted, 0.0, 0.02);
 }
@@ -87,12 +89,12 @@ fn growth_is_refused_and_is_that_of_the_march() {
 #[test]
 fn bounded_grounds_are_prepared_and_decay() {
     let mut long = ground();
-    long.prepare(1.0).unwrap();
+    long.prepare(1.0, None, &mut unobserved).unwrap();
     let mut quadrature = ground().with_kernel(|segments, soil, step| {
         let kernel = ConvolutionQuadrature::new(soil, segments, step, CqMethod::Bdf2)?;
         Ok(Box::new(kernel) as Box<dyn BoundaryKernel>)
     });
-    quadrature.prepare(0.25).unwrap();
+    quadrature.prepare(0.25, None, &mut unobserved).unwrap();
     for ground in [&mut long, &mut quadrature] {
         let found = ground.stability().unwrap();
         assert!(found.is_bounded() && found.require_bounded().is_ok());
@@ -148,7 +150,7 @@ fn coefficients_are_asked_for_once() {
     let calls = Arc::new(AtomicUsize::new(0));
     let taken = |ground: &mut FullPlaneGround, step: f64| {
         calls.store(0, Relaxed);
-        ground.prepare(step).unwrap();
+        ground.prepare(step, None, &mut unobserved).unwrap();
         calls.load(Relaxed)
     };
     let mut ground = counting(&calls).allow_growth();
@@ -176,7 +178,7 @@ fn coefficients_are_asked_for_once() {
 #[test]
 fn expected_steps_set_what_counts_as_growth() {
     let mut short = ground().with_expected_steps(4);
-    short.prepare(0.25).unwrap();
+    short.prepare(0.25, None, &mut unobserved).unwrap();
     assert!(short.stability().unwrap().is_bounded());
     for steps in [0, 1, usize::MAX] {
         assert!(ground().with_expected_steps(steps).assess(1.0).is_ok(), "{steps}");

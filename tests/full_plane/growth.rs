@@ -69,7 +69,7 @@ impl Case {
         let kernel = kernel(self.method, &flat(count), soil(self.poisson), self.step()).unwrap();
         let given = if held { Given::Displacement } else { Given::Traction };
         let mut march = BoundaryMarch::new(kernel, &vec![given; 2 * count]).unwrap();
-        march.reserve(steps).unwrap();
+        march.prepare(steps).unwrap();
         let mut random = random::Random(11);
         let start: Vec<f64> = (0..2 * count).map(|_| random.within(-1.0, 1.0)).collect();
         march.step(&start).unwrap();

@@ -4,6 +4,7 @@
 
 use basemat::bem::full_plane::{Boundary, CqMethod, FullPlaneGround};
 use basemat::bem::{ElasticGround, Ground, Strip};
+use basemat::unobserved;
 
 use super::soil;
 use basemat_problems::close;
@@ -82,7 +83,7 @@ fn rocking_and_sliding_on_both_grounds() {
 #[test]
 fn static_compliance_tends_to_the_half_planes() {
     let mut half = ElasticGround::new(soil(0.3), Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
-    half.prepare(0.1).unwrap();
+    half.prepare(0.1, None, &mut unobserved).unwrap();
     let mut wanted = [0.0; 64];
     half.static_compliance(&mut wanted).unwrap();
     // From the left element: z and x displacements between the two on the right, and how z and x

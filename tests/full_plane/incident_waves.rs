@@ -8,6 +8,7 @@ use basemat::bem::full_plane::{
 };
 use basemat::bem::{Ground, Strip};
 use basemat::motion::{AtRest, FreeField, FreeFieldFn, RickerDisplacement};
+use basemat::unobserved;
 
 use super::{coefficients, soil};
 use basemat_problems::series::{Error as SeriesError, whole, within};
@@ -106,7 +107,7 @@ fn scattered(boundary: Boundary, time_step: f64, steps: usize) -> Vec<[f64; 3]> 
     let ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves());
     // Too few steps for growth to show.
     let mut ground = ground.skip_assessment();
-    ground.prepare(time_step).unwrap();
+    ground.prepare(time_step, None, &mut unobserved).unwrap();
     let count = ground.elements().len();
     let (mut history, mut free) = (vec![9.0; 2 * count], vec![9.0; 2 * count]);
     (1..=steps)
@@ -157,7 +158,7 @@ fn excavated_half_plane_moves_as_its_own_surface() {
         let boundary = Boundary::new(Vec::clone(&segments), &[47, 48]).unwrap();
         let ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
         let mut ground = ground.skip_assessment();
-        ground.prepare(step).unwrap();
+        ground.prepare(step, None, &mut unobserved).unwrap();
         let (mut history, mut free) = ([0.0; 4], [0.0; 4]);
         let mut worst = 0.0_f64;
         for n in 1..=whole(5.0 / step) {

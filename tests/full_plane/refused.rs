@@ -10,7 +10,7 @@ use basemat::bem::full_plane::{
 use basemat::interface::Bonded;
 use basemat::motion::{AtRest, RickerDisplacement};
 use basemat::structure::RigidBlock;
-use basemat::{Error, Simulation};
+use basemat::{Error, Simulation, unobserved};
 
 use super::soil;
 use crate::incident_waves::{canyon, waves};
@@ -20,9 +20,9 @@ use crate::incident_waves::{canyon, waves};
 #[test]
 fn two_motions_are_refused() {
     let mut ground = FullPlaneGround::new(soil(0.25), canyon(0.5));
-    assert!(matches!(ground.prepare(0.5), Err(Error::Scene { .. })));
+    assert!(matches!(ground.prepare(0.5, None, &mut unobserved), Err(Error::Scene { .. })));
     let mut ground = ground.with_incident_field(waves()).skip_assessment();
-    ground.prepare(0.5).unwrap();
+    ground.prepare(0.5, None, &mut unobserved).unwrap();
     let mut out = [0.0; 8];
     ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);
     assert!(out.iter().all(|x| x.is_nan()));
@@ -50,11 +50,10 @@ fn bad_input_is_refused() {
     let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));
     assert!(matches!(ground.step_compliance(&mut [0.0; 16]), Err(Error::Scene { .. })));
-    assert!(matches!(ground.expect_steps(9, None), Err(Error::Scene { .. })));
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(ground.prepare(step), Err(Error::Input { .. })));
+        assert!(matches!(ground.prepare(step, None, &mut unobserved), Err(Error::Input { .. })));
     }
-    ground.prepare(0.5).unwrap();
+    ground.prepare(0.5, None, &mut unobserved).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 3]), Err(Error::Size { .. })));
     assert!(matches!(ground.step_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
     assert!(matches!(ground.static_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));

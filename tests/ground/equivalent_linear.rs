@@ -13,7 +13,7 @@ use basemat::site::{
     SoilColumn, VerticalWave,
 };
 use basemat::soil::{Hysteretic, SoilProfile, StrainCurves};
-use basemat::{Complex, Error, SiteError, Soil};
+use basemat::{Complex, Error, SiteError, Soil, unobserved};
 
 const SITES: [&str; 3] = ["clay", "sand", "alternate"];
 const PEAKS: [f64; 3] = [0.05, 0.2, 0.5];
@@ -166,15 +166,17 @@ fn sites_respond_as_in_another_program() {
         for peak in PEAKS {
             let options =
                 EquivalentLinearOptions { tolerance: 1e-4, ..EquivalentLinearOptions::default() };
-            let found =
-                column.equivalent_linear(&motion(peak), &curves_of(&layers), &options).unwrap();
+            let found = column
+                .equivalent_linear(&motion(peak), &curves_of(&layers), &options, &mut unobserved)
+                .unwrap();
             println!("{name} at {peak} g\n{found}");
             writeln!(file, "case,{name},{peak}").unwrap();
             for (thickness, speed, density, curves) in &layers {
                 writeln!(file, "layer,{thickness},{speed},{density},{}", words(curves)).unwrap();
             }
             writeln!(file, "rock{}", list(&rock)).unwrap();
-            let spectrum = found.surface.response_spectrum(&periods, 0.05).unwrap();
+            let spectrum =
+                found.surface.response_spectrum(&periods, 0.05, &mut unobserved).unwrap();
             let spectrum: Vec<f64> = spectrum.iter().map(|o| o.pseudo_acceleration).collect();
             let own = |k: usize| {
                 let layer = &found.layers[k];
@@ -245,7 +247,7 @@ fn strains_of_a_harmonic(complex_modulus: ComplexModulus, damping: f64, root: Co
         let ramp = |t: f64| (PI / 16.0 * t.min(40.0 - t).min(8.0)).sin().powi(2);
         let wave = |t: f64| ramp(t) * (omega * t).sin();
         let motion = Record::from_fn(0.001, 40.0, wave).unwrap();
-        let found = column.equivalent_linear(&motion, &curves, &options).unwrap();
+        let found = column.equivalent_linear(&motion, &curves, &options, &mut unobserved).unwrap();
         assert_eq!((found.iterations, found.last_change), (1, 0.0));
         let wavenumber = Complex::real(omega / 200.0) / root;
         let cosine = |x: Complex| {
@@ -294,7 +296,7 @@ fn small_motions_pass_a_linear_column() {
         control: ControlPoint::Within,
         ..EquivalentLinearOptions::default()
     };
-    let found = column.equivalent_linear(&motion, &curves, &options).unwrap();
+    let found = column.equivalent_linear(&motion, &curves, &options, &mut unobserved).unwrap();
     assert_eq!((found.iterations, found.last_change, found.layers[0].modulus_ratio), (1, 0.0, 1.0));
     let length = 16_384;
     let frequency = |l: usize| l as f64 / (step * length as f64);
@@ -325,8 +327,12 @@ fn profiles_are_ready_for_a_ground() {
     let (layers, rock) = site("clay");
     let options = EquivalentLinearOptions::of_magnitude(6.9);
     assert!((options.strain_ratio - 0.59).abs() < 1e-15);
-    let found =
-        column(&layers, rock).equivalent_linear(&motion(0.2), &curves_of(&layers), &options);
+    let found = column(&layers, rock).equivalent_linear(
+        &motion(0.2),
+        &curves_of(&layers),
+        &options,
+        &mut unobserved,
+    );
     let found = found.unwrap();
     let reference = found.profile.first_frequency().unwrap();
     assert!((0.5..1.2).contains(&reference), "{reference}");
@@ -347,7 +353,7 @@ fn profiles_are_ready_for_a_ground() {
     let causal = SoilColumn::new(found.profile.clone(), VerticalWave::Shear).unwrap();
     let motion = motion(0.2);
     let (step, samples) = (motion.time_step(), motion.accelerations());
-    let surface = causal.to_surface(ControlPoint::Outcrop, step, samples).unwrap();
+    let surface = causal.to_surface(ControlPoint::Outcrop, step, samples, &mut unobserved).unwrap();
     let ratio = surface.peak() / found.peak_accelerations[0];
     println!("peak by the causal profile over that of the iteration: {ratio}");
     assert!((0.8..1.25).contains(&ratio), "{ratio}");
@@ -360,7 +366,7 @@ fn strained_assumptions_are_told() {
     let found = |curves: &[StrainCurves], most_iterations| {
         let options =
             EquivalentLinearOptions { most_iterations, ..EquivalentLinearOptions::default() };
-        column.equivalent_linear(&motion(0.5), curves, &options).unwrap()
+        column.equivalent_linear(&motion(0.5), curves, &options, &mut unobserved).unwrap()
     };
     let has = |found: &EquivalentLinear, kind: fn(&SiteWarning) -> bool| {
         assert!(found.warnings.iter().any(kind), "{found}");
@@ -377,12 +383,14 @@ fn strained_assumptions_are_told() {
     let ringing = SoilColumn::new(uniform(0.0), VerticalWave::Shear).unwrap();
     let linear = vec![StrainCurves::Linear { damping: 0.003 }; 4];
     let record = el_centro_1940().scaled(0.1).unwrap();
-    let found =
-        ringing.equivalent_linear(&record, &linear, &EquivalentLinearOptions::default()).unwrap();
+    let found = ringing
+        .equivalent_linear(&record, &linear, &EquivalentLinearOptions::default(), &mut unobserved)
+        .unwrap();
     assert!(matches!(found.warnings[..], [SiteWarning::CutOff { .. }]), "{found}");
     let quiet = Record::new(0.01, vec![0.0; 50]).unwrap();
-    let found =
-        ringing.equivalent_linear(&quiet, &linear, &EquivalentLinearOptions::default()).unwrap();
+    let found = ringing
+        .equivalent_linear(&quiet, &linear, &EquivalentLinearOptions::default(), &mut unobserved)
+        .unwrap();
     assert_eq!((found.layers[0].largest_strain, &found.warnings[..]), (0.0, &[][..]));
 }
 
@@ -428,7 +436,12 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     ] {
         assert!(bad.at(1e-4).is_err(), "{bad:?}");
         let curves = [good.clone(), bad.clone()];
-        let found = column.equivalent_linear(&quiet, &curves, &EquivalentLinearOptions::default());
+        let found = column.equivalent_linear(
+            &quiet,
+            &curves,
+            &EquivalentLinearOptions::default(),
+            &mut unobserved,
+        );
         let Err(Error::Site(SiteError::Layer { layer: 2, .. })) = found else {
             panic!("{bad:?}: {found:?}");
         };
@@ -455,22 +468,29 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
             "band",
         ),
     ] {
-        let found = column.equivalent_linear(&quiet, &curves, &options).unwrap_err();
+        let found =
+            column.equivalent_linear(&quiet, &curves, &options, &mut unobserved).unwrap_err();
         assert!(found.to_string().contains(name), "{found}");
     }
     let found = column
-        .equivalent_linear(&quiet, &curves[..1], &EquivalentLinearOptions::default())
+        .equivalent_linear(
+            &quiet,
+            &curves[..1],
+            &EquivalentLinearOptions::default(),
+            &mut unobserved,
+        )
         .unwrap_err();
     assert_eq!(found, SiteError::Curves { curves: 1, layers: 2 }.into());
     let pressure = SoilColumn::new(profile, VerticalWave::Pressure).unwrap();
     let found = pressure
-        .equivalent_linear(&quiet, &curves, &EquivalentLinearOptions::default())
+        .equivalent_linear(&quiet, &curves, &EquivalentLinearOptions::default(), &mut unobserved)
         .unwrap_err();
     assert_eq!(found, SiteError::PressureWaves.into());
     // Nothing damps what a rigid base sends back.
     let rings = [good.clone(), StrainCurves::Linear { damping: 0.0 }];
-    let found =
-        column.equivalent_linear(&quiet, &rings, &EquivalentLinearOptions::default()).unwrap_err();
+    let found = column
+        .equivalent_linear(&quiet, &rings, &EquivalentLinearOptions::default(), &mut unobserved)
+        .unwrap_err();
     assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.0, .. })), "{found}");
     // A modulus by its magnitude has no real part left at so much damping.
     let options = EquivalentLinearOptions {
@@ -478,12 +498,19 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
         ..Default::default()
     };
     let half = StrainCurves::Linear { damping: 0.6 };
-    let found = column.equivalent_linear(&quiet, &[good.clone(), half], &options).unwrap_err();
+    let found = column
+        .equivalent_linear(&quiet, &[good.clone(), half], &options, &mut unobserved)
+        .unwrap_err();
     assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.6, .. })), "{found}");
     // So much damping that no body has it, and a motion beyond all numbers.
     let damped = StrainCurves::Linear { damping: 0.99 };
     let found = column
-        .equivalent_linear(&quiet, &[damped, good], &EquivalentLinearOptions::default())
+        .equivalent_linear(
+            &quiet,
+            &[damped, good],
+            &EquivalentLinearOptions::default(),
+            &mut unobserved,
+        )
         .unwrap_err();
     assert!(
         matches!(found, Error::Site(SiteError::Layer { layer: 1, value: 0.99, .. })),
@@ -491,7 +518,12 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     );
     let shaken = |size: f64| {
         let motion = Record::new(1.0, vec![size, -size, size]).unwrap();
-        column.equivalent_linear(&motion, &curves, &EquivalentLinearOptions::default())
+        column.equivalent_linear(
+            &motion,
+            &curves,
+            &EquivalentLinearOptions::default(),
+            &mut unobserved,
+        )
     };
     assert!(shaken(1e100).is_ok_and(|found| !found.warnings.is_empty()));
     assert!(matches!(shaken(1e300), Err(Error::Input { value: 1e300, .. })));

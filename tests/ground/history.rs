@@ -4,11 +4,11 @@
 
 use std::sync::Arc;
 
-use basemat::Soil;
 use basemat::bem::{
     ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, Strip,
 };
-use basemat::history::{ConvolutionHistory, DirectHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, HistoryMethod};
+use basemat::{Soil, unobserved};
 
 use basemat_problems::random::Random;
 
@@ -42,7 +42,7 @@ fn difference(strips: &[Strip], poisson: f64, reserve: usize, steps: usize) -> f
     let kernel = InfluenceKernel::new(soil, time_step).unwrap();
     let patch = PatchKernel::new(soil, elements.clone(), time_step).unwrap();
     let mut history = DirectHistory::new(Arc::new(patch));
-    history.reserve(reserve).unwrap();
+    history.prepare(reserve, &mut unobserved).unwrap();
     let size = 2 * elements.len();
     let mut random = Random(3);
     let mut out = vec![0.0; size];
@@ -100,11 +100,10 @@ fn memory_grows_beyond_what_was_reserved() {
 fn ground_does_not_depend_on_the_hint() {
     let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
     let run = |hint: Option<usize>| {
-        let mut ground = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
-        ground.prepare(2e-3).unwrap();
-        if let Some(steps) = hint {
-            ground.expect_steps(steps, None).unwrap();
-        }
+        let ground = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
+        let ground = ground.with_history(HistoryMethod::RelaxedFft);
+        let mut ground = ground.unwrap();
+        ground.prepare(2e-3, hint, &mut unobserved).unwrap();
         let mut random = Random(5);
         let mut out = vec![f64::NAN; 8];
         for _ in 0..200 {

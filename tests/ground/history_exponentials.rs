@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{
-    ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    HistoryMethod, HistoryOptions,
+    ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, HistoryMethod,
+    HistoryOptions,
 };
-use basemat::{Error, MemoryError, Soil};
+use basemat::{Error, MemoryError, Soil, unobserved};
 
 use basemat_problems::passivity::Scene;
 use basemat_problems::random::Random;
@@ -206,7 +206,7 @@ fn memory_does_not_grow() {
     let kernel = kernel(1.0 / 3.0, 0.5, strip(10, Grading::Uniform));
     let mut history = ExponentialHistory::new(kernel, 1e-9).unwrap();
     let held = history.memory();
-    history.reserve(usize::MAX).unwrap();
+    history.prepare(usize::MAX, &mut unobserved).unwrap();
     for step in 0..3_000 {
         history.push(&[f64::from(step % 7); 20]);
     }
@@ -230,7 +230,7 @@ fn bad_input_is_an_error() {
     );
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
     let mut short = ground().with_history(HistoryMethod::Exponentials).unwrap();
-    assert!(matches!(short.prepare(1e-7), Err(Error::Input { .. })));
+    assert!(matches!(short.prepare(1e-7, None, &mut unobserved), Err(Error::Input { .. })));
     // So is what takes more memory than allowed, before any of it is taken.
     let begin = std::time::Instant::now();
     for (step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
@@ -238,7 +238,7 @@ fn bad_input_is_an_error() {
         let mut own = HistoryOptions::from(HistoryMethod::Exponentials);
         own.memory = memory.unwrap_or(own.memory);
         let mut asked = asked.with_history(own).unwrap();
-        let refused = asked.prepare(step).unwrap_err();
+        let refused = asked.prepare(step, None, &mut unobserved).unwrap_err();
         let Error::Memory(MemoryError { needed, limit, .. }) = refused else { panic!("{refused}") };
         assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{refused}");
     }
@@ -248,11 +248,9 @@ fn bad_input_is_an_error() {
     assert!(matches!(history.evaluate(&mut [0.0; 3]), Err(Error::Size { .. })));
 }
 
+/// One rule: exponentials on the half-plane, unless they begin late or take more memory than is allowed.
 #[test]
 fn the_choice_is_made_and_explained() {
-    use ChoiceReason::{
-        Exact, MemoryLimit, NoExponentials, Rounding, ToleranceAllowed, UnknownLength,
-    };
     use HistoryMethod::{Exponentials, RelaxedFft};
 
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
@@ -261,46 +259,40 @@ fn the_choice_is_made_and_explained() {
         let mut options = HistoryOptions { tolerance, ..HistoryOptions::default() };
         options.memory = memory.unwrap_or(options.memory);
         let mut ground = ground.with_history(options).unwrap();
-        ground.prepare(dt).unwrap();
-        assert_eq!(ground.history_choice(), None);
-        match steps {
-            Some(steps) => ground.expect_steps(steps, None).unwrap(),
-            None => ground.history(&mut [0.0; 12]).unwrap(),
-        }
-        let choice = ground.history_choice().unwrap();
+        assert_eq!(ground.description().history, None);
+        ground.prepare(dt, steps, &mut unobserved)?;
+        let choice = ground.description().history.unwrap();
         println!("{choice}");
-        assert!(choice.to_string().contains(&choice.reason.to_string()));
-        (choice.kind, choice.reason)
+        assert_eq!(choice.to_string().contains("no known end"), steps.is_none());
+        Ok::<_, Error>((choice.kind, choice.error_bound))
     };
-    // Of whatever number of steps: a longer run may follow.
-    assert_eq!(choose(None, None, Some(40), 1e-3), (RelaxedFft, Exact));
-    assert_eq!(choose(None, None, Some(20_000), 1e-3), (Exponentials, Rounding));
-    assert_eq!(choose(None, None, None, 1e-3), (RelaxedFft, UnknownLength));
-    assert_eq!(choose(Some(1e-8), None, Some(20_000), 1e-3), (Exponentials, ToleranceAllowed));
-    assert_eq!(choose(Some(1e-8), None, None, 1e-3), (Exponentials, ToleranceAllowed));
-    // Exponentials are no way out where they take more memory themselves.
-    assert_eq!(choose(None, Some(1_000), Some(500), 1e-4), (RelaxedFft, NoExponentials));
-    assert_eq!(choose(None, Some(100_000), Some(1_500), 1e-3), (Exponentials, MemoryLimit));
-    assert_eq!(choose(None, Some(1_000), Some(200), 1e-9), (RelaxedFft, NoExponentials));
-    // Exponentials pay from a number of steps on, which grows with the elements.
-    for (elements, steps, wanted) in
-        [(12, 1_000, RelaxedFft), (12, 40_000, Exponentials), (100, 1_500, RelaxedFft)]
-    {
-        let ground =
-            ElasticGround::new(soil, Strip::uniform(-4.0..4.0, elements).unwrap()).unwrap();
-        let mut ground = ground
-            .with_history(HistoryOptions { tolerance: Some(1e-8), ..HistoryOptions::default() })
-            .unwrap();
-        ground.prepare(1e-3).unwrap();
-        ground.expect_steps(steps, None).unwrap();
-        assert_eq!(ground.history_choice().unwrap().kind, wanted, "{elements}, {steps}");
+    for (tolerance, steps) in [
+        (None, Some(40)),
+        (None, Some(20_000)),
+        (None, None),
+        (Some(1e-8), Some(40)),
+        (Some(1e-8), None),
+    ] {
+        let (kind, bound) = choose(tolerance, None, steps, 1e-3).unwrap();
+        assert_eq!(kind, Exponentials);
+        assert!(0.0 < bound && bound <= tolerance.unwrap_or(1e-12), "{bound:e}");
+    }
+    // They begin after more lags than a run is expected to have, or take more memory.
+    assert_eq!(choose(None, None, Some(500), 1e-6), Ok((RelaxedFft, 0.0)));
+    assert_eq!(choose(None, Some(35_000), Some(60), 1e-3), Ok((RelaxedFft, 0.0)));
+    for memory in [35_000, 1_000] {
+        let refused = choose(None, Some(memory), Some(1_500), 1e-3).unwrap_err();
+        let Error::Memory(MemoryError { asked, needed, limit, .. }) = refused else {
+            panic!("{refused}")
+        };
+        assert!(asked == 1_500.0 && limit == memory as f64 && needed > limit);
     }
     let mut asked = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap())
         .unwrap()
         .with_history(Exponentials)
         .unwrap();
-    asked.prepare(1e-3).unwrap();
-    let choice = asked.history_choice().unwrap();
-    assert_eq!((choice.kind, choice.reason), (Exponentials, ChoiceReason::Asked));
+    asked.prepare(1e-3, None, &mut unobserved).unwrap();
+    let choice = asked.description().history.unwrap();
+    assert_eq!(choice.kind, Exponentials);
     assert!(choice.error_bound > 0.0 && choice.error_bound <= 1e-10);
 }

@@ -8,7 +8,7 @@ use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, 
 use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, HistoryMethod, RelaxedFftHistory,
 };
-use basemat::{Error, Soil};
+use basemat::{Error, Soil, unobserved};
 use proptest::prelude::*;
 
 fn kernel(elements: Vec<ContactElement>, time_step: f64) -> Arc<dyn ConvolutionWeights> {
@@ -39,9 +39,9 @@ fn difference(kernel: &Arc<dyn ConvolutionWeights>, steps: usize, reserved: usiz
     let size = 2 * kernel.classes().elements().len();
     let mut direct = DirectHistory::new(Arc::clone(kernel));
     let mut all = makes(kernel);
-    direct.reserve(steps).unwrap();
+    direct.prepare(steps, &mut unobserved).unwrap();
     for relaxed in &mut all {
-        relaxed.reserve(reserved).unwrap();
+        relaxed.prepare(reserved, &mut unobserved).unwrap();
     }
     let (mut a, mut b) = (vec![f64::NAN; size], vec![f64::NAN; size]);
     let (mut largest, mut worst) = (0.0_f64, [0.0_f64; 3]);
@@ -164,13 +164,18 @@ fn lengths() {
 }
 
 #[test]
-fn hints_without_end_are_taken_as_hints() {
+fn fewer_steps_leave_the_memory() {
     let mut history = RelaxedFftHistory::new(kernel(strip(0.0..1.0, 1, Grading::Uniform), 1e-2));
-    history.reserve(0).unwrap();
-    history.reserve(1000).unwrap();
+    history.prepare(0, &mut unobserved).unwrap();
+    history.prepare(1000, &mut unobserved).unwrap();
     let held = history.memory();
-    history.reserve(10).unwrap();
+    history.prepare(10, &mut unobserved).unwrap();
     assert_eq!(history.memory(), held);
+    for steps in [1 << 40, usize::MAX] {
+        let found = history.prepare(steps, &mut unobserved);
+        assert!(matches!(found, Err(Error::Memory(_))), "{found:?}");
+        assert_eq!(history.memory(), held);
+    }
 }
 
 /// The headline problem: 54 000 steps, ten elements.
@@ -178,7 +183,7 @@ fn hints_without_end_are_taken_as_hints() {
 fn memory() {
     let elements = strip(-2.286..2.286, 10, Grading::Uniform);
     let mut history = RelaxedFftHistory::new(kernel(elements, 0.577e-3));
-    history.reserve(54_000).unwrap();
+    history.prepare(54_000, &mut unobserved).unwrap();
     let held = history.memory();
     println!("{:.1} MB", held as f64 / 1e6);
     assert!(held > 54_000 * 20 * 8 && held < 52_000_000, "{held} bytes");
@@ -193,7 +198,7 @@ fn grounds_with_either_history_agree() {
             Some(history) => ground.with_history(history).unwrap(),
             None => ground,
         };
-        ground.prepare(1e-3).unwrap();
+        ground.prepare(1e-3, None, &mut unobserved).unwrap();
         ground
     };
     let kinds = [
@@ -239,7 +244,7 @@ proptest! {
         let mut direct = DirectHistory::new(Arc::clone(&kernel));
         let mut relaxed = RelaxedFftHistory::new(kernel)
             .with_surface_transform(along_surface);
-        relaxed.reserve(reserved).unwrap();
+        relaxed.prepare(reserved, &mut unobserved).unwrap();
         let (mut a, mut b) = (vec![0.0; 2 * count], vec![f64::NAN; 2 * count]);
         let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
         for traction in &tractions {

@@ -10,7 +10,7 @@ use basemat::motion::{FreeField, PlaneWave, Record};
 use basemat::site::{ControlPoint, InclinedControl, InclinedWave, SoilColumn, VerticalWave};
 use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBody;
-use basemat::{Complex, Error, LayeredError, Simulation, Soil};
+use basemat::{Complex, Error, LayeredError, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{constant_q, one_layer, rock, soft, two_layers};
 
@@ -61,8 +61,8 @@ fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
     let column = SoilColumn::new(layered.clone(), VerticalWave::Shear).unwrap();
     let upright = InclinedWave::sh(layered.clone(), 0.0).unwrap();
     let motion: Vec<f64> = (0..900).map(|i| (0.3 * f64::from(i)).sin()).collect();
-    let wanted = column.to_surface(ControlPoint::Outcrop, 0.01, &motion).unwrap();
-    let [found, up] = upright.to_surface(OUTCROP, 0.01, &motion).unwrap();
+    let wanted = column.to_surface(ControlPoint::Outcrop, 0.01, &motion, &mut unobserved).unwrap();
+    let [found, up] = upright.to_surface(OUTCROP, 0.01, &motion, &mut unobserved).unwrap();
     for (a, b) in found.samples.iter().zip(&wanted.samples) {
         assert!((a - b).abs() < 1e-10, "{a} {b}");
     }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use basemat::motion::{FreeField, PlaneWave, Record};
 use basemat::site::{ControlPoint, InclinedControl, InclinedWave, SoilColumn, VerticalWave};
 use basemat::soil::{Elastic, Hysteretic, KelvinVoigt, Relaxation, SoilProfile};
-use basemat::{Complex, Error, LayeredError, Result, Soil};
+use basemat::{Complex, Error, LayeredError, Result, Soil, unobserved};
 
 use basemat_problems::profiles::{constant_q, one_layer, rock, soft, two_layers};
 
@@ -34,8 +34,9 @@ fn vertical_incidence_is_the_column() {
                 worst = worst.max(found[1 - along].abs());
             }
             let motion: Vec<f64> = (0..900).map(|i| (0.3 * f64::from(i)).sin()).collect();
-            let wanted = column.to_surface(ControlPoint::Outcrop, 0.01, &motion).unwrap();
-            let found = inclined.to_surface(control, 0.01, &motion).unwrap();
+            let wanted =
+                column.to_surface(ControlPoint::Outcrop, 0.01, &motion, &mut unobserved).unwrap();
+            let found = inclined.to_surface(control, 0.01, &motion, &mut unobserved).unwrap();
             for (a, b) in found[along].samples.iter().zip(&wanted.samples) {
                 worst = worst.max((a - b).abs());
             }
@@ -343,7 +344,7 @@ fn motions_in_time_are_integrals_over_frequency() {
     let mut worst = 0.0_f64;
     for (make, angle, control) in cases {
         let wave = make(profile.clone(), angle.to_radians()).unwrap();
-        let found = wave.to_surface(control, dt, &motion).unwrap();
+        let found = wave.to_surface(control, dt, &motion, &mut unobserved).unwrap();
         // The trapezium rule: what it finds comes again every 2π/step = 63 s.
         let step = 0.1;
         let spectrum: Vec<_> = (1..1000)
@@ -376,7 +377,7 @@ fn fields_run_along_the_surface() {
     let wave = InclinedWave::p(two_layers(constant_q(0.05), Elastic), -0.8).unwrap();
     let control = InclinedControl::OutcropVertical;
     let field = wave.field(control, &record, 4.0).unwrap();
-    let [x, up] = wave.to_surface(control, 0.01, &samples).unwrap();
+    let [x, up] = wave.to_surface(control, 0.01, &samples, &mut unobserved).unwrap();
     let [x, up] = [x, up].map(|motion| Record::new(0.01, motion.samples).unwrap());
     for (place, time) in [(4.0, 1.6), (0.0, 1.7), (-6.0, 1.75)] {
         let then = time - (place - 4.0) / wave.apparent_velocity();
@@ -413,13 +414,16 @@ fn bad_waves_are_refused() {
             (1e-320, vec![1.0]),
             (1e300, vec![1.0, 2.0]),
         ] {
-            let found = wave.to_surface(control, step, &motion);
+            let found = wave.to_surface(control, step, &motion, &mut unobserved);
             assert!(found.is_err() || step == 1e300, "{step} {motion:?}");
         }
         let record = Record::new(0.01, vec![0.0, 1.0, 0.0]).unwrap();
         assert!(wave.field(control, &record, f64::NAN).is_err());
         let hysteretic = two_layers(Hysteretic::new(0.05).unwrap(), Elastic);
-        let found = make(hysteretic, 0.3).unwrap().to_surface(control, 0.01, &[1.0]).unwrap_err();
+        let found = make(hysteretic, 0.3)
+            .unwrap()
+            .to_surface(control, 0.01, &[1.0], &mut unobserved)
+            .unwrap_err();
         assert!(matches!(found, Error::Layered(LayeredError::NotCausal { layer: 1, .. })));
     }
     // What the outcrop hardly has cannot be given.
@@ -428,20 +432,20 @@ fn bad_waves_are_refused() {
         (InclinedWave::p(elastic.clone(), 0.0).unwrap(), InclinedControl::OutcropHorizontal),
     ] {
         assert!(matches!(wave.transfer(control, 1.0), Err(Error::Input { .. })));
-        assert!(wave.to_surface(control, 0.01, &[1.0]).is_err());
+        assert!(wave.to_surface(control, 0.01, &[1.0], &mut unobserved).is_err());
     }
     // The rock's critical angle of 35.3°, and fronts without a limit to their speed.
     let control = InclinedControl::OutcropHorizontal;
     let beyond = InclinedWave::sv(elastic, 36.0_f64.to_radians()).unwrap();
     assert!(beyond.transfer(control, 1.0).is_ok());
-    let found = beyond.to_surface(control, 0.01, &[1.0, 0.0]).unwrap_err();
+    let found = beyond.to_surface(control, 0.01, &[1.0, 0.0], &mut unobserved).unwrap_err();
     assert!(
         matches!(found, Error::Layered(LayeredError::BeyondCritical { layer: 3, .. })),
         "{found}"
     );
     let stiffening = two_layers(Elastic, KelvinVoigt::with_ratio(0.05, 1.0).unwrap());
     let found = InclinedWave::sv(stiffening, 0.4).unwrap();
-    assert!(found.to_surface(control, 0.01, &[1.0, 0.0]).is_err());
+    assert!(found.to_surface(control, 0.01, &[1.0, 0.0], &mut unobserved).is_err());
 }
 
 /// Whatever the scales: finite numbers or a typed error.
@@ -467,7 +471,12 @@ fn extreme_scales_give_finite_numbers_or_errors() {
                                 Err(_) => refused += 1,
                             }
                         }
-                        let motion = wave.to_surface(InclinedControl::Incident, 0.01, &[0.0, 1.0]);
+                        let motion = wave.to_surface(
+                            InclinedControl::Incident,
+                            0.01,
+                            &[0.0, 1.0],
+                            &mut unobserved,
+                        );
                         assert!(
                             motion
                                 .iter()

@@ -2,10 +2,10 @@
 //! SCENE: a damped layer on rock; a half-plane; uniform and graded strips, two and three stages.
 //! REFERENCE: a table of another program, the closed form of the half-plane, a finer tolerance.
 
-use basemat::Soil;
 use basemat::bem::layered::Stages;
 use basemat::bem::{Grading, InfluenceKernel, Strip};
 use basemat::soil::SoilProfile;
+use basemat::{Soil, unobserved};
 
 use basemat_problems::profiles::{gmb, p1, two_stages};
 
@@ -87,7 +87,7 @@ fn bits_of_a_lag_depend_on_nothing_else() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let make = || two_stages(p1(gmb(5), gmb(1)), &strip).weights(0.3).unwrap();
     let (one, two) = (make(), make());
-    two.prepare(1000).unwrap();
+    two.prepare(1000, &mut unobserved).unwrap();
     let mut whole = [vec![0.0; 600], vec![0.0; 600], vec![0.0; 600]];
     let [zz, xx, zx] = &mut whole;
     two.coefficients(1, 1, [zz, xx, zx]).unwrap();

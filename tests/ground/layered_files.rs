@@ -11,7 +11,7 @@ use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBlock;
-use basemat::{Complex, Error, KernelFileError, LayeredError, Simulation, Soil};
+use basemat::{Complex, Error, KernelFileError, LayeredError, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
@@ -46,7 +46,7 @@ const LAGS: usize = 200;
 /// Bits of all coefficients after a preparation for them.
 fn bits(ground: &ElasticGround, time_step: f64) -> Result<Vec<u64>, Error> {
     let kernel = ground.weights(time_step)?;
-    kernel.prepare(LAGS)?;
+    kernel.prepare(LAGS, &mut unobserved)?;
     let mut bits = vec![];
     for class in 0..kernel.classes().count() {
         let mut lists = [[0.0; LAGS]; 3];
@@ -71,8 +71,7 @@ fn files_in_plan_are_taken_to_the_last_bit() {
         ground.with_kernel_file(&file.0)
     };
     let march = |mut ground: ElasticGround| -> Result<Vec<u64>, Error> {
-        ground.prepare(0.2)?;
-        ground.expect_steps(LAGS, None)?;
+        ground.prepare(0.2, Some(LAGS), &mut unobserved)?;
         let size = 3 * ground.elements().len();
         let (mut field, mut bits) = (vec![0.0; size], vec![]);
         for step in 0..LAGS {
@@ -128,7 +127,12 @@ fn rewritten(original: &[u8], checksum: bool, change: impl Fn(&mut [u64])) -> Ve
 fn a_file_gives_the_same_bits_and_is_used() {
     let file = Temporary::new("same");
     let prepare = |lags: usize| {
-        ground().with_kernel_file(&file.0).weights(TIME_STEP).unwrap().prepare(lags).unwrap();
+        ground()
+            .with_kernel_file(&file.0)
+            .weights(TIME_STEP)
+            .unwrap()
+            .prepare(lags, &mut unobserved)
+            .unwrap();
     };
     let wanted = bits(&ground(), TIME_STEP).unwrap();
     assert_eq!(with(&file.0).unwrap(), wanted);
@@ -299,7 +303,6 @@ fn runs_from_a_file_are_the_same_to_the_last_bit() {
     assert_eq!(run(Some(&file.0)), wanted);
     let ground = ElasticGround::new(p3(gmb(5)), Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     let mut ground = ground.with_kernel_file(&file.0);
-    ground.prepare(0.2).unwrap();
-    let found = ground.step_compliance(&mut [0.0; 16]).unwrap_err();
+    let found = ground.prepare(0.2, None, &mut unobserved).unwrap_err();
     assert!(matches!(found, Error::Layered(LayeredError::File { .. })), "{found}");
 }

@@ -5,7 +5,7 @@
 use basemat::bem::layered::StripContact;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Elastic, Hysteretic, SoilProfile};
-use basemat::{Complex, Error, LayeredError, Soil};
+use basemat::{Complex, Error, LayeredError, Soil, unobserved};
 
 use basemat_problems::profiles::{p1, p3};
 
@@ -15,7 +15,7 @@ fn all(profile: &SoilProfile, count: usize, omega: f64) -> [Complex; 7] {
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let at = |contact| {
         let frequency = omega / std::f64::consts::TAU;
-        ground.impedances(&[frequency], contact).unwrap()[0]
+        ground.impedances(&[frequency], contact, &mut unobserved).unwrap()[0]
     };
     let (bonded, relaxed) = (at(StripContact::Bonded), at(StripContact::Relaxed));
     [
@@ -180,7 +180,7 @@ fn undamped_ground_is_extrapolated() {
     }
     // A ground takes its own profile, a half-plane too.
     let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
-    let own = ground.impedances(&[0.1, 0.2], StripContact::Bonded).unwrap();
+    let own = ground.impedances(&[0.1, 0.2], StripContact::Bonded, &mut unobserved).unwrap();
     let omega = 0.2 * std::f64::consts::TAU;
     let same = all(&SoilProfile::on_half_plane(soil), 8, omega);
     assert_eq!((own[1].horizontal, own[1].frequency), (same[0], 0.2));
@@ -193,7 +193,11 @@ fn bad_frequencies_and_resonances_are_refused() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
     let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
     let at = |profile: &SoilProfile, frequency: f64| {
-        ElasticGround::new(profile.clone(), &strip)?.impedances(&[frequency], StripContact::Bonded)
+        ElasticGround::new(profile.clone(), &strip)?.impedances(
+            &[frequency],
+            StripContact::Bonded,
+            &mut unobserved,
+        )
     };
     // An undamped layer 2 m thick begins to guide waves at 1/8 Hz.
     let layer = SoilProfile::on_rigid_base().with_layer(soil, 2.0).unwrap();

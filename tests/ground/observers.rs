@@ -3,7 +3,7 @@
 //! REFERENCE: the same calls without an observer, to the last bit.
 
 use std::ops::ControlFlow::{Break, Continue};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::plan::Plan;
@@ -18,7 +18,7 @@ use basemat::site::{
 };
 use basemat::soil::{Elastic, SoilProfile, StrainCurves};
 use basemat::structure::RigidBlock;
-use basemat::{Error, Observer, Progress, Result, Simulation, Soil};
+use basemat::{Error, Observer, Progress, Result, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
@@ -71,19 +71,19 @@ fn step_coefficients_are_watched_and_stopped() {
     watched(
         |observer| {
             let kernel = make();
-            kernel.prepare_observed(500, observer)?;
+            kernel.prepare(500, observer)?;
             Ok(bits(&*kernel, 500))
         },
         Some(&wanted),
     );
     let kernel = make();
-    watched(|observer| kernel.prepare_observed(500, observer), None);
+    watched(|observer| kernel.prepare(500, observer), None);
     assert_eq!(bits(&*kernel, 500), wanted);
     // Stopped while it had to begin, then asked for without an observer.
     let kernel = make();
     for stop in [1, 30, 60, 200] {
         let mut count = 0;
-        let found = kernel.prepare_observed(500, &mut |_| {
+        let found = kernel.prepare(500, &mut |_| {
             count += 1;
             if count == stop { Break(()) } else { Continue(()) }
         });
@@ -91,7 +91,7 @@ fn step_coefficients_are_watched_and_stopped() {
     }
     assert_eq!(bits(&*kernel, 500), wanted);
     // All is there.
-    watched(|observer| kernel.prepare_observed(500, observer), None);
+    watched(|observer| kernel.prepare(500, observer), None);
 }
 
 /// The forms of a mat in three dimensions, its gate and its weights.
@@ -113,7 +113,7 @@ fn weights_in_plan_are_watched_and_stopped() {
     };
     let wanted = bits(&*make());
     let kernel = make();
-    watched(|observer| kernel.prepare_observed(300, observer), None);
+    watched(|observer| kernel.prepare(300, observer), None);
     assert_eq!(bits(&*kernel), wanted);
 }
 
@@ -123,10 +123,8 @@ fn impedances_are_watched_and_stopped() {
         let ground = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
         let frequencies = [0.05, 0.11, 0.3];
         let contact = StripContact::Bonded;
-        let wanted = ground.impedances(&frequencies, contact).unwrap();
-        let call = |observer: &mut Observer<'_>| {
-            ground.impedances_observed(&frequencies, contact, observer)
-        };
+        let wanted = ground.impedances(&frequencies, contact, &mut unobserved).unwrap();
+        let call = |observer: &mut Observer<'_>| ground.impedances(&frequencies, contact, observer);
         watched(call, Some(&wanted));
     }
 }
@@ -135,8 +133,8 @@ fn impedances_are_watched_and_stopped() {
 fn response_spectra_are_watched_and_stopped() {
     let record = el_centro_1940();
     let periods: Vec<f64> = (0..20).map(|i| 1e-4 * 1.6_f64.powi(i)).collect();
-    let wanted = record.response_spectrum(&periods, 0.05).unwrap();
-    watched(|observer| record.response_spectrum_observed(&periods, 0.05, observer), Some(&wanted));
+    let wanted = record.response_spectrum(&periods, 0.05, &mut unobserved).unwrap();
+    watched(|observer| record.response_spectrum(&periods, 0.05, observer), Some(&wanted));
 }
 
 /// Motions through a site are heard of in as many parts as a Ctrl-C needs, and stopped.
@@ -162,12 +160,12 @@ fn site_response_is_watched_and_stopped() {
         parts.get()
     };
 
-    let wanted = column.to_surface(control, step, samples).unwrap();
-    let up = |own: &mut Observer<'_>| column.to_surface_observed(control, step, samples, own);
+    let wanted = column.to_surface(control, step, samples, &mut unobserved).unwrap();
+    let up = |own: &mut Observer<'_>| column.to_surface(control, step, samples, own);
     watched(up, Some(&wanted));
     assert!(heard(&|own| drop(up(own))) > 50);
-    let wanted = column.from_surface(control, step, samples).unwrap();
-    watched(|own| column.from_surface_observed(control, step, samples, own), Some(&wanted));
+    let wanted = column.from_surface(control, step, samples, &mut unobserved).unwrap();
+    watched(|own| column.from_surface(control, step, samples, own), Some(&wanted));
 
     let frequencies: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
     let found = column.transfers(control, &frequencies, &mut |_| Continue(())).unwrap();
@@ -179,8 +177,8 @@ fn site_response_is_watched_and_stopped() {
 
     let wave = InclinedWave::sv(profile.clone(), 0.2).unwrap();
     let control = InclinedControl::OutcropHorizontal;
-    let wanted = wave.to_surface(control, step, samples).unwrap();
-    watched(|own| wave.to_surface_observed(control, step, samples, own), Some(&wanted));
+    let wanted = wave.to_surface(control, step, samples, &mut unobserved).unwrap();
+    watched(|own| wave.to_surface(control, step, samples, own), Some(&wanted));
     let wanted = wave.surface_records(control, &record, &mut |_| Continue(())).unwrap();
     watched(|own| wave.surface_records(control, &record, own), Some(&wanted));
     let field = wave.field(control, &record, -3.0).unwrap();
@@ -189,18 +187,18 @@ fn site_response_is_watched_and_stopped() {
 
     let motion = Triaxial { x: Some(record.clone()), y: None, up: Some(record.clone()) };
     let control = ControlPoint::Outcrop;
-    let wanted = SoilColumn::surface_in_plan(&profile, control, &motion).unwrap();
-    let call = |own: &mut Observer<'_>| {
-        SoilColumn::surface_in_plan_observed(&profile, control, &motion, own)
-    };
+    let wanted = SoilColumn::surface_in_plan(&profile, control, &motion, &mut unobserved).unwrap();
+    let call =
+        |own: &mut Observer<'_>| SoilColumn::surface_in_plan(&profile, control, &motion, own);
     watched(call, Some(&wanted));
 
     let curves = vec![StrainCurves::VuceticDobry { plasticity_index: 30.0 }; 12];
     let options = EquivalentLinearOptions::default();
     let numbers = |found: EquivalentLinear| (found.surface, found.accelerations, found.layers);
-    let wanted = column.equivalent_linear(&record, &curves, &options).map(numbers).unwrap();
+    let wanted =
+        column.equivalent_linear(&record, &curves, &options, &mut unobserved).map(numbers).unwrap();
     let call = |own: &mut Observer<'_>| {
-        column.equivalent_linear_observed(&record, &curves, &options, own).map(numbers)
+        column.equivalent_linear(&record, &curves, &options, own).map(numbers)
     };
     watched(call, Some(&wanted));
     // Every iteration, in its frequencies and in its layers.
@@ -232,15 +230,30 @@ fn states(mut simulation: Simulation) -> Vec<u64> {
 #[test]
 fn builds_and_runs_hand_their_observer_on() {
     let wanted = states(scene().build().unwrap());
-    watched(
-        |observer| Ok(states(scene().expected_steps(200).build_observed(observer)?)),
-        Some(&states(scene().expected_steps(200).build().unwrap())),
-    );
-    let mut simulation = scene().build_observed(&mut |_| Continue(())).unwrap();
+    let told = states(scene().expected_steps(200).build().unwrap());
+    for stop in [0, 1, 7, 41, usize::MAX] {
+        let heard = Arc::new(Mutex::new(vec![]));
+        let own = Arc::clone(&heard);
+        let builder = scene().expected_steps(200).observer(move |progress| {
+            let mut heard = own.lock().unwrap();
+            heard.push(progress);
+            if heard.len() > stop { Break(()) } else { Continue(()) }
+        });
+        let built = builder.build();
+        let last = *heard.lock().unwrap().last().unwrap();
+        match built {
+            Ok(simulation) => {
+                assert!(stop == usize::MAX && last.done == last.total, "{last}");
+                assert_eq!(states(simulation), told);
+            }
+            Err(error) => assert_eq!(error, Error::Stopped(last)),
+        }
+    }
+    let mut simulation = scene().build().unwrap();
     let before = simulation.state().clone();
-    watched(|observer| simulation.precompute(200, observer), None);
+    watched(|observer| simulation.prepare(200, observer), None);
     assert_eq!(*simulation.state(), before);
-    let choice = simulation.ground().history_choice().unwrap();
+    let choice = simulation.ground().description().history.unwrap();
     assert_eq!(choice.steps, Some(200));
     assert_eq!(states(simulation), wanted);
 }
@@ -255,7 +268,7 @@ fn spectra_are_heard_of_in_parts() {
         let displacements = |observer: &mut Observer<'_>| {
             let kernel = Arc::new(PatchKernel::new(soil, elements.clone(), 0.01)?);
             let mut history = RelaxedFftHistory::new(kernel).with_surface_transform(true);
-            history.reserve_observed(2000, observer)?;
+            history.prepare(2000, observer)?;
             let mut displacement = vec![0.0; size];
             let mut bits: Vec<u64> = vec![];
             for step in 0..100_u32 {
@@ -284,7 +297,7 @@ fn spectra_are_watched_and_stopped() {
         let wanted = states(scene_on(strip.clone()).build().unwrap());
         let mut heard = vec![];
         let mut twin = scene_on(strip.clone()).build().unwrap();
-        let all = twin.precompute(2000, &mut |progress| {
+        let all = twin.prepare(2000, &mut |progress| {
             heard.push(progress);
             Continue(())
         });
@@ -295,12 +308,12 @@ fn spectra_are_watched_and_stopped() {
         let mut simulation = scene_on(strip).build().unwrap();
         let before = simulation.state().clone();
         for _ in 0..2 {
-            let found = simulation.precompute(2000, &mut |progress| {
+            let found = simulation.prepare(2000, &mut |progress| {
                 let is_last = progress.done + 1 >= progress.total;
                 if is_last { Break(()) } else { Continue(()) }
             });
             assert!(matches!(found, Err(Error::Stopped(_))), "{found:?}");
-            assert_eq!(simulation.ground().history_choice(), None);
+            assert_eq!(simulation.ground().description().history.unwrap().steps, None);
             assert_eq!(*simulation.state(), before);
         }
         assert_eq!(states(simulation), wanted);

@@ -5,9 +5,9 @@
 use std::ops::ControlFlow;
 
 use basemat::bem::layered::StripContact;
-use basemat::bem::plan::{Plan, impedances_in_plan, impedances_in_plan_observed};
+use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::soil::SoilProfile;
-use basemat::{Error, PlanError, Soil};
+use basemat::{Error, PlanError, Soil, unobserved};
 
 fn rectangle(x: [f64; 2], y: [f64; 2]) -> Vec<[f64; 2]> {
     vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
@@ -131,7 +131,9 @@ fn impedances_say_what_they_cannot() {
     let profile: SoilProfile = soil.into();
     let plan = Plan::rectangle(-5.0..5.0, -5.0..5.0, 4).unwrap();
     let bonded = StripContact::Bonded;
-    let at = |frequency: f64| impedances_in_plan(&profile, &plan, &[1.0, frequency], bonded);
+    let at = |frequency: f64| {
+        impedances_in_plan(&profile, &plan, &[1.0, frequency], bonded, &mut unobserved)
+    };
     let found = at(20.0);
     assert!(
         matches!(found, Err(Error::Plan(PlanError::CoarseCells { frequency: 20.0, .. }))),
@@ -140,15 +142,18 @@ fn impedances_say_what_they_cannot() {
     for frequency in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(at(frequency).is_err());
     }
-    assert!(impedances_in_plan(&SoilProfile::on_rigid_base(), &plan, &[1.0], bonded).is_err());
-    assert!(impedances_in_plan(&profile, &plan, &[], bonded).unwrap().is_empty());
+    assert!(
+        impedances_in_plan(&SoilProfile::on_rigid_base(), &plan, &[1.0], bonded, &mut unobserved)
+            .is_err()
+    );
+    assert!(impedances_in_plan(&profile, &plan, &[], bonded, &mut unobserved).unwrap().is_empty());
     let skin = profile.clone().with_layer(soil, 1e-4).unwrap();
-    let found = impedances_in_plan(&skin, &plan, &[1.0], bonded);
+    let found = impedances_in_plan(&skin, &plan, &[1.0], bonded, &mut unobserved);
     assert!(matches!(found, Err(Error::Plan(PlanError::TooFine { .. }))), "{found:?}");
 
     let mut heard = vec![];
     let all = |observer: &mut dyn FnMut(usize) -> ControlFlow<()>| {
-        impedances_in_plan_observed(&profile, &plan, &[0.0, 2.0], bonded, &mut |progress| {
+        impedances_in_plan(&profile, &plan, &[0.0, 2.0], bonded, &mut |progress| {
             observer(progress.done)
         })
     };
@@ -156,7 +161,10 @@ fn impedances_say_what_they_cannot() {
         heard.push(done);
         ControlFlow::Continue(())
     });
-    assert_eq!(found.unwrap(), impedances_in_plan(&profile, &plan, &[0.0, 2.0], bonded).unwrap());
+    assert_eq!(
+        found.unwrap(),
+        impedances_in_plan(&profile, &plan, &[0.0, 2.0], bonded, &mut unobserved).unwrap()
+    );
     assert!(heard.is_sorted() && heard.last() == Some(&16));
     for last in [0, 8, 11] {
         let stopped = all(&mut |done| {

@@ -9,7 +9,7 @@ use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::history::{DirectHistory, HistoryMethod, HistoryOptions};
 use basemat::soil::SoilProfile;
-use basemat::{Error, Soil};
+use basemat::{Error, Soil, unobserved};
 use basemat_problems::dense::solve;
 use basemat_problems::passivity::least_work;
 use basemat_problems::profiles::{gmb, p1, p3};
@@ -59,8 +59,8 @@ fn histories_are_the_direct_sum() {
             ground().with_own_history(|kernel: Arc<_>| Box::new(DirectHistory::new(kernel)));
         let mut fast = ground();
         for ground in [&mut direct, &mut fast] {
-            assert_eq!(ground.directions(), 3);
-            ground.prepare(0.2).unwrap();
+            assert!(ground.in_plan(0).is_some());
+            ground.prepare(0.2, None, &mut unobserved).unwrap();
         }
         let [wanted, found] = [&mut direct, &mut fast].map(|ground| marched(ground, 100, 1));
         let error = largest_difference(&found, &wanted);
@@ -75,7 +75,7 @@ fn step_compliance_and_history_add_up_to_statics() {
     for profile in [half_space(), p1(gmb(5), gmb(1))] {
         let plan = l_shape();
         let mut ground = ElasticGround::in_plan(profile.clone(), plan.clone()).unwrap();
-        ground.prepare(0.4).unwrap();
+        ground.prepare(0.4, None, &mut unobserved).unwrap();
         let size = 3 * plan.count();
         let [mut step, mut still] = [vec![0.0; size * size], vec![0.0; size * size]];
         ground.step_compliance(&mut step).unwrap();
@@ -100,7 +100,9 @@ fn step_compliance_and_history_add_up_to_statics() {
             assert!(pairs.into_iter().all(|[a, b]| (matrix[a] - matrix[b]).abs() < 1e-14));
         }
         // A rigid settlement.
-        let found = impedances_in_plan(&profile, &plan, &[0.0], StripContact::Bonded).unwrap()[0];
+        let found =
+            impedances_in_plan(&profile, &plan, &[0.0], StripContact::Bonded, &mut unobserved)
+                .unwrap()[0];
         let area = plan.pitch()[0] * plan.pitch()[1];
         let mut sum = 0.0;
         let settled: Vec<_> = (0..size).map(|n| f64::from(n < plan.count())).collect();
@@ -121,8 +123,7 @@ fn tractions_never_take_energy_from_a_ground_in_plan() {
         for plan in [Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap(), l_shape()] {
             for step in [0.05, 0.3, 1.5] {
                 let mut ground = ElasticGround::in_plan(profile.clone(), plan.clone()).unwrap();
-                ground.prepare(step).unwrap();
-                ground.expect_steps(steps, None).unwrap();
+                ground.prepare(step, Some(steps), &mut unobserved).unwrap();
                 let work = least_work(&mut ground, steps, 11);
                 assert!(work >= 0.0, "{work:e} at {step}");
                 least = least.min(work);
@@ -142,8 +143,7 @@ fn what_memory_forgets_is_bounded() {
     let mut late = ground().with_history(options).unwrap();
     let steps = 700;
     for (ground, steps) in [(&mut whole, steps), (&mut ended, steps), (&mut late, 1)] {
-        ground.prepare(0.2).unwrap();
-        ground.expect_steps(steps, None).unwrap();
+        ground.prepare(0.2, Some(steps), &mut unobserved).unwrap();
     }
     let [wanted, found, grown] = [&mut whole, &mut ended, &mut late].map(|g| marched(g, steps, 3));
     let bound = ended.increment_error_bound();
@@ -164,8 +164,7 @@ fn what_memory_forgets_is_bounded() {
     // No more than the memory.
     assert!(saved.len() < 520 * 400, "{}", saved.len());
     let mut other = ground().with_history(options).unwrap();
-    other.prepare(0.2).unwrap();
-    other.expect_steps(steps, None).unwrap();
+    other.prepare(0.2, Some(steps), &mut unobserved).unwrap();
     other.restore(steps, &saved).unwrap();
     let [one, two] = [&mut ended, &mut other].map(|ground| marched(ground, 300, 4));
     assert_eq!(one, two);
@@ -179,8 +178,7 @@ fn limits_are_told_beforehand() {
     let small = HistoryOptions { memory: 1 << 20, ..HistoryOptions::default() };
     let mut ground = ElasticGround::in_plan(half_space(), plan.clone()).unwrap();
     ground = ground.with_history(small).unwrap();
-    ground.prepare(0.1).unwrap();
-    let outcome = ground.expect_steps(50_000, None);
+    let outcome = ground.prepare(0.1, Some(50_000), &mut unobserved);
     assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
     // Matrices of three components between 2500 elements.
     let many = || Plan::rectangle(-1.0..1.0, -1.0..1.0, 50).unwrap();
@@ -189,7 +187,7 @@ fn limits_are_told_beforehand() {
     let outcome = SpringGround::in_plan(many(), [1.0; 3]).map(drop);
     assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
     let ground = ElasticGround::in_plan(half_space(), plan).unwrap();
-    let outcome = ground.impedances(&[1.0], StripContact::Bonded);
+    let outcome = ground.impedances(&[1.0], StripContact::Bonded, &mut unobserved);
     assert!(matches!(outcome, Err(Error::Scene { .. })), "{outcome:?}");
 }
 
@@ -212,13 +210,13 @@ fn unions_are_sums_of_cells() {
         (0..size).map(|own| (0..count).filter(|cell| owner(*cell) == own).count()).collect();
     let area = plan.pitch()[0] * plan.pitch()[1];
     for (element, number) in unions.elements().iter().zip(0..) {
-        let [front, back] = unions.depth(number);
+        let [front, back] = unions.in_plan(number).unwrap().depth;
         let found = element.length() * (back - front);
         assert!((found / area - sizes[number] as f64).abs() < 1e-12);
     }
     let mut random = Random(6);
     for ground in [&mut cells, &mut unions] {
-        ground.prepare(0.2).unwrap();
+        ground.prepare(0.2, None, &mut unobserved).unwrap();
     }
     let (mut found, mut wanted) = (vec![0.0; 3 * size], vec![0.0; 3 * count]);
     let means = |wanted: &[f64]| {
@@ -281,20 +279,19 @@ fn memory_ends_by_itself() {
     let ground = |tolerance| {
         let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), l_shape()).unwrap();
         let mut ground = ground.with_tolerance(tolerance).unwrap();
-        ground.prepare(0.4).unwrap();
-        ground.expect_steps(steps, None).unwrap();
+        ground.prepare(0.4, Some(steps), &mut unobserved).unwrap();
         ground
     };
     let mut ended = ground(1e-10);
     let found = marched(&mut ended, steps, 7);
     let bound = ended.increment_error_bound();
-    let choice = ended.history_choice().unwrap();
+    let choice = ended.description().history.unwrap();
     assert!((5e-7..2e-6).contains(&choice.error_bound), "{choice}");
     let kept = ended.save().unwrap().len() / (3 * 12);
     assert!(bound > 0.0 && kept < steps - 2000, "{bound:e} {kept}");
     // Coefficients a hundred times as good, all of them; random tractions cancel, their bound does not.
     let mut whole = ground(1e-13).with_history(HistoryMethod::RelaxedFft).unwrap();
-    whole.prepare(0.4).unwrap();
+    whole.prepare(0.4, None, &mut unobserved).unwrap();
     let wanted = marched(&mut whole, steps, 7);
     let pairs = found.iter().flatten().zip(wanted.iter().flatten());
     let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

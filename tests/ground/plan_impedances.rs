@@ -8,7 +8,7 @@ use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, PlanImpedance, impedances_in_plan};
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Hysteretic, SoilProfile};
-use basemat::{Complex, Soil};
+use basemat::{Complex, Soil, unobserved};
 
 use basemat_problems::profiles::p1;
 
@@ -17,7 +17,7 @@ fn half_space(poisson: f64) -> SoilProfile {
 }
 
 fn at(profile: &SoilProfile, plan: &Plan, a0: f64, contact: StripContact) -> PlanImpedance {
-    impedances_in_plan(profile, plan, &[a0 / TAU], contact).unwrap()[0]
+    impedances_in_plan(profile, plan, &[a0 / TAU], contact, &mut unobserved).unwrap()[0]
 }
 
 /// The component of a table. Its w = x Ry is down, so ry is that of the crate; for Rx and Hy alike.
@@ -214,11 +214,11 @@ fn long_mats_are_strips() {
     let strip = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap();
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let contact = StripContact::Bonded;
-    let strips = ground.impedances(&frequencies, contact).unwrap();
+    let strips = ground.impedances(&frequencies, contact, &mut unobserved).unwrap();
     // Across the strip is along y here.
     let [long, short] = [10.0, 8.0].map(|half| {
         let plan = Plan::rectangle(-half..half, -1.0..1.0, 6).unwrap();
-        impedances_in_plan(&profile, &plan, &frequencies, contact).unwrap()
+        impedances_in_plan(&profile, &plan, &frequencies, contact, &mut unobserved).unwrap()
     });
     for (place, (strip, gate)) in strips.into_iter().zip([0.07, 0.03]).enumerate() {
         let [long, short] = [&long, &short].map(|found| found[place].matrix);
@@ -245,7 +245,7 @@ fn plane_strain_misleads_on_square_mats() {
     let strip = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap();
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let contact = StripContact::Bonded;
-    let strip = ground.impedances(&[frequency], contact).unwrap()[0];
+    let strip = ground.impedances(&[frequency], contact, &mut unobserved).unwrap()[0];
     let mat = at(&profile, &Plan::rectangle(-1.0..1.0, -1.0..1.0, 16).unwrap(), 0.5, contact);
     for (axis, strip, ratios) in [
         (0, strip.horizontal, [0.57, 1.40]),

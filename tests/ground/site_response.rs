@@ -5,7 +5,7 @@
 use basemat::motion::{Record, el_centro_1940};
 use basemat::site::{ControlPoint, SiteWarning, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, SoilProfile};
-use basemat::{Complex, Error, LayeredError, Soil};
+use basemat::{Complex, Error, LayeredError, Soil, unobserved};
 
 use basemat_problems::profiles::p1;
 
@@ -47,8 +47,12 @@ fn reflections_in_an_elastic_layer() {
         (VerticalWave::Pressure, [layer.pressure_wave_speed(), rock.pressure_wave_speed()]),
     ] {
         let column = SoilColumn::new(profile.clone(), wave).unwrap();
-        let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap().samples;
-        let within = column.from_surface(ControlPoint::Within, dt, &surface).unwrap().samples;
+        let surface =
+            column.to_surface(ControlPoint::Outcrop, dt, &motion, &mut unobserved).unwrap().samples;
+        let within = column
+            .from_surface(ControlPoint::Within, dt, &surface, &mut unobserved)
+            .unwrap()
+            .samples;
         let ratio = layer.density() * speeds[0] / (rock.density() * speeds[1]);
         let (r, travel) = ((1.0 - ratio) / (1.0 + ratio), height / speeds[0]);
         let wanted = |t: f64| -> f64 {
@@ -78,7 +82,8 @@ fn reflections_on_a_rigid_base_never_end() {
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
     let (dt, count, travel) = (0.01, 1500, 35.0 / 200.0);
     let motion: Vec<f64> = (0..count).map(|i| ricker(dt * f64::from(i))).collect();
-    let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap().samples;
+    let surface =
+        column.to_surface(ControlPoint::Outcrop, dt, &motion, &mut unobserved).unwrap().samples;
     let mut worst = 0.0_f64;
     for (i, surface) in surface.iter().enumerate() {
         let late = |m: i32| ricker(dt * i as f64 - f64::from(2 * m + 1) * travel);
@@ -108,8 +113,9 @@ fn deconvolution_undoes_convolution() {
         for wave in [VerticalWave::Shear, VerticalWave::Pressure] {
             let column = SoilColumn::new(profile.clone(), wave).unwrap();
             for control in [ControlPoint::Outcrop, ControlPoint::Within] {
-                let surface = column.to_surface(control, 0.005, &motion).unwrap();
-                let back = column.from_surface(control, 0.005, &surface.samples).unwrap();
+                let surface = column.to_surface(control, 0.005, &motion, &mut unobserved).unwrap();
+                let back =
+                    column.from_surface(control, 0.005, &surface.samples, &mut unobserved).unwrap();
                 let worst = motion
                     .iter()
                     .zip(&back.samples)
@@ -138,14 +144,17 @@ fn bad_motions_are_refused() {
         (0.1, vec![f64::NAN]),
         (1e-320, vec![1.0]),
     ] {
-        assert!(column.to_surface(control, step, &motion).is_err(), "{step} {motion:?}");
+        assert!(
+            column.to_surface(control, step, &motion, &mut unobserved).is_err(),
+            "{step} {motion:?}"
+        );
     }
     assert!(column.transfer(control, -1.0).is_err());
     assert!(column.transfer(control, f64::NAN).is_err());
     assert!(SoilColumn::new(SoilProfile::on_rigid_base(), VerticalWave::Shear).is_err());
     let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
-    let found = column.to_surface(control, 0.1, &[1.0]);
+    let found = column.to_surface(control, 0.1, &[1.0], &mut unobserved);
     assert!(matches!(found, Err(Error::Layered(LayeredError::NotCausal { layer: 1, .. }))));
     assert!(found.unwrap_err().to_string().contains("GeneralizedMaxwell"));
 }
@@ -164,7 +173,9 @@ fn deconvolution_warns_of_what_it_amplifies() {
     let record = el_centro_1940().padded(10.0, 40.0).unwrap();
     let down = |column: &SoilColumn, record: &Record| {
         let samples = record.accelerations();
-        column.from_surface(ControlPoint::Outcrop, record.time_step(), samples).unwrap()
+        column
+            .from_surface(ControlPoint::Outcrop, record.time_step(), samples, &mut unobserved)
+            .unwrap()
     };
     let soft = column(100.0, 100.0, 0.15);
     let found = down(&soft, &record);
@@ -181,6 +192,8 @@ fn deconvolution_warns_of_what_it_amplifies() {
     let firm = column(300.0, 30.0, 0.05);
     assert_eq!(down(&firm, &record).warning(), None);
     let samples = record.accelerations();
-    let up = soft.to_surface(ControlPoint::Outcrop, record.time_step(), samples).unwrap();
+    let up = soft
+        .to_surface(ControlPoint::Outcrop, record.time_step(), samples, &mut unobserved)
+        .unwrap();
     assert_eq!(up.warning(), None);
 }

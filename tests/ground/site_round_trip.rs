@@ -9,7 +9,7 @@ use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
 };
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
-use basemat::{Complex, Soil};
+use basemat::{Complex, Soil, unobserved};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
@@ -130,8 +130,9 @@ fn there_and_back() {
     for (name, step, samples) in records() {
         for control in [ControlPoint::Outcrop, ControlPoint::Within] {
             let way = |motion: &[f64]| {
-                let surface = column.to_surface(control, step, motion).unwrap();
-                let back = column.from_surface(control, step, &surface.samples).unwrap();
+                let surface = column.to_surface(control, step, motion, &mut unobserved).unwrap();
+                let back =
+                    column.from_surface(control, step, &surface.samples, &mut unobserved).unwrap();
                 let error = apart(motion, &back.samples) / peak(motion);
                 (error, surface, back)
             };
@@ -175,11 +176,12 @@ fn the_surface_moves_by_the_transfer_function() {
             most = most.max(said);
             println!("{name:27}: {error:8.1e}, {:8.1e}; {found}", all / found.peak());
         };
-        let found = column.to_surface(ControlPoint::Outcrop, step, &motion).unwrap();
+        let found =
+            column.to_surface(ControlPoint::Outcrop, step, &motion, &mut unobserved).unwrap();
         let transfer = |f| column.transfer(ControlPoint::Outcrop, f).unwrap();
         check(&found, &frequencies().map(transfer).collect::<Vec<_>>());
         for (wave, control) in [(&sv, control), (&p, incident)] {
-            let found = wave.to_surface(control, step, &motion).unwrap();
+            let found = wave.to_surface(control, step, &motion, &mut unobserved).unwrap();
             let (x, up): (Vec<_>, Vec<_>) =
                 frequencies().map(|f| wave.transfer(control, f).unwrap().into()).unzip();
             check(&found[0], &x);

@@ -3,6 +3,7 @@
 //! REFERENCE: matrix exponentials, a published table, closed forms and limits.
 
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
+use basemat::unobserved;
 
 use basemat_problems::table;
 
@@ -13,7 +14,7 @@ fn el_centro_agrees_with_matrix_exponentials() {
     let mut worst = 0.0_f64;
     let rows = table("response_spectra_el_centro.csv").rows(columns);
     for [period, damping, pseudo, total] in rows {
-        let found = record.response_spectrum(&[period], damping).unwrap()[0];
+        let found = record.response_spectrum(&[period], damping, &mut unobserved).unwrap()[0];
         for (found, known) in [(found.pseudo_acceleration, pseudo), (found.acceleration, total)] {
             // The table is printed to 9 decimals.
             let slack = 1e-9 / known;
@@ -35,7 +36,7 @@ fn el_centro_agrees_with_a_published_table() {
     let known = table("summary_records.csv").row("file", file, columns);
     let periods = columns.map(|name| name[4..].parse::<f64>().unwrap());
     let record = el_centro_1940();
-    let spectrum = record.response_spectrum(&periods, 0.05).unwrap();
+    let spectrum = record.response_spectrum(&periods, 0.05, &mut unobserved).unwrap();
     let peak = record.peaks().acceleration;
     for (found, known) in spectrum.iter().zip(known) {
         let step = if found.period < 0.5 { 0.005 } else { 0.02 };
@@ -55,7 +56,7 @@ fn el_centro_agrees_with_a_published_table() {
 fn step_load_doubles() {
     let record = Record::new(0.013, vec![2.0; 400]).unwrap();
     for period in [0.031, 0.2, 1.7] {
-        let found = record.response_spectrum(&[period], 0.0).unwrap()[0];
+        let found = record.response_spectrum(&[period], 0.0, &mut unobserved).unwrap()[0];
         assert!((found.pseudo_acceleration / 4.0 - 1.0).abs() < 1e-5);
         assert!((found.acceleration / 4.0 - 1.0).abs() < 1e-5);
         let omega = std::f64::consts::TAU / period;
@@ -66,7 +67,7 @@ fn step_load_doubles() {
 #[test]
 fn stiff_oscillators_follow_the_ground_and_soft_ones_stay() {
     let record = el_centro_1940();
-    let spectrum = record.response_spectrum(&[1e-3, 1e3], 0.05).unwrap();
+    let spectrum = record.response_spectrum(&[1e-3, 1e3], 0.05, &mut unobserved).unwrap();
     assert!((spectrum[0].acceleration / record.peaks().acceleration - 1.0).abs() < 2e-3);
     assert!((spectrum[1].displacement / record.peaks().displacement - 1.0).abs() < 2e-2);
 }
@@ -75,12 +76,15 @@ fn stiff_oscillators_follow_the_ground_and_soft_ones_stay() {
 fn bad_input_is_refused() {
     let record = el_centro_1940();
     for period in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12, 1e300, 1e-300] {
-        assert!(record.response_spectrum(&[1.0, period], 0.05).is_err(), "{period}");
+        assert!(
+            record.response_spectrum(&[1.0, period], 0.05, &mut unobserved).is_err(),
+            "{period}"
+        );
     }
     for damping in [-0.01, 1.0, f64::NAN, f64::INFINITY] {
-        assert!(record.response_spectrum(&[1.0], damping).is_err(), "{damping}");
+        assert!(record.response_spectrum(&[1.0], damping, &mut unobserved).is_err(), "{damping}");
     }
-    assert!(record.response_spectrum(&[], 0.05).unwrap().is_empty());
+    assert!(record.response_spectrum(&[], 0.05, &mut unobserved).unwrap().is_empty());
 }
 
 /// A long sine at its own period: samples that are joined by lines keep (sin x/x)² of it, x = π/n for n in a period.
@@ -92,7 +96,8 @@ fn spectra_of_few_samples_warn() {
         let step = period / count;
         let wave = |t: f64| (std::f64::consts::TAU * t / period).sin();
         let record = Record::from_fn(step, 30.0, wave).unwrap();
-        let found = record.response_spectrum(&[period], damping).unwrap()[0].pseudo_acceleration;
+        let found = record.response_spectrum(&[period], damping, &mut unobserved).unwrap()[0]
+            .pseudo_acceleration;
         let x = std::f64::consts::PI / count;
         let wanted = 0.5 / damping * (x.sin() / x).powi(2);
         // Samples at 2.5 in a period hold harmonics near it, too.

@@ -2,9 +2,9 @@
 //! SCENE: independent springs under a block that slides.
 //! REFERENCE: `SpringGround`.
 
-use basemat::Result;
 use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
+use basemat::{Observer, Result};
 
 use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::block;
@@ -36,7 +36,7 @@ impl Ground for Bed {
         &self.elements
     }
 
-    fn prepare(&mut self, _time_step: f64) -> Result<()> {
+    fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
         self.displacement.fill(0.0);
         Ok(())
     }

@@ -1,8 +1,7 @@
-//! GOAL: a hint of steps makes no more convolution weights than the steps need.
+//! GOAL: a known number of steps makes no more convolution weights than the steps need.
 //! SCENE: four elements on the half-plane, with late weights as exponentials and without (as with damping).
-//! REFERENCE: the lags that the march asks for without a hint.
+//! REFERENCE: the lags that the march asks for without a known end.
 
-use std::ops::ControlFlow::Continue;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,7 +9,7 @@ use basemat::bem::{ContactElement, Ground, PatchKernel, Strip, WeightsGround, We
 use basemat::history::{
     ConvolutionWeights, HistoryMethod, LateWeights, PairClasses, SharedSpectra,
 };
-use basemat::{Observer, Result};
+use basemat::{Observer, Result, unobserved};
 
 use super::scene::soil;
 
@@ -36,13 +35,9 @@ impl ConvolutionWeights for Counted {
         self.own().classes()
     }
 
-    fn prepare(&self, lags: usize) -> Result<()> {
+    fn prepare(&self, lags: usize, _: &mut Observer<'_>) -> Result<()> {
         self.prepared.fetch_max(lags, Ordering::Relaxed);
         Ok(())
-    }
-
-    fn prepare_observed(&self, lags: usize, _: &mut Observer<'_>) -> Result<()> {
-        self.prepare(lags)
     }
 
     fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
@@ -87,17 +82,12 @@ struct March {
     history: HistoryMethod,
 }
 
-fn march(late: bool, steps: usize, hint: bool, observed: bool) -> March {
+fn march(late: bool, steps: usize, known: bool) -> March {
     let counter = || Arc::new(AtomicUsize::new(0));
     let source = Counted { late, made: counter(), prepared: counter(), kernel: None };
     let elements = Strip::uniform(-2.0..2.0, 4).unwrap().elements();
     let mut ground = WeightsGround::new(source.clone(), elements).unwrap();
-    ground.prepare(2e-3).unwrap();
-    if hint {
-        let mut goes_on = |_| Continue(());
-        let observer: Option<&mut Observer<'_>> = if observed { Some(&mut goes_on) } else { None };
-        ground.expect_steps(steps, observer).unwrap();
-    }
+    ground.prepare(2e-3, known.then_some(steps), &mut unobserved).unwrap();
     let made = || source.made.load(Ordering::Relaxed);
     let before = made();
     let mut displacement = [0.0; 8];
@@ -106,32 +96,30 @@ fn march(late: bool, steps: usize, hint: bool, observed: bool) -> March {
         ground.commit(&[1.0 + step as f64; 8]);
     }
     let prepared = source.prepared.load(Ordering::Relaxed);
-    let history = ground.history_choice().unwrap().kind;
+    let history = ground.description().history.unwrap().kind;
     March { made: [before, made()], prepared, history }
 }
 
 #[test]
-fn hints_make_no_more_weights_than_steps_need() {
-    for late in [true, false] {
-        for steps in [2_000_usize, 200_000] {
-            let (without, with) =
-                (march(late, steps, false, false), march(late, steps, true, false));
-            let March { made, history, .. } = with;
-            println!("late {late}, {steps} steps: {:?}, told {made:?} {history}", without.made);
-            assert_eq!((without.made[0], without.history), (0, HistoryMethod::RelaxedFft));
-            let exact = history == HistoryMethod::RelaxedFft;
-            assert_eq!(exact, !late || steps < 10_000);
-            if exact {
-                // Without a hint, some are made again while memory grows.
-                assert!(made[1] <= without.made[1], "{made:?} {:?}", without.made);
-                // For more than 100 000 steps nothing is made before it is needed.
-                assert_eq!(made[0], if steps > 100_000 { 0 } else { made[1] });
-            } else {
-                assert!(made[0] == made[1] && 10 * made[1] < without.made[1], "{made:?}");
-            }
+fn a_known_end_makes_no_more_weights_than_steps_need() {
+    for (steps, late) in [(2_000_usize, true), (2_000, false), (50_000, true), (50_000, false)] {
+        let (without, with) = (march(late, steps, false), march(late, steps, true));
+        let March { made, history, .. } = with;
+        println!("late {late}, {steps} steps: {:?}, told {made:?} {history}", without.made);
+        assert_eq!(without.history, history);
+        assert_eq!(history == HistoryMethod::Exponentials, late);
+        // All before the first step.
+        assert_eq!(made[0], made[1]);
+        if late {
+            assert_eq!(made, without.made);
+        } else {
+            // Without a known end, some are made again while memory grows.
+            assert!(
+                without.made[0] == 0 && made[1] <= without.made[1],
+                "{made:?} {:?}",
+                without.made
+            );
+            assert_eq!(with.prepared, steps.next_power_of_two());
         }
-        // With an observer, all that an exact history needs is prepared, and no more.
-        let (observed, plain) = (march(late, 2_000, true, true), march(late, 2_000, true, false));
-        assert_eq!((observed.made[1], observed.prepared), (plain.made[1], plain.prepared));
     }
 }

@@ -8,7 +8,7 @@ use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory};
 use basemat::interface::Coulomb;
-use basemat::{Result, Simulation};
+use basemat::{Observer, Result, Simulation};
 
 use super::scene::{assert_same_motion, push, soil};
 use basemat_problems::block_on_springs::block;
@@ -24,7 +24,7 @@ impl ConvolutionHistory for Plain {
         self.past.len()
     }
 
-    fn reserve(&mut self, steps: usize) -> Result<()> {
+    fn prepare(&mut self, steps: usize, _: &mut Observer<'_>) -> Result<()> {
         self.past.reserve(steps.saturating_sub(self.past.len()));
         Ok(())
     }

@@ -7,13 +7,13 @@ use basemat::bem::{
     Strip, WeightsGround, WeightsSource,
 };
 use basemat::history::{
-    ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    ExponentialSum, HistoryMethod, HistoryOptions, LateWeights, PairClasses, RelaxedFftHistory,
-    SharedSpectra, TailProduct,
+    ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, ExponentialSum,
+    HistoryMethod, HistoryOptions, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
+    TailProduct,
 };
 use basemat::interface::Coulomb;
 use basemat::results::Run;
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Observer, Result, Simulation, unobserved};
 
 use super::scene::{assert_same_motion, push, soil};
 use basemat_problems::block_on_springs::block;
@@ -84,7 +84,7 @@ impl ConvolutionWeights for InBlocks {
         &self.kernel.classes
     }
 
-    fn prepare(&self, lags: usize) -> Result<()> {
+    fn prepare(&self, lags: usize, _: &mut Observer<'_>) -> Result<()> {
         for (class, ready) in self.ready.lock().unwrap().iter_mut().enumerate() {
             for lag in ready.len() + 1..=lags.next_power_of_two() {
                 ready.push(self.kernel.at(class, lag));
@@ -95,7 +95,7 @@ impl ConvolutionWeights for InBlocks {
 
     fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
         let [normal, tangential, coupling] = values;
-        self.prepare(first_lag - 1 + normal.len())?;
+        self.prepare(first_lag - 1 + normal.len(), &mut unobserved)?;
         let ready = &self.ready.lock().unwrap()[class];
         for (i, values) in ready[first_lag - 1..][..normal.len()].iter().enumerate() {
             [normal[i], tangential[i], coupling[i]] = *values;
@@ -114,7 +114,7 @@ fn march(history: &mut dyn ConvolutionHistory, steps: usize, hints: &[(usize, us
     let mut displacement = vec![f64::NAN; 20];
     for step in 0..steps {
         for (_, hint) in hints.iter().filter(|(at, _)| *at == step) {
-            history.reserve(*hint).unwrap();
+            history.prepare(*hint, &mut unobserved).unwrap();
         }
         displacement.fill(f64::NAN);
         history.evaluate(&mut displacement).unwrap();
@@ -170,7 +170,7 @@ fn spectra_of_another_patch_are_not_taken() {
     let spectra = Some(SharedSpectra::default());
     let other = Strip::uniform(0.0..1.0, 3).unwrap().elements();
     let other = Fading { spectra: spectra.clone(), ..Fading::new(other, None) };
-    RelaxedFftHistory::new(Arc::new(other)).reserve(200).unwrap();
+    RelaxedFftHistory::new(Arc::new(other)).prepare(200, &mut unobserved).unwrap();
     for grading in [Grading::Uniform, Grading::Cosine] {
         let own = Fading::new(strips(grading), Some(90));
         let wanted = march(&mut RelaxedFftHistory::new(Arc::new(own.clone())), 200, &[]);
@@ -195,7 +195,7 @@ fn coefficients_do_not_depend_on_the_cut() {
             // The last first: nothing was prepared.
             let cut =
                 [(400, 301), (1, 1), (2, 62), (64, 1), (65, 335)].map(|(a, b)| (a, fill(a, b)));
-            kernel.prepare(LAGS).unwrap();
+            kernel.prepare(LAGS, &mut unobserved).unwrap();
             let whole = fill(1, LAGS);
             for (first, values) in &cut {
                 for (values, whole) in values.iter().zip(&whole) {
@@ -355,7 +355,7 @@ fn a_block_on_the_voigt_bed() {
     let kinds = [HistoryMethod::Auto, HistoryMethod::Direct, HistoryMethod::Exponentials];
     let [auto, direct, exponentials] =
         kinds.map(|kind| run(bed().with_history(kind).unwrap(), 2e-3, 600));
-    assert_eq!(auto.0.ground().history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
+    assert_eq!(auto.0.ground().description().history.unwrap().kind, HistoryMethod::Exponentials);
     for (simulation, run) in [&auto, &direct, &exponentials] {
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         assert_same_motion(simulation, &auto.0, 1e-6);
@@ -402,7 +402,7 @@ fn kernels_are_shared_by_type_and_identity() {
     let kernels = SharedKernels::default();
     let prepare = |soil: Voigt, time_step: f64| {
         let ground = WeightsGround::new(soil, strips(Grading::Uniform)).unwrap();
-        ground.with_shared_kernels(&kernels).prepare(time_step).unwrap();
+        ground.with_shared_kernels(&kernels).prepare(time_step, None, &mut unobserved).unwrap();
         kernels.count()
     };
     assert_eq!([prepare(VOIGT, 1e-3), prepare(VOIGT, 1e-3)], [1, 1]);
@@ -429,16 +429,18 @@ impl ConvolutionWeights for Coupled {
 fn without_late_weights_exponentials_are_refused() {
     let none = Voigt { late: false, ..VOIGT };
     let ground = || WeightsGround::new(none, strips(Grading::Uniform)).unwrap();
-    let refused = ground().with_history(HistoryMethod::Exponentials).unwrap().prepare(1e-3);
+    let refused = ground().with_history(HistoryMethod::Exponentials).unwrap().prepare(
+        1e-3,
+        None,
+        &mut unobserved,
+    );
     assert!(matches!(refused, Err(Error::NoExponentials { .. })), "{refused:?}");
-    // Auto takes the transforms, in any memory.
-    let few = HistoryOptions { tolerance: Some(1e-6), memory: 1000, ..HistoryOptions::default() };
-    let mut auto = ground().with_history(few).unwrap();
-    auto.prepare(1e-3).unwrap();
-    auto.expect_steps(5000, None).unwrap();
-    let choice = auto.history_choice().unwrap();
-    let wanted = (HistoryMethod::RelaxedFft, ChoiceReason::NoExponentials);
-    assert_eq!((choice.kind, choice.reason), wanted);
+    // Auto takes the transforms.
+    let coarse = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
+    let mut auto = ground().with_history(coarse).unwrap();
+    auto.prepare(1e-3, Some(5000), &mut unobserved).unwrap();
+    let choice = auto.description().history.unwrap();
+    assert_eq!((choice.kind, choice.error_bound), (HistoryMethod::RelaxedFft, 0.0));
 
     let kernel = Coupled(VoigtKernel::new(VOIGT, &strips(Grading::Uniform), 1e-4));
     let refused = ExponentialHistory::with_horizon(Arc::new(kernel), 1e-6, 3000).err();
@@ -472,14 +474,10 @@ fn a_tail_that_does_not_fit_is_refused() {
     assert!(matches!(new(0.1, &ones, nan), Err(Error::Input { .. })));
 }
 
-/// An observer may stop long before the steps announced; the choice goes by them.
+/// One history whatever the number of steps; its description says whether an end is known.
 #[test]
-fn the_steps_of_a_run_are_announced_however_many() {
-    for (steps, kind, reason) in [
-        (2_000_000, HistoryMethod::Exponentials, ChoiceReason::Rounding),
-        (500, HistoryMethod::RelaxedFft, ChoiceReason::Exact),
-        (usize::MAX, HistoryMethod::RelaxedFft, ChoiceReason::UnknownLength),
-    ] {
+fn the_history_does_not_depend_on_the_length_of_a_run() {
+    for steps in [2_000_000, 500, usize::MAX] {
         let mut simulation = Simulation::builder(5e-3)
             .structure(block())
             .ground(ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 8).unwrap()).unwrap())
@@ -488,8 +486,10 @@ fn the_steps_of_a_run_are_announced_however_many() {
             .build()
             .unwrap();
         simulation.run(steps, |_| std::ops::ControlFlow::Break(())).unwrap();
-        let choice = simulation.ground().history_choice().unwrap();
-        assert_eq!((choice.kind, choice.reason), (kind, reason), "{steps} steps");
-        assert_eq!(choice.steps.is_none(), steps == usize::MAX);
+        let choice = simulation.ground().description().history.unwrap();
+        assert_eq!(choice.kind, HistoryMethod::Exponentials, "{steps} steps");
+        assert_eq!(choice.steps, Some(steps).filter(|steps| *steps < usize::MAX));
+        let says = choice.to_string().contains("no known end");
+        assert_eq!(says, steps == usize::MAX, "{choice}");
     }
 }

@@ -11,7 +11,7 @@ use basemat::bem::{
     ContactElement, Ground, PatchKernel, SharedKernels, Strip, WeightsGround, WeightsSource,
 };
 use basemat::history::ConvolutionWeights;
-use basemat::{Error, Result};
+use basemat::{Error, Result, unobserved};
 
 use super::scene::soil;
 
@@ -34,7 +34,7 @@ impl Asking {
     fn prepare(&self) -> Result<()> {
         let elements = Strip::uniform(-1.0..1.0, 2)?.elements();
         let ground = WeightsGround::new(self.clone(), elements)?;
-        ground.with_shared_kernels(&self.kernels).prepare(1e-3)
+        ground.with_shared_kernels(&self.kernels).prepare(1e-3, None, &mut unobserved)
     }
 }
 
@@ -144,14 +144,18 @@ fn what_another_thread_makes_is_waited_for() {
     let store = kernels.clone();
     let caught = std::thread::spawn(move || {
         let ground = WeightsGround::new(panics, elements).unwrap();
-        ground.with_shared_kernels(&store).prepare(1e-3)
+        ground.with_shared_kernels(&store).prepare(1e-3, None, &mut unobserved)
     });
     assert!(caught.join().is_err());
     let again = Panicking(Asking { number: -4.0, ..broken });
     let store = kernels.clone();
     let made = in_time(vec![Box::new(move || {
         let elements = Strip::uniform(-1.0..1.0, 2)?.elements();
-        WeightsGround::new(again, elements)?.with_shared_kernels(&store).prepare(1e-3)
+        WeightsGround::new(again, elements)?.with_shared_kernels(&store).prepare(
+            1e-3,
+            None,
+            &mut unobserved,
+        )
     })]);
     assert_eq!((made, kernels.count()), (vec![Ok(())], 2));
 }

@@ -14,7 +14,7 @@ use basemat::results::{DeformedShape, Quantity, Recorder, ShapePoint, TimeSeries
 use basemat::site::{EquivalentLinearOptions, SoilColumn, VerticalWave};
 use basemat::soil::{SoilProfile, StrainCurves};
 use basemat::structure::{DofCombination, RigidBlock, StructureGroup};
-use basemat::{Error, Simulation, Soil};
+use basemat::{Error, Simulation, Soil, unobserved};
 
 use crate::layout::assert_readable;
 use basemat_problems::scenes::{self, SI, block, friction, scene};
@@ -116,7 +116,8 @@ fn every_picture_has_title_labels_units_and_legend() {
     assert_eq!(values.split(';').count(), 41);
     assert!(values.split(';').all(|path| commands(path) == "MLLLZ"));
 
-    let spectrum = el_centro_1940().response_spectrum(&[0.1, 0.5, 2.0], 0.05).unwrap();
+    let spectrum =
+        el_centro_1940().response_spectrum(&[0.1, 0.5, 2.0], 0.05, &mut unobserved).unwrap();
     let svg = plot::spectra("Spectra", &[("El Centro", &spectrum)]).unwrap();
     shows(&svg, &["period, s", "pseudo-acceleration, m/s²", "El Centro"]);
 }
@@ -129,12 +130,17 @@ fn sites_show_speeds_strains_and_spectra() {
     let column = SoilColumn::new(site, VerticalWave::Shear).unwrap();
     let curves = [StrainCurves::Epri { depth: 2.0 }, StrainCurves::Epri { depth: 6.5 }];
     let record = el_centro_1940();
-    let spectrum = record.response_spectrum(&[0.1, 0.5, 2.0], 0.05).unwrap();
+    let spectrum = record.response_spectrum(&[0.1, 0.5, 2.0], 0.05, &mut unobserved).unwrap();
     // Strains of some tenths of a per cent, of 1e-12, none.
     for factor in [1.0, 1e-9, 0.0] {
         let motion = record.scaled(factor).unwrap();
         let found = column
-            .equivalent_linear(&motion, &curves, &EquivalentLinearOptions::default())
+            .equivalent_linear(
+                &motion,
+                &curves,
+                &EquivalentLinearOptions::default(),
+                &mut unobserved,
+            )
             .unwrap();
         let svg = plot::site_response("Site", &found, &[("El Centro", &spectrum)]).unwrap();
         shows(&svg, &["Site", "c_S, m/s", "strain, %", "y, m", "period, s"]);

@@ -387,6 +387,6 @@ fn soils_in_other_units() {
     let profile = profile.with_layer(thin, 3.0).unwrap();
     let block = RigidBlock::new(4.0, 2.0, 1000.0).unwrap();
     let ground = ElasticGround::under(profile, &block, 2).unwrap();
-    assert_eq!(ground.soils().len(), 3);
-    assert_eq!(ground.soils()[1], thin);
+    assert_eq!(ground.description().soils.len(), 3);
+    assert_eq!(ground.description().soils[1], thin);
 }

@@ -1,11 +1,11 @@
 //! A ground in plan: springs and dashpots under each cell, of its own and by the midpoint rule.
 
-use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::bem::{ContactElement, Ground, GroundDescription, PlanElement, SpringGround};
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::interface::InterfaceLaw;
 use basemat::motion::{FreeField, Record, Triaxial};
 use basemat::structure::{RigidBlock, RigidBody};
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Observer, Result, Simulation};
 
 /// Stiffness (Pa/m) and dashpots (Pa·s/m) per area: down, along x, along y.
 #[derive(Clone, Copy)]
@@ -21,7 +21,6 @@ pub(crate) const BED: Bed =
 pub(crate) struct Cells {
     pub(crate) elements: Vec<ContactElement>,
     pub(crate) depths: Vec<[f64; 2]>,
-    pub(crate) directions: usize,
     pub(crate) sampled: Option<[usize; 2]>,
     bed: Bed,
     time_step: f64,
@@ -39,7 +38,7 @@ impl Cells {
             }
         }
         let displacement = vec![0.0; 3 * elements.len()];
-        Self { elements, depths, directions: 3, sampled: None, bed, time_step: 0.0, displacement }
+        Self { elements, depths, sampled: None, bed, time_step: 0.0, displacement }
     }
 
     /// The same after elements were taken away.
@@ -84,19 +83,16 @@ impl Ground for Cells {
         &self.elements
     }
 
-    fn directions(&self) -> usize {
-        self.directions
+    fn in_plan(&self, element: usize) -> Option<PlanElement> {
+        let depth = *self.depths.get(element)?;
+        Some(PlanElement { depth, fraction_inside: 1.0 })
     }
 
-    fn depth(&self, element: usize) -> [f64; 2] {
-        self.depths[element]
+    fn description(&self) -> GroundDescription {
+        GroundDescription { sampled_cells: self.sampled, ..Default::default() }
     }
 
-    fn sampled_cells(&self) -> Option<[usize; 2]> {
-        self.sampled
-    }
-
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
+    fn prepare(&mut self, time_step: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
         self.time_step = time_step;
         self.displacement.fill(0.0);
         Ok(())

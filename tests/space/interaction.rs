@@ -10,7 +10,7 @@ use basemat::coupled::interaction;
 use basemat::interface::Coulomb;
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};
-use basemat::{Result, Soil};
+use basemat::{Result, Soil, unobserved};
 
 const SIDE: f64 = 8.0;
 const HEIGHT: f64 = 12.0;
@@ -42,7 +42,9 @@ fn periods_on_a_half_space_are_those_of_its_static_stiffnesses() {
     let found = interaction(1.0, scene).unwrap();
     let half = 0.5 * SIDE;
     let mat = Plan::rectangle(-half..half, -half..half, 6).unwrap();
-    let ground = impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Bonded).unwrap();
+    let ground =
+        impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Bonded, &mut unobserved)
+            .unwrap();
     let springs = ground[0].stiffnesses();
     for (k, axis) in ['x', 'y'].into_iter().enumerate() {
         let (mode, own) = (found.modes[k], stiffness[k]);

@@ -7,7 +7,7 @@ use basemat::motion::{FreeField, PlaneWave, TravellingWave, Triaxial, el_centro_
 use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::RigidBody;
-use basemat::{Simulation, Soil};
+use basemat::{Simulation, Soil, unobserved};
 
 use super::cells::{Bed, Cells};
 
@@ -179,7 +179,8 @@ fn a_column_carries_three_components_each_by_its_wave() {
         up: Some(record.scaled(0.4).unwrap()),
     };
     for control in [ControlPoint::Outcrop, ControlPoint::Within] {
-        let found = SoilColumn::surface_in_plan(&profile, control, &motion).unwrap();
+        let found =
+            SoilColumn::surface_in_plan(&profile, control, &motion, &mut unobserved).unwrap();
         for (given, found, wave) in [
             (&motion.x, &found.x, VerticalWave::Shear),
             (&motion.y, &found.y, VerticalWave::Shear),
@@ -187,15 +188,21 @@ fn a_column_carries_three_components_each_by_its_wave() {
         ] {
             let [given, found] = [given, found].map(|own| own.as_ref().unwrap());
             let column = SoilColumn::new(profile.clone(), wave).unwrap();
-            let exact =
-                column.to_surface(control, given.time_step(), given.accelerations()).unwrap();
+            let exact = column
+                .to_surface(control, given.time_step(), given.accelerations(), &mut unobserved)
+                .unwrap();
             let (own, after) = found.accelerations().split_at(given.len());
             assert_eq!(own, exact.samples);
             assert_eq!(found.time_step(), given.time_step());
             assert!(after.iter().fold(0.0_f64, |most, a| most.max(a.abs())) > 1e-6);
         }
     }
-    let none = SoilColumn::surface_in_plan(&profile, ControlPoint::Outcrop, &Triaxial::default());
+    let none = SoilColumn::surface_in_plan(
+        &profile,
+        ControlPoint::Outcrop,
+        &Triaxial::default(),
+        &mut unobserved,
+    );
     assert_eq!(none.unwrap(), Triaxial::default());
     // A layer of 10 m on a rigid base under long sines: 1/cos(ω h/c) of each wave.
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
@@ -212,7 +219,9 @@ fn a_column_carries_three_components_each_by_its_wave() {
     )
     .unwrap();
     let motion = Triaxial { x: Some(sine.clone()), y: None, up: Some(sine.clone()) };
-    let found = SoilColumn::surface_in_plan(&profile, ControlPoint::Within, &motion).unwrap();
+    let found =
+        SoilColumn::surface_in_plan(&profile, ControlPoint::Within, &motion, &mut unobserved)
+            .unwrap();
     assert!(found.y.is_none());
     for (own, speed) in [(found.x, 200.0), (found.up, layer.pressure_wave_speed())] {
         let exact = 1.0 / (omega * 10.0 / speed).cos();

@@ -2,8 +2,8 @@
 //! and saved runs go on to the same bits.
 //! `SPACE_SCENES=1000` draws so many, `SPACE_FIRST=40` from that one on.
 
-use basemat::bem::ElasticGround;
 use basemat::bem::plan::Plan;
+use basemat::bem::{ElasticGround, PlanElement};
 use basemat::coupled::{GravityStage, Load, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
 use basemat::motion::FreeField;
@@ -141,8 +141,9 @@ fn energies_of_random_scenes_close() {
         let areas: Vec<f64> = {
             let ground = simulation.ground();
             let area = |e: usize| {
-                let [front, back] = ground.depth(e);
-                ground.elements()[e].length() * (back - front) * ground.fraction_inside(e)
+                let PlanElement { depth: [front, back], fraction_inside } =
+                    ground.in_plan(e).unwrap();
+                ground.elements()[e].length() * (back - front) * fraction_inside
             };
             (0..ground.elements().len()).map(area).collect()
         };

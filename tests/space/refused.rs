@@ -151,7 +151,9 @@ fn elements_that_are_no_cells() {
         Error::Input { quantity, .. } => quantity,
         error => panic!("{error}"),
     };
-    assert_eq!(quantity(wrong(|own| own.directions = 4)), "number of directions of the ground");
+    // One that has no place in plan, unlike the others.
+    let error = wrong(|own| own.depths.truncate(3));
+    assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
     assert_eq!(quantity(wrong(|own| own.depths[3] = [1.0, 1.0])), "depth of a contact element");
     assert_eq!(quantity(wrong(|own| own.depths[3][1] = f64::NAN)), "back end of a contact element");
     assert_eq!(
@@ -160,7 +162,7 @@ fn elements_that_are_no_cells() {
     );
     assert_eq!(quantity(wrong(|own| own.depths[5][0] -= 0.1)), "left end of a contact element");
     // In the plane these rows lie on one another.
-    assert_eq!(quantity(wrong(|own| own.directions = 2)), "left end of a contact element");
+    assert_eq!(quantity(wrong(|own| own.depths.clear())), "left end of a contact element");
 }
 
 #[test]

@@ -129,7 +129,7 @@ fn a_square_bed_has_no_directions() {
 fn springs_have_no_overhang() {
     let area = |ground: &SpringGround| -> f64 {
         let depth = |(e, element): (usize, &basemat::bem::ContactElement)| {
-            let [front, back] = ground.depth(e);
+            let [front, back] = ground.in_plan(e).unwrap().depth;
             element.length() * (back - front)
         };
         ground.elements().iter().enumerate().map(depth).sum()
@@ -139,7 +139,7 @@ fn springs_have_no_overhang() {
     let joined = mat().without_overhang().unwrap().with_unions(&sizes, &sizes).unwrap();
     for (plan, count) in [(mat(), 36), (joined, 16)] {
         let ground = SpringGround::in_plan(plan, [1.0; 3]).unwrap();
-        assert_eq!((ground.directions(), ground.elements().len()), (3, count));
+        assert!(ground.in_plan(0).is_some() && ground.elements().len() == count);
         assert!((area(&ground) - 64.0).abs() < 1e-12);
     }
     let overhanging = mat().with_unions(&sizes, &sizes).unwrap();

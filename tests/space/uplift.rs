@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use basemat::bem::layered::Stages;
 use basemat::bem::plan::Plan;
-use basemat::bem::{ElasticGround, SharedKernels};
+use basemat::bem::{ElasticGround, PlanElement, SharedKernels};
 use basemat::coupled::{Load, Warning};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Coulomb, Mode};
@@ -90,8 +90,8 @@ fn a_block_that_lifts_and_slides_follows_the_table() {
         let mut simulation = block(cells, Shake);
         let area = |e: usize| {
             let ground = simulation.ground();
-            let [front, back] = ground.depth(e);
-            ground.elements()[e].length() * (back - front) * ground.fraction_inside(e)
+            let PlanElement { depth: [front, back], fraction_inside } = ground.in_plan(e).unwrap();
+            ground.elements()[e].length() * (back - front) * fraction_inside
         };
         let areas: Vec<f64> = (0..cells * cells).map(area).collect();
         assert!((areas.iter().sum::<f64>() - 4.0).abs() < 1e-12, "the mat's own area");

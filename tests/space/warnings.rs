@@ -155,8 +155,8 @@ fn samples_of_the_passivity_gate_are_told() {
         let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
         ElasticGround::in_plan(Soil::new(8e7, 0.3, 1900.0).unwrap(), plan).unwrap()
     };
-    assert_eq!(ground(22).sampled_cells(), None);
-    assert_eq!(ground(23).sampled_cells(), Some([256, 529]));
+    assert_eq!(ground(22).description().sampled_cells, None);
+    assert_eq!(ground(23).description().sampled_cells, Some([256, 529]));
     let build = |sample| {
         let mut cells = Cells::under([4.0; 2], [0.0; 2], [4, 4], BED);
         cells.sampled = sample;

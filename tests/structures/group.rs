@@ -172,8 +172,13 @@ impl basemat::bem::Ground for TwoBeds {
         &self.elements
     }
 
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
-        self.beds.iter_mut().try_for_each(|bed| bed.prepare(time_step))
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut basemat::Observer<'_>,
+    ) -> Result<()> {
+        self.beds.iter_mut().try_for_each(|bed| bed.prepare(time_step, steps, observer))
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {

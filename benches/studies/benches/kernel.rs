@@ -1,11 +1,11 @@
 //! Kernel evaluations: closed forms, convolution weights early and late, layered ground, the full plane.
 
-use basemat::Soil;
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::{Soil, unobserved};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -92,7 +92,7 @@ fn layered(criterion: &mut Criterion) {
     group.bench_function("two layers, 12 elements", |b| {
         b.iter_batched(
             || ground.weights(0.005).expect("weights"),
-            |kernel| kernel.prepare(black_box(STEPS)),
+            |kernel| kernel.prepare(black_box(STEPS), &mut unobserved),
             BatchSize::LargeInput,
         );
     });
@@ -119,7 +119,7 @@ fn relaxed_history(criterion: &mut Criterion) {
                 || {
                     let mut history =
                         RelaxedFftHistory::new(Arc::clone(&kernel)).with_surface_transform(waves);
-                    history.reserve(STEPS).expect("kernels");
+                    history.prepare(STEPS, &mut unobserved).expect("kernels");
                     history
                 },
                 |mut history| {

@@ -3,9 +3,9 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
-use basemat::Soil;
 use basemat::bem::{ContactElement, PatchKernel, Strip};
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory, RelaxedFftHistory};
+use basemat::{Soil, unobserved};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 fn soil() -> Soil {
@@ -39,7 +39,7 @@ fn direct_history(criterion: &mut Criterion) {
             Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
         let kernel = PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch");
         let mut history = DirectHistory::new(Arc::new(kernel));
-        history.reserve(past + 1).expect("kernels");
+        history.prepare(past + 1, &mut unobserved).expect("kernels");
         for step in 0..past {
             let traction: Vec<f64> = (0..20).map(|i| ((step * 7 + i) as f64).sin()).collect();
             history.push(&traction);
@@ -75,7 +75,7 @@ fn whole_march(criterion: &mut Criterion) {
             bencher.iter_batched(
                 || {
                     let mut history = make(relaxed);
-                    history.reserve(STEPS).expect("kernels");
+                    history.prepare(STEPS, &mut unobserved).expect("kernels");
                     history
                 },
                 |mut history| {

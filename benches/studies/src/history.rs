@@ -13,7 +13,7 @@ use basemat::bem::{PatchKernel, Strip};
 use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, RelaxedFftHistory,
 };
-use basemat::{Result, Soil};
+use basemat::{Result, Soil, unobserved};
 
 use crate::AnyError;
 
@@ -84,7 +84,7 @@ fn march(
 fn error(kernel: Arc<dyn ConvolutionWeights>, size: usize, found: &[f64]) -> Result<(f64, f64)> {
     let steps = found.len() / size;
     let mut direct = DirectHistory::new(kernel);
-    direct.reserve(steps)?;
+    direct.prepare(steps, &mut unobserved)?;
     let (mut apart, mut largest, mut place) = (0.0_f64, 0.0_f64, found.chunks_exact(size));
     let [seconds, _] = march(&mut direct, size, steps, |wanted| {
         for (a, b) in place.next().unwrap_or_default().iter().zip(wanted) {
@@ -105,7 +105,7 @@ pub(crate) fn cost(options: &Cost) -> std::result::Result<(), AnyError> {
     for steps in all.into_iter().take_while(|steps| *steps <= longest) {
         let begin = Instant::now();
         let mut relaxed = RelaxedFftHistory::new(Arc::clone(&kernel));
-        relaxed.reserve(steps)?;
+        relaxed.prepare(steps, &mut unobserved)?;
         let setup = begin.elapsed().as_secs_f64();
         let compared = steps <= LONGEST_DIRECT;
         let mut found = Vec::with_capacity(if compared { steps * size } else { 0 });

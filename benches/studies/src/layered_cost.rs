@@ -9,7 +9,7 @@
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
-use basemat::{Result, Soil};
+use basemat::{Result, Soil, unobserved};
 use cpu_time::ProcessTime;
 
 use crate::AnyError;
@@ -134,7 +134,7 @@ pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
         let ground = ElasticGround::new(profile, strip)?.with_stages(stages);
         let kernel = ground.weights(time_step)?;
         let begin = ProcessTime::try_now()?;
-        kernel.prepare(steps.next_power_of_two())?;
+        kernel.prepare(steps.next_power_of_two(), &mut unobserved)?;
         let taken = begin.try_elapsed()?.as_secs_f64();
         println!("| {name} | {elements} | {steps} | {taken:.2} |");
     }

@@ -19,6 +19,7 @@ use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::soil::SoilProfile;
 use basemat::structure::RigidBody;
+use basemat::unobserved;
 use plotters::prelude::SeriesLabelPosition;
 
 use crate::AnyError;
@@ -85,13 +86,13 @@ fn stiffness(short: bool) -> Result<String, AnyError> {
     let unit = soil.shear_wave_speed() / (TAU * HALF);
     let frequencies = FREQUENCIES.map(|a0| a0 * unit);
     let ground = ElasticGround::new(soil, Strip::new(-HALF..HALF, 32, Grading::Cosine)?)?;
-    let strips = ground.impedances(&frequencies, StripContact::Bonded)?;
+    let strips = ground.impedances(&frequencies, StripContact::Bonded, &mut unobserved)?;
     let mut text = "| L : B | motion | static spring over Pais and Kausel | ωb/c | spring, strip/mat | dashpot, strip/mat | damping ratio of the mat, % | of the strip, % |\n|---|---|---|---|---|---|---|---|\n".to_owned();
     for (aspect, cells, _) in MATS.into_iter().take(if short { 1 } else { MATS.len() }) {
         let cells = if short { 6 } else { cells };
         let mat = Plan::rectangle(-HALF..HALF, -HALF * aspect..HALF * aspect, cells)?;
         let all = [0.0, frequencies[0], frequencies[1]];
-        let mats = impedances_in_plan(&profile, &mat, &all, StripContact::Bonded)?;
+        let mats = impedances_in_plan(&profile, &mat, &all, StripContact::Bonded, &mut unobserved)?;
         let formulas = pais_kausel(soil, HALF, aspect);
         for (k, name) in ["sway", "heave", "rocking"].into_iter().enumerate() {
             let axis = [0, 2, 4][k];

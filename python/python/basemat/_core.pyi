@@ -241,8 +241,8 @@ class ElasticGround(Ground):
     """Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
     elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
 
-    ``history``: how the response to all past tractions is summed: "auto" (the default: whichever takes
-    least time), "direct", "relaxed fft" or, without layers and damping, "exponentials".
+    ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
+    half-plane under strips, else transforms), "direct", "relaxed fft" or, without layers and damping, "exponentials".
     ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
     given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
     unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
@@ -1572,10 +1572,9 @@ class Simulation:
             time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
             coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
             relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
-        expected_steps: about how many steps will be made. Memory and the ground's weights are then
-            ready before the first; unless given, those of the first run. The ground's history is chosen
-            for this number: without it, two runs of half as many steps may differ from one in the last
-            bits.
+        expected_steps: number of steps that will be made. Memory and the ground's weights are then
+            ready before the first; unless given, those of the first run. More steps than fit into
+            the memory of the ground's history raise an error.
         moment_center: x of the point about which the base moment is taken, m; the middle of the base
             unless given.
         energy_balance: whether energies are booked; True by default. Without them a step takes less
@@ -1697,7 +1696,7 @@ class Simulation:
         """Static displacement of the degrees of freedom: array of shape (n,), m and rad."""
     @property
     def history_choice(self) -> str | None:
-        """Which history the ground keeps and why, in words; None if it has not chosen one yet."""
+        """Which history the ground keeps, in words; None for a ground without one."""
     @property
     def conditioning(self) -> tuple[float, float, float]:
         """Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem."""

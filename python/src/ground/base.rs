@@ -27,7 +27,8 @@ impl PyGround {
     ) -> PyResult<Self> {
         let ground = make().or_raise()?;
         let elements = ground.elements().to_vec();
-        let depths = (0..elements.len()).map(|element| ground.depth(element)).collect();
+        let depth = |element| ground.in_plan(element).map_or([0.0, 1.0], |place| place.depth);
+        let depths = (0..elements.len()).map(depth).collect();
         Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements, depths })
     }
 }

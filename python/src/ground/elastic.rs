@@ -44,8 +44,8 @@ impl PySharedKernels {
 /// Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
 /// elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
 ///
-/// ``history``: how the response to all past tractions is summed: "auto" (the default: whichever takes
-/// least time), "direct", "relaxed fft" or, without layers and damping, "exponentials".
+/// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
+/// half-plane under strips, else transforms), "direct", "relaxed fft" or, without layers and damping, "exponentials".
 /// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
 /// given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
 /// unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
@@ -139,7 +139,7 @@ impl PyElasticGround {
         }
         let (ground, contact) = ((self.make)().or_raise()?, self::contact(contact)?);
         let found = py.detach(move || {
-            watched(None, |observer| ground.impedances_observed(&frequencies.0, contact, observer))
+            watched(None, |observer| ground.impedances(&frequencies.0, contact, observer))
         });
         PyImpedances(found?).into_py_any(py)
     }

@@ -1,6 +1,6 @@
 //! Cells of a mat in plan.
 
-use basemat::bem::plan::{Plan, impedances_in_plan_observed};
+use basemat::bem::plan::{Plan, impedances_in_plan};
 use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
@@ -97,7 +97,7 @@ impl PyPlan {
         let (plan, contact) = (&self.0, self::contact(contact)?);
         let found = py.detach(move || {
             watched(None, |observer| {
-                impedances_in_plan_observed(&soil.0, plan, &frequencies.0, contact, observer)
+                impedances_in_plan(&soil.0, plan, &frequencies.0, contact, observer)
             })
         });
         let matrices: Vec<Vec<Vec<_>>> = found?

@@ -214,9 +214,8 @@ impl PyRecord {
         damping: f64,
     ) -> PyResult<PySpectrum> {
         let record = &self.0;
-        let spectrum = py.detach(|| {
-            watched(None, |own| record.response_spectrum_observed(&periods.0, damping, own))
-        });
+        let spectrum =
+            py.detach(|| watched(None, |own| record.response_spectrum(&periods.0, damping, own)));
         Ok(PySpectrum(spectrum?, coarse(record, &periods.0)))
     }
 

@@ -243,7 +243,7 @@ impl PyColumn {
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own, observer| {
-            self.0.to_surface_observed(control, step, own, observer)
+            self.0.to_surface(control, step, own, observer)
         })
     }
 
@@ -254,7 +254,7 @@ impl PyColumn {
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own, observer| {
-            self.0.from_surface_observed(control, step, own, observer)
+            self.0.from_surface(control, step, own, observer)
         })
     }
 
@@ -273,7 +273,7 @@ impl PyColumn {
     ) -> PyResult<[Option<PyRecord>; 3]> {
         let (motion, control) = (records([x, y, up]), self::control(control)?);
         let call = |observer: &mut Observer<'_>| {
-            SoilColumn::surface_in_plan_observed(&profile.0, control, &motion, observer)
+            SoilColumn::surface_in_plan(&profile.0, control, &motion, observer)
         };
         let found = py.detach(|| watched(None, call))?;
         Ok([found.x, found.y, found.up].map(|own| own.map(|own| PyRecord(Arc::new(own)))))

@@ -214,9 +214,8 @@ impl PyRun {
         damping: f64,
     ) -> PyResult<PySpectrum> {
         let record = self.probed(probe)?.acceleration_record(probe).or_raise()?;
-        let spectrum = py.detach(|| {
-            watched(None, |own| record.response_spectrum_observed(&periods.0, damping, own))
-        })?;
+        let spectrum =
+            py.detach(|| watched(None, |own| record.response_spectrum(&periods.0, damping, own)))?;
         let warnings = coarse(&record, &periods.0);
         for warning in &warnings {
             warn(py, warning.clone())?;

@@ -1,5 +1,7 @@
 //! Conversion of Python's arguments to a simulation of the core.
 
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
 use basemat::Simulation;
 use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};
 use basemat::results::Quantity;
@@ -8,7 +10,7 @@ use pyo3::prelude::*;
 use super::watched::settled;
 use crate::error::{self, OrRaise, refuse};
 use crate::probe::PyProbe;
-use crate::ticker::{progress_function, watched};
+use crate::ticker::{Watching, progress_function};
 
 /// Coordinates by their name, or the tolerance of reduced ones.
 pub(super) fn coordinates(given: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
@@ -41,6 +43,11 @@ pub(super) fn probes<'a, 'py: 'a>(
 /// Task that a line of progress counts before the steps.
 pub(super) const COEFFICIENTS: &str = "parts of the ground's coefficients";
 
+/// Locks the observer of a build; a panic leaves it whole.
+fn lock(watching: &Mutex<Watching>) -> MutexGuard<'_, Watching> {
+    watching.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Builds without the GIL.
 pub(super) fn build(
     py: Python<'_>,
@@ -48,7 +55,12 @@ pub(super) fn build(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Simulation> {
     let progress = progress_function(progress, COEFFICIENTS)?;
-    py.detach(move || watched(progress, |observer| builder.build_observed(observer)))
+    py.detach(move || {
+        let watching = Arc::new(Mutex::new(Watching::new(progress)));
+        let own = Arc::clone(&watching);
+        let result = builder.observer(move |progress| lock(&own).see(progress)).build();
+        lock(&watching).end(result)
+    })
 }
 
 /// The checkpoint at the start of a simulation, or why there is none.

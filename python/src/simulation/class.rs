@@ -48,10 +48,9 @@ use crate::ticker::{progress_function, watched};
 ///         time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
 ///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
 ///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
-///     expected_steps: about how many steps will be made. Memory and the ground's weights are then
-///         ready before the first; unless given, those of the first run. The ground's history is chosen
-///         for this number: without it, two runs of half as many steps may differ from one in the last
-///         bits.
+///     expected_steps: number of steps that will be made. Memory and the ground's weights are then
+///         ready before the first; unless given, those of the first run. More steps than fit into
+///         the memory of the ground's history raise an error.
 ///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
 ///         unless given.
 ///     energy_balance: whether energies are booked; True by default. Without them a step takes less
@@ -108,8 +107,8 @@ members! {
     elements: PyResult<Vec<(f64, f64)>> = Ok(own.lock()?.ground().elements().iter().map(|e| (e.left, e.right)).collect());
     /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
     static_displacement: PyResult<Array> = Ok(Array::from(own.lock()?.static_displacement()));
-    /// Which history the ground keeps and why, in words; None if it has not chosen one yet.
-    history_choice: PyResult<Option<String>> = Ok(own.lock()?.ground().history_choice().map(|choice| choice.to_string()));
+    /// Which history the ground keeps, in words; None for a ground without one.
+    history_choice: PyResult<Option<String>> = Ok(own.lock()?.ground().description().history.map(|choice| choice.to_string()));
     /// The structure as it was given; of one written in Python with a ``force`` of its own the copy that
     /// this simulation works on, with its internal variables.
     structure: &Py<PyAny> = &own.structure;
@@ -278,7 +277,7 @@ impl PySimulation {
                     _ => Err(raise(error)),
                 })?;
             }
-            watched(coefficients, |observer| simulation.precompute(steps, observer))?;
+            watched(coefficients, |observer| simulation.prepare(steps, observer))?;
             let mut watched = Watched::new(progress, steps, observe, observe_every, time_series);
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result, self.names.as_ref())

@@ -88,10 +88,10 @@ impl Watched {
 /// the step's.
 pub(super) fn prepared(simulation: &mut Simulation) -> PyResult<()> {
     let done = simulation.state().step;
-    if done > 0 && !done.is_power_of_two() {
+    if !done.is_power_of_two() {
         return Ok(());
     }
-    watched(None, |observer| match simulation.precompute(1, observer) {
+    watched(None, |observer| match simulation.prepare(1, observer) {
         Err(stopped @ basemat::Error::Stopped(_)) => Err(stopped),
         _ => Ok(()),
     })

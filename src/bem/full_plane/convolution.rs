@@ -134,7 +134,7 @@ impl BoundaryHistory {
     /// Allocates for `steps` further steps, up to 131 072 steps and 1 GiB.
     ///
     /// The hint is limited because a larger one may stand for a run without end.
-    pub(super) fn reserve(&mut self, steps: usize) -> Result<()> {
+    pub(super) fn prepare(&mut self, steps: usize) -> Result<()> {
         // Eight series for each class of pairs, their values and spectra, and inputs and outputs.
         let step = 192 * self.pairs.classes.len() + 24 * self.size();
         let most = LONGEST_HINT.min(MOST_HINTED / step.max(1));

@@ -5,10 +5,9 @@ use std::cell::Cell;
 use super::convolution::Prepared;
 use super::laplace::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
-use crate::bem::{ContactElement, Ground, NOT_PREPARED, StaticKernel, Strip};
+use crate::bem::{ContactElement, Ground, GroundDescription, NOT_PREPARED, StaticKernel, Strip};
 use crate::error::{Error, Observer, Result, same_length};
 use crate::geometry::{ContactLayout, PLANE};
-use crate::history::RESERVED_STEPS;
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -42,7 +41,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// // Ten elements of 1 m and five free ones on either side, as in the paper. This step is too
 /// // short to march for long.
 /// let mut ground = FullPlaneGround::strip(soil, -5.0..5.0, 10, 5)?.allow_growth();
-/// ground.prepare(1.0e-3)?;
+/// ground.prepare(1.0e-3, None, &mut basemat::unobserved)?;
 /// assert!(ground.stability().is_some_and(|found| !found.is_bounded()));
 /// let mut matrix = vec![0.0; 20 * 20];
 /// ground.step_compliance(&mut matrix)?;
@@ -170,16 +169,16 @@ impl FullPlaneGround {
     /// [`Ground::prepare`] for the same step then does not assess again.
     ///
     /// ```
-    /// use basemat::{Error, Soil, bem::{Ground, full_plane::FullPlaneGround}};
+    /// use basemat::{Error, Soil, bem::{Ground, full_plane::FullPlaneGround}, unobserved};
     /// let soil = Soil::new(80.0e6, 1.0 / 3.0, 2000.0)?;
     /// let step = |beta: f64| beta / soil.pressure_wave_speed();
     /// let mut ground = FullPlaneGround::strip(soil, -3.0..3.0, 6, 5)?;
     /// // The step of the paper, β = 1/2.
     /// let found = ground.assess(step(0.5))?.clone();
     /// assert!(found.uplifted.growth_per_step > 0.05 && !found.is_bounded());
-    /// assert!(matches!(ground.prepare(step(0.5)), Err(Error::Unstable { .. })));
+    /// assert!(matches!(ground.prepare(step(0.5), None, &mut unobserved), Err(Error::Unstable { .. })));
     /// let mut ground = ground.allow_growth();
-    /// ground.prepare(step(0.5))?;
+    /// ground.prepare(step(0.5), None, &mut unobserved)?;
     /// assert_eq!(ground.stability(), Some(&found));
     /// # Ok::<(), Error>(())
     /// ```
@@ -243,7 +242,12 @@ impl Ground for FullPlaneGround {
     }
 
     /// Assesses stability first, see [`FullPlaneGround`]; a ground with growth is not prepared.
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        _observer: &mut Observer<'_>,
+    ) -> Result<()> {
         self.prepared = None;
         if self.incident.is_none() && !self.boundary.is_flat() {
             return Err(Error::Scene {
@@ -263,25 +267,16 @@ impl Ground for FullPlaneGround {
             }
         }
         let incident = self.incident.is_some();
-        self.prepared = Some(Prepared::new(&self.boundary, kernel, time_step, incident)?);
+        let mut prepared = Prepared::new(&self.boundary, kernel, time_step, incident)?;
+        prepared.history.prepare(steps.unwrap_or(0))?;
+        self.prepared = Some(prepared);
         self.conflict.set(false);
         Ok(())
     }
 
-    fn soils(&self) -> Vec<Soil> {
-        vec![self.soil]
-    }
-
-    fn shear_wave_speed(&self) -> Option<f64> {
-        Some(self.soil.shear_wave_speed())
-    }
-
-    fn expect_steps(&mut self, steps: usize, _observer: Option<&mut Observer<'_>>) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) if steps <= RESERVED_STEPS => prepared.history.reserve(steps),
-            Some(_) => Ok(()),
-            None => Err(NOT_PREPARED),
-        }
+    fn description(&self) -> GroundDescription {
+        let shear_wave_speed = Some(self.soil.shear_wave_speed());
+        GroundDescription { shear_wave_speed, soils: vec![self.soil], ..Default::default() }
     }
 
     /// Overwrites `matrix` with the step compliance, which is not symmetric.

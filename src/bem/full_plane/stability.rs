@@ -310,8 +310,8 @@ impl BoundaryMarch {
     ///
     /// # Errors
     /// The errors of the kernel.
-    pub fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.history.reserve(steps)
+    pub fn prepare(&mut self, steps: usize) -> Result<()> {
+        self.history.prepare(steps)
     }
 
     /// Makes one step with the given values: tractions during the step, displacements at its end.

@@ -118,7 +118,7 @@ impl KeptBlocks {
 
     /// Waits for the lock; returns early if the observer stops the run.
     fn enter(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
-        while watch.is_observed() {
+        while watch.has_observer() {
             match self.making.try_lock() {
                 Ok(making) => return Ok(making),
                 Err(TryLockError::Poisoned(poisoned)) => return Ok(poisoned.into_inner()),

@@ -99,7 +99,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     }
 
     /// Computes the blocks of lags up to `lags`.
-    fn compute(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
+    fn compute(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let last = last_block(lags.max(1))?;
         let missing = self.kept.missing(0..last + 1);
         self.fits(&missing)?;
@@ -108,9 +108,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         let expected = (0..=last).map(|n| if missing.contains(&n) { most(n) } else { 0 });
         let expected: Vec<usize> = expected.collect();
         let total = passivity::POINTS + expected.iter().sum::<usize>();
-        let mut watch = observer.map_or_else(Watch::nobody, |observer| {
-            Watch::new("convolution weights of layered ground", total, observer)
-        });
+        let mut watch = Watch::new("convolution weights of layered ground", total, observer);
         let fingerprint = self.admit(&mut watch)?;
         let complete = self.kept.missing(0..last + 1).is_empty();
         let mut done = passivity::POINTS;
@@ -149,12 +147,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         &self.classes
     }
 
-    fn prepare(&self, lags: usize) -> Result<()> {
-        self.compute(lags, None)
-    }
-
-    fn prepare_observed(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        self.compute(lags, Some(observer))
+    fn prepare(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.compute(lags, observer)
     }
 
     fn coefficients(

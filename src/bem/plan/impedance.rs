@@ -7,7 +7,7 @@ use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
 use super::sectors::{MOTIONS, Sectors};
 use crate::bem::layered::{Compliances, StripContact, impedance_watch, points, stiffnesses};
-use crate::error::{Observer, PlanError, Result, Watch};
+use crate::error::{Observer, PlanError, Result};
 use crate::geometry::SERIES;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -54,14 +54,15 @@ const ENTRIES: usize = MOTIONS * MOTIONS;
 /// Frequency 0 is the static stiffness. Layers may have any damping, also hysteretic; without damping they take
 /// eight times as long. Relaxed contact has vertical motions and rocking without shear, and horizontal motions and
 /// torsion without pressure. Tractions are constant over the contact elements, either cells or unions of them.
+/// The observer's parts are points of the Laplace plane, eight per frequency.
 ///
 /// ```
 /// use basemat::bem::layered::StripContact;
 /// use basemat::bem::plan::{Plan, impedances_in_plan};
-/// use basemat::Soil;
+/// use basemat::{Soil, unobserved};
 /// let soil = Soil::new(1.0, 0.25, 1.0)?;
 /// let mat = Plan::rectangle(-1.0..1.0, -1.0..1.0, 8)?;
-/// let found = impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Relaxed)?;
+/// let found = impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Relaxed, &mut unobserved)?;
 /// // A square punch of side 2: 4.6092 μ/(1 − ν).
 /// assert!((found[0].matrix[2][2].re * 0.75 / 4.6092 - 1.0).abs() < 2e-3);
 /// # Ok::<(), basemat::Error>(())
@@ -72,37 +73,15 @@ const ENTRIES: usize = MOTIONS * MOTIONS;
 /// for less than six cells in a shear wave of the top layer;
 /// [`LayeredError::Unresolved`](crate::error::LayeredError::Unresolved) without damping at a frequency at which guided
 /// waves begin; [`PlanError::TooFine`] for a top layer too thin relative to the mat;
-/// [`Error::Memory`](crate::Error::Memory).
+/// [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped) by the observer.
 pub fn impedances_in_plan(
-    profile: &SoilProfile,
-    plan: &Plan,
-    frequencies: &[f64],
-    contact: StripContact,
-) -> Result<Vec<PlanImpedance>> {
-    all(profile, plan, frequencies, contact, &mut Watch::nobody())
-}
-
-/// [`impedances_in_plan`] with an observer; parts are points of the Laplace plane, eight to a frequency.
-///
-/// # Errors
-/// [`Error::Stopped`](crate::Error::Stopped); as for [`impedances_in_plan`].
-pub fn impedances_in_plan_observed(
     profile: &SoilProfile,
     plan: &Plan,
     frequencies: &[f64],
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<PlanImpedance>> {
-    all(profile, plan, frequencies, contact, &mut impedance_watch(frequencies, observer))
-}
-
-fn all(
-    profile: &SoilProfile,
-    plan: &Plan,
-    frequencies: &[f64],
-    contact: StripContact,
-    watch: &mut Watch,
-) -> Result<Vec<PlanImpedance>> {
+    let watch = &mut impedance_watch(frequencies, observer);
     profile.check()?;
     let mut lists = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {

@@ -26,6 +26,6 @@ mod sectors;
 mod unions;
 
 pub use cells::Plan;
-pub use impedance::{PlanImpedance, impedances_in_plan, impedances_in_plan_observed};
+pub use impedance::{PlanImpedance, impedances_in_plan};
 pub(super) use kernel::{LatticeKernel, gate_sample, static_compliance};
 pub(super) use unions::Unions;

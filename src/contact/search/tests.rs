@@ -120,7 +120,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let mut ground = ElasticGround::new(soil, strip(-2.0..2.0, count).unwrap()).unwrap();
     let beta = random.log_within(0.05, 20.0);
     let time_step = beta * 4.0 / count as f64 / soil.pressure_wave_speed();
-    ground.prepare(time_step).unwrap();
+    ground.prepare(time_step, None, &mut crate::unobserved).unwrap();
     let mut operator = vec![0.0; 4 * count * count];
     ground.step_compliance(&mut operator).unwrap();
     let structure: Box<dyn Structure> = if random.chance(0.5) {

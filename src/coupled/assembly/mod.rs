@@ -17,6 +17,8 @@ mod stepped;
 mod subspace;
 mod vibration_modes;
 
+use std::ops::ControlFlow;
+
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
 use crate::coupled::assembly::stepped::Stepped;
@@ -38,7 +40,7 @@ use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::newton::Solver;
 use crate::coupled::step::{Forcing, Increment};
-use crate::error::{Observer, Result};
+use crate::error::{Progress, Result};
 use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
 use crate::structure::Structure;
@@ -168,14 +170,26 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the approximate number of steps that will follow.
+    /// Sets the number of steps that will follow.
     ///
-    /// Weights and memory are then ready before the first step (for up to 100 000 steps). The ground's history and
-    /// the structure's coordinates are chosen for this number; by default, for the steps of the first run and for
-    /// 4 000. A run that ends before the last of these steps does not warn of an early end.
+    /// Weights and memory of the ground are then ready after [`build`](SimulationBuilder::build), and the structure's
+    /// coordinates are chosen for this number; by default, for 4 000. A run that ends before the last of these steps
+    /// does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
+        self
+    }
+
+    /// Sets the observer of [`build`](SimulationBuilder::build); default [`unobserved`](crate::unobserved).
+    ///
+    /// The observer hears of the ground's convolution weights: of the expected steps, or those that the build needs.
+    #[must_use]
+    pub fn observer(
+        mut self,
+        observer: impl FnMut(Progress) -> ControlFlow<()> + Send + 'static,
+    ) -> Self {
+        self.observer = Box::new(observer);
         self
     }
 
@@ -296,23 +310,11 @@ impl SimulationBuilder {
     /// * [`crate::Error::CoarseBase`] for a flexible base on so few contact elements that twice as many change its
     ///   static shape by more than 30 %;
     /// * [`crate::Error::IllConditioned`] if double precision is insufficient for the scene;
-    /// * [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
+    /// * [`crate::Error::Law`] for an interface law that returns numbers which are not finite;
+    /// * [`crate::Error::Memory`] for more expected steps than fit into the memory of the ground's history;
+    /// * [`crate::Error::Stopped`] by the observer.
     pub fn build(self) -> Result<Simulation> {
-        self.built(None)
-    }
-
-    /// Builds as [`SimulationBuilder::build`] does, with an observer of the ground's convolution weights.
-    ///
-    /// They are the weights of the expected steps, or those that the build itself needs.
-    ///
-    /// # Errors
-    /// [`crate::Error::Stopped`] by the observer; as for [`SimulationBuilder::build`].
-    pub fn build_observed(self, observer: &mut Observer<'_>) -> Result<Simulation> {
-        self.built(Some(observer))
-    }
-
-    fn built(self, observer: Option<&mut Observer<'_>>) -> Result<Simulation> {
-        let mut parts = Parts::new(self, observer)?;
+        let mut parts = Parts::new(self)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
         let at_rest = static_stages::solve(&mut parts, &assembled)?;
         let coarse = flexible_base::check(&parts, &assembled, &at_rest)?;
@@ -365,6 +367,7 @@ impl SimulationBuilder {
             drag: assembled.drag(),
             rotation_limit: given.rotation_limit,
             expected_steps: given.steps,
+            prepared: given.steps,
         })
     }
 }

@@ -6,9 +6,9 @@
 //! | Q | orthonormal rigid motions of these nodes |
 //! | γ | stiffness of the springs |
 
-use crate::bem::Ground;
+use crate::bem::{Ground, PlanElement, directions};
 use crate::coupled::base::Base;
-use crate::error::{Result, same_length};
+use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{SparseMatrix, dot};
 use crate::structure::{
@@ -47,9 +47,7 @@ pub(crate) fn held(
     let resistance = if resistance > 0.0 { resistance } else { stiffest(&stiffness) };
     let held = HeldGround {
         elements: ground.elements().to_vec(),
-        directions: ground.directions(),
-        depths: elements.depths().to_vec(),
-        fractions: (0..elements.len()).map(|e| ground.fraction_inside(e)).collect(),
+        places: (0..elements.len()).map(|element| ground.in_plan(element)).collect(),
         compliance: total / (GROUND * resistance),
     };
     let mut shape = Triplets::new(n);
@@ -173,16 +171,14 @@ impl Structure for RigidBase {
 /// Springs under each element, so stiff that the base moves with the free field.
 struct HeldGround {
     elements: Vec<ContactElement>,
-    directions: usize,
-    depths: Vec<[f64; 2]>,
-    fractions: Vec<f64>,
+    places: Vec<Option<PlanElement>>,
     /// Displacement by a traction, m/Pa.
     compliance: f64,
 }
 
 impl HeldGround {
     fn fill(&self, matrix: &mut [f64]) -> Result<()> {
-        let size = self.directions * self.elements.len();
+        let size = directions(self) * self.elements.len();
         same_length("matrix of the held ground", matrix.len(), size * size)?;
         matrix.fill(0.0);
         matrix.iter_mut().step_by(size + 1).for_each(|entry| *entry = self.compliance);
@@ -195,19 +191,16 @@ impl Ground for HeldGround {
         &self.elements
     }
 
-    fn directions(&self) -> usize {
-        self.directions
+    fn in_plan(&self, element: usize) -> Option<PlanElement> {
+        self.places.get(element).copied().flatten()
     }
 
-    fn depth(&self, element: usize) -> [f64; 2] {
-        self.depths.get(element).copied().unwrap_or([0.0, 1.0])
-    }
-
-    fn fraction_inside(&self, element: usize) -> f64 {
-        self.fractions.get(element).copied().unwrap_or(1.0)
-    }
-
-    fn prepare(&mut self, _time_step: f64) -> Result<()> {
+    fn prepare(
+        &mut self,
+        _time_step: f64,
+        _steps: Option<usize>,
+        _observer: &mut Observer<'_>,
+    ) -> Result<()> {
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Conditions of warnings: limits, and the warnings of a scene, a motion and a run.
 
-use crate::bem::Ground;
+use crate::bem::{Ground, GroundDescription};
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::warning_text::within;
 use crate::coupled::run::{GroundMotion, Quantity, Run};
@@ -111,7 +111,8 @@ impl Warning {
         motion: &dyn FreeField,
         period: f64,
     ) -> Vec<Self> {
-        let mut warnings: Vec<_> = Self::of_soils(&ground.soils()).collect();
+        let GroundDescription { soils, sampled_cells, .. } = ground.description();
+        let mut warnings: Vec<_> = Self::of_soils(&soils).collect();
         // A model not to scale has its own warning.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
@@ -129,8 +130,9 @@ impl Warning {
         if let Some(taken) = scene.static_state.stand_in {
             Self::count_friction(&mut warnings, taken);
         }
-        let sample = ground.sampled_cells();
-        warnings.extend(sample.map(|[checked, cells]| Self::SampledPassivity { checked, cells }));
+        let sample =
+            sampled_cells.map(|[checked, cells]| Self::SampledPassivity { checked, cells });
+        warnings.extend(sample);
         warnings
     }
 

@@ -1,33 +1,27 @@
 //! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
 
+mod fit;
 mod passivity;
-pub(super) mod tail;
+mod tail;
 
 use std::sync::Arc;
 
-use self::passivity::Margin;
-pub use self::tail::{ExponentialSum, TailProduct};
-use self::tail::{Fit, Measured, Request, Tail};
-use super::choice::{Estimate, LONGEST_WINDOW};
+use self::fit::{Fit, Request, Windowed, keep};
+use self::passivity::Cut;
+use self::tail::Tail;
 use super::convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
-use super::relaxed_fft::wave_level::Windowed;
-use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
-use crate::error::{CheckpointError, Error, MemoryError, Result, require, same_length};
-use crate::history::exponentials::passivity::{Cut, Lags};
+use super::relaxed_fft::{Blocks, LEAF, bounded, bytes_of_blocks};
+use super::shared_spectra::{SharedSpectra, lock};
+use crate::error::{
+    CheckpointError, Error, MemoryError, Observer, Result, Watch, require, same_length,
+};
 
+/// Longest window, lags: the step is so short that all of a run may lie in it.
+const LONGEST_WINDOW: usize = 1_000_000;
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 /// Most bytes that are taken, unless given otherwise.
 pub(super) const MEMORY: usize = 1 << 30;
-/// Error aimed at in the next attempt over that of the one before.
-const CLOSER: f64 = 0.2;
-/// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
-pub(super) const LONGEST: usize = match 1_usize.checked_shl(40) {
-    Some(steps) => steps,
-    None => usize::MAX >> 4,
-};
-/// Attempts before giving up: down to rounding from any tolerance.
-const ATTEMPTS: usize = 10;
 
 /// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
 ///
@@ -107,6 +101,11 @@ impl ExponentialHistory {
     pub(crate) const TOLERANCE: f64 = 1e-10;
     /// Steps over which `tolerance` holds, unless others are given.
     pub(crate) const HORIZON: usize = 1 << 20;
+    /// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
+    pub(crate) const LONGEST: usize = match 1_usize.checked_shl(40) {
+        Some(steps) => steps,
+        None => usize::MAX >> 4,
+    };
 
     /// History of `kernel`, empty, with every coefficient within `tolerance` of the largest
     /// one of its lag.
@@ -132,7 +131,7 @@ impl ExponentialHistory {
         Self::within(kernel, tolerance, horizon, MEMORY)
     }
 
-    /// [`ExponentialHistory::with_horizon`] in at most `memory` bytes, those of its making included.
+    /// [`ExponentialHistory::with_horizon`] in at most `memory` bytes, including the fit.
     pub(crate) fn within(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
@@ -143,7 +142,7 @@ impl ExponentialHistory {
         let Some(late) = kernel.late_weights() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
         let lags = window(late)?;
-        let needed = Estimate::window(&*kernel, lags)?;
+        let needed = bytes(&*kernel, lags)?;
         if needed > memory as f64 {
             return Err(Error::Memory(MemoryError {
                 quantity: "lags before a history by exponentials",
@@ -154,18 +153,19 @@ impl ExponentialHistory {
                          `HistoryOptions::memory`",
             }));
         }
-        let horizon = horizon.clamp(2 * lags, LONGEST);
+        let horizon = horizon.clamp(2 * lags, Self::LONGEST);
         let request = Request { lags, horizon, tolerance };
         let store = kernel.spectra().filter(|spectra| spectra.are_of(elements));
+        let store = store.map(SharedSpectra::tables::<Vec<Windowed>>);
         let made = |made: &&Windowed| made.fit.request == request;
-        let known = store.and_then(|store| store.tails().iter().find(made).cloned());
+        let known = store.as_deref().and_then(|store| lock(store).iter().find(made).cloned());
         let Windowed { fit, spectra } = if let Some(known) = known {
             known
         } else {
             // Not while the store is locked: a kernel may work on several threads, which must not wait.
             let fit = Arc::new(Fit::new(&*kernel, late, request)?);
-            match store {
-                Some(store) => store.keep(fit),
+            match store.as_deref() {
+                Some(store) => keep(&mut lock(store), fit),
                 None => Windowed { fit, spectra: SharedSpectra::default() },
             }
         };
@@ -195,6 +195,10 @@ impl ExponentialHistory {
 
     pub(crate) fn error_bound(&self) -> f64 {
         self.fit.accuracy.relative
+    }
+
+    pub(crate) fn horizon(&self) -> usize {
+        self.fit.request.horizon
     }
 
     fn window(&self) -> usize {
@@ -256,14 +260,13 @@ impl ExponentialHistory {
         }
         self.pending = self.steps > 0;
     }
+}
 
-    /// Begins with `steps` inputs of another history; `input` overwrites its slice with that of a step.
-    pub(super) fn take_over(&mut self, steps: usize, mut input: impl FnMut(usize, &mut [f64])) {
-        for step in 0..steps {
-            self.accept(|kept| input(step, kept));
-        }
-        self.refill();
-    }
+/// Bytes of a window of `lags` with the inputs in it, and of the lags themselves while the exponentials are fitted.
+fn bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
+    let classes = kernel.classes();
+    let numbers = 4 * classes.elements().len() + 2 * classes.count();
+    Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers) as f64 * lags as f64)
 }
 
 /// Lags of the window: a block of the transforms, since these take the time of all of it.
@@ -272,39 +275,6 @@ fn window(late: &dyn LateWeights) -> Result<usize> {
     let needed = "a million or fewer for a history by exponentials";
     require("lags before the exponentials", lags as f64, lags <= LONGEST_WINDOW, needed)?;
     Ok(lags.next_power_of_two().max(LEAF))
-}
-
-impl Fit {
-    /// The fewest exponentials that fit and are passive.
-    fn new(
-        kernel: &dyn ConvolutionWeights,
-        late: &dyn LateWeights,
-        request: Request,
-    ) -> Result<Self> {
-        let Request { lags, horizon, tolerance } = request;
-        let exact = Lags::new(kernel, lags)?;
-        let (mut aim, mut refusal) = (tolerance, None);
-        for _ in 0..ATTEMPTS {
-            let elements = kernel.classes().elements();
-            let tail = Tail::new(late.exponentials(lags, horizon, aim)?, elements)?;
-            let accuracy = Measured::over(kernel, &tail, lags, horizon)?;
-            aim *= CLOSER;
-            if accuracy.relative > tolerance {
-                let reached = accuracy.relative;
-                refusal.get_or_insert(Error::Accuracy { tolerance, reached });
-                continue;
-            }
-            let Margin { least, frequency } =
-                passivity::margin(kernel, &exact, &tail, horizon as f64);
-            // A NaN is an error as well.
-            if least.is_nan() || least < 0.0 {
-                refusal = Some(Error::NotPassive { margin: least, frequency });
-                continue;
-            }
-            return Ok(Self { request, tail, accuracy, margin: least });
-        }
-        Err(refusal.unwrap_or(Error::Accuracy { tolerance, reached: f64::INFINITY }))
-    }
 }
 
 const NO_LATE_LAGS: Error =
@@ -316,8 +286,8 @@ impl ConvolutionHistory for ExponentialHistory {
     }
 
     /// Does nothing: memory does not grow.
-    fn reserve(&mut self, _steps: usize) -> Result<()> {
-        Ok(())
+    fn prepare(&mut self, _steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        Watch::new("history by exponentials", 1, observer).reach(1)
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {

@@ -8,10 +8,10 @@
 //! nothing is cut off.
 
 use super::tail::{Measured, Tail};
-use crate::error::{Error, Result};
+use crate::error::{Error, Observer, Result, unobserved};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
-use crate::history::relaxed_fft::SharedSpectra;
+use crate::history::shared_spectra::SharedSpectra;
 
 /// Frequencies per decade below one radian per step.
 const PER_DECADE: f64 = 8.0;
@@ -187,8 +187,8 @@ impl ConvolutionWeights for Cut<'_> {
         self.kernel.classes()
     }
 
-    fn prepare(&self, lags: usize) -> Result<()> {
-        self.kernel.prepare(lags.min(self.lags))
+    fn prepare(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.kernel.prepare(lags.min(self.lags), observer)
     }
 
     fn coefficients(
@@ -226,7 +226,7 @@ pub(super) struct Lags {
 impl Lags {
     /// Lags 1 to `window`.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, window: usize) -> Result<Self> {
-        kernel.prepare(window)?;
+        kernel.prepare(window, &mut unobserved)?;
         let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
         for class in 0..kernel.classes().count() {
             let mut lags = [(); KINDS].map(|()| vec![0.0; window]);
@@ -248,9 +248,10 @@ impl Lags {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tail::{ExponentialSum, Tail};
+    use super::super::tail::Tail;
     use super::*;
     use crate::bem::{PatchKernel, Strip};
+    use crate::history::ExponentialSum;
     use crate::history::LateWeights;
     use crate::soil::Soil;
 

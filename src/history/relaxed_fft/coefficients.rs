@@ -153,9 +153,6 @@ pub(crate) trait Blocks: Send {
     /// Appends what is kept of the input of `step`; inputs before `worked_in` were worked in.
     fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>);
 
-    /// Overwrites `traction` with that of which [`Blocks::input`] gave `input`.
-    fn traction(&mut self, input: &[f64], traction: &mut [f64]);
-
     /// Accepts for step `now` what [`Blocks::input`] gave.
     fn write_input(&mut self, now: usize, input: &[f64]);
 

@@ -4,32 +4,31 @@ mod coefficients;
 mod lattice;
 mod leaf;
 mod level;
+mod memory;
 mod pairs;
 mod plan_spectra;
-pub(crate) mod wave_level;
+mod wave_level;
 mod waves;
 
 use std::sync::Arc;
 
-use self::lattice::Lattice;
+use self::lattice::{Lattice, WAVES_FROM};
+pub(crate) use self::memory::bytes_of_blocks;
+use self::memory::most_steps;
 use self::pairs::Pairs;
 use self::waves::Waves;
-use super::convolution::{ConvolutionHistory, ConvolutionWeights, ExactHistory, check_inputs};
+use super::convolution::{ConvolutionHistory, ConvolutionWeights, check_inputs};
 use super::last_lag::LastLag;
-use crate::error::{CheckpointError, Error, Observer, Result, Watch, same_length};
+use crate::error::{
+    CheckpointError, Error, MemoryError, Observer, Progress, Result, Watch, memory_limit,
+    same_length, unobserved,
+};
 pub(crate) use crate::history::relaxed_fft::coefficients::Blocks;
 use crate::history::relaxed_fft::coefficients::PARTS;
 pub(crate) use crate::history::relaxed_fft::level::LEAF;
-pub(crate) use crate::history::relaxed_fft::plan_spectra::waves_in_plan;
-pub use crate::history::relaxed_fft::wave_level::SharedSpectra;
 
-/// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs
-/// and by wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9.
-/// Below, the time is no gain, and rows take twice the memory.
-const WAVES_FROM: usize = 8;
-
-/// Longest hint that is followed at once; beyond, memory grows as steps come in.
-const LONGEST_HINT: usize = 1 << 22;
+/// Lags of a class whose spectra take the time of a sample of layered ground.
+const SPECTRA: usize = 8192;
 
 /// Relaxed blocked convolution: equal to [`DirectHistory`](super::DirectHistory) to rounding, for
 /// any number of steps not known in advance.
@@ -69,8 +68,8 @@ const LONGEST_HINT: usize = 1 << 22;
 /// Convolutions of one kernel share its [spectra](ConvolutionWeights::spectra), where it keeps them: the first
 /// that needs them makes them, on whatever thread.
 ///
-/// Memory grows by doubling when steps go on past [`reserve`](ConvolutionHistory::reserve); within
-/// it nothing is allocated. Results may differ in the last digits between processors, as the
+/// Memory grows by doubling when steps go on past [`prepare`](ConvolutionHistory::prepare), as far as
+/// [`memory_limit`](crate::memory_limit) allows; within it nothing is allocated. Results may differ in the last digits between processors, as the
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn ConvolutionWeights>,
@@ -83,11 +82,11 @@ pub struct RelaxedFftHistory {
     pending: bool,
     /// Tractions with missing entries.
     padded: Vec<f64>,
-    /// Numbers kept of one input.
-    input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
-    /// All coefficients together that may be left out, of all.
+    /// Memory allowed, bytes.
+    memory: f64,
+    /// Sum of the coefficients that may be left out, relative to the sum of all.
     forgotten: Option<f64>,
     /// Last lag of the memory, once known.
     end: Option<LastLag>,
@@ -100,13 +99,6 @@ short_debug! {
 }
 
 impl RelaxedFftHistory {
-    /// Whether a history transforms along the surface, unless given otherwise.
-    pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
-        let classes = kernel.classes();
-        let many = classes.elements().len() >= WAVES_FROM;
-        classes.plan().is_some() || many && Lattice::of(classes).is_some()
-    }
-
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let padded = vec![0.0; kernel.classes().layout().len()];
@@ -117,8 +109,8 @@ impl RelaxedFftHistory {
             steps: 0,
             pending: false,
             padded,
-            input: Vec::new(),
             failed: None,
+            memory: memory_limit() as f64,
             forgotten: None,
             end: None,
             largest: 0.0,
@@ -133,6 +125,12 @@ impl RelaxedFftHistory {
         self
     }
 
+    /// Limits the memory to `bytes`: more steps are [`Error::Memory`].
+    pub(super) fn within(mut self, bytes: usize) -> Self {
+        self.memory = self.memory.min(bytes as f64);
+        self
+    }
+
     /// Ends the memory in plan where all later coefficients together are less than `tolerance` of all.
     pub(super) fn forgetting(mut self, tolerance: f64) -> Self {
         self.forgotten = Some(tolerance);
@@ -144,13 +142,44 @@ impl RelaxedFftHistory {
         last.map_or(0, |last| (steps / last).saturating_sub(1) * last)
     }
 
-    /// Steps that are made ready for at the hint `steps`.
-    fn hinted(&self, steps: usize) -> usize {
-        steps.min(self.steps.saturating_add(LONGEST_HINT))
+    /// Lags that blocks for `steps` steps need, a power of two; as many as fit where late ones may be left out.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] for more than memory is allowed for.
+    fn lags(&self, steps: usize) -> Result<usize> {
+        let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX).max(1);
+        let known = self.end.map_or(lags, |end| lags.min(2 * end.lag));
+        let most = most_steps(&*self.kernel, self.memory)?;
+        if known <= most || self.forgotten.is_some() && most > 0 {
+            return Ok(known.min(most));
+        }
+        Err(self.too_many(steps)?)
+    }
+
+    /// Error of so many steps.
+    fn too_many(&self, steps: usize) -> Result<Error> {
+        Ok(Error::Memory(MemoryError {
+            quantity: "steps of the convolution history",
+            asked: steps as f64,
+            needed: bytes_of_blocks(&*self.kernel, steps)?,
+            limit: self.memory,
+            remedy: "take fewer steps or larger elements, or allow more with \
+                     `HistoryOptions::memory`: a checkpoint can go on there",
+        }))
     }
 
     /// Makes ready for at least `steps` steps.
     fn grow(&mut self, steps: usize, watch: &mut Watch) -> Result<&mut dyn Blocks> {
+        if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity()) && self.end.is_none()
+        {
+            let lags = self.lags(steps)?;
+            if let Some(tolerance) = self.forgotten {
+                self.end = LastLag::of(&*self.kernel, tolerance, lags, &mut unobserved)?;
+            }
+            if self.end.is_none() && lags < steps {
+                return Err(self.too_many(steps)?);
+            }
+        }
         let kernel = &*self.kernel;
         let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
             blocks
@@ -165,10 +194,6 @@ impl RelaxedFftHistory {
         let blocks = self.blocks.insert(blocks);
         let capacity = blocks.capacity();
         if capacity < steps {
-            if let Some(tolerance) = self.forgotten.filter(|_| self.end.is_none()) {
-                let lags = steps.checked_next_power_of_two().unwrap_or(steps);
-                self.end = LastLag::of(kernel, tolerance, lags)?;
-            }
             let mut inputs = Vec::new();
             let worked_in = self.steps - usize::from(self.pending);
             if !capacity.is_power_of_two() {
@@ -207,14 +232,36 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps
     }
 
-    fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.grow(self.hinted(steps), &mut Watch::nobody()).map(|_| ())
-    }
-
-    fn reserve_observed(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let mut watch = Watch::new("spectra of convolution weights", PARTS, observer);
-        self.grow(self.hinted(steps), &mut watch)?;
-        watch.reach(PARTS)
+    /// Computes weights and spectra, both with the observer.
+    fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        let (kernel, lags) = (Arc::clone(&self.kernel), self.lags(steps)?);
+        let spectra = lags.saturating_mul(kernel.classes().count()) / SPECTRA + 1;
+        let mut whole = Progress { task: "convolution weights", done: 0, total: spectra };
+        let mut part = |Progress { done, total, task }: Progress| {
+            whole = Progress { task, done, total: total + spectra };
+            observer(whole)
+        };
+        let weights = match self.forgotten.filter(|_| self.end.is_none()) {
+            // In plan, as far as the last lag that counts.
+            Some(tolerance) => {
+                LastLag::of(&*kernel, tolerance, lags, &mut part).map(|end| self.end = end)
+            }
+            None => kernel.prepare(lags, &mut part),
+        };
+        let done = whole.total - spectra;
+        let outcome = weights.and_then(|()| {
+            let mut part = |part: Progress| {
+                whole.done = done + spectra * part.done / PARTS;
+                observer(whole)
+            };
+            let mut watch = Watch::new("spectra", PARTS, &mut part);
+            self.grow(steps, &mut watch)?;
+            watch.reach(PARTS)
+        });
+        outcome.map_err(|error| match error {
+            Error::Stopped(_) => Error::Stopped(whole),
+            other => other,
+        })
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
@@ -301,21 +348,6 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.largest = largest;
         (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
-    }
-}
-
-impl ExactHistory for RelaxedFftHistory {
-    fn has_ended(&self) -> bool {
-        self.end.is_some()
-    }
-
-    fn traction(&mut self, step: usize, traction: &mut [f64]) {
-        let worked_in = self.steps - usize::from(self.pending);
-        if let Some(blocks) = &mut self.blocks {
-            self.input.clear();
-            blocks.input(step, worked_in, &mut self.input);
-            blocks.traction(&self.input, traction);
-        }
     }
 }
 

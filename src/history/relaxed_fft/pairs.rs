@@ -6,10 +6,11 @@ use realfft::RealFftPlanner;
 
 use super::coefficients::{Blocks, Coefficients, PARTS, Scatter};
 use super::level::{Block, Class, Components, LEAF, Level, Ring, Tables, Work, widened};
-use super::wave_level::{Levels, SharedSpectra};
-use crate::error::{Result, Watch};
+use super::wave_level::Levels;
+use crate::error::{Result, Watch, unobserved};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::KINDS;
+use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
@@ -122,9 +123,10 @@ impl Pairs {
     ) -> Result<()> {
         let count = self.elements();
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
-        kernel.prepare(lags.max(self.coefficients.length()))?;
+        kernel.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
         let spectra = kernel.spectra().filter(|s| s.are_of(kernel.classes().elements()));
-        let mut shared = spectra.map(SharedSpectra::pairs);
+        let shared = spectra.map(SharedSpectra::tables::<Levels<Level, Tables>>);
+        let mut shared = shared.as_deref().map(lock);
         let near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
         let mut own = Levels { levels: self.levels.clone(), near };
         let store = shared.as_deref_mut().unwrap_or(&mut own);
@@ -229,10 +231,6 @@ impl Blocks for Pairs {
 
     fn input(&self, step: usize, _worked_in: usize, values: &mut Vec<f64>) {
         values.extend(self.rows.chunks_exact(self.stride).map(|row| row[step]));
-    }
-
-    fn traction(&mut self, input: &[f64], traction: &mut [f64]) {
-        traction.copy_from_slice(input);
     }
 
     fn write_input(&mut self, now: usize, input: &[f64]) {

@@ -11,9 +11,10 @@ use super::coefficients::{Blocks, PARTS};
 use super::lattice::Lattice;
 use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::{Components, LEAF, Ring, widened};
-use super::wave_level::{COUPLING, Levels, Near, SharedSpectra, WaveLevel};
-use crate::error::{Result, Watch};
+use super::wave_level::{COUPLING, Levels, Near, WaveLevel};
+use crate::error::{Result, Watch, unobserved};
 use crate::history::convolution::ConvolutionWeights;
+use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
 /// Numbers left free between the ends of rows, so that equal places of all rows do not fall into one cache set.
@@ -199,11 +200,12 @@ impl Waves {
     ) -> Result<()> {
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
         let lags = LEAF << wanted;
-        kernel.prepare(lags.min(self.end.unwrap_or(lags)))?;
+        kernel.prepare(lags.min(self.end.unwrap_or(lags)), &mut unobserved)?;
         // Where memory ends, spectra are not those of all lags.
         let spectra = kernel.spectra().filter(|_| self.end.is_none());
         let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
-        let mut shared = spectra.map(SharedSpectra::waves);
+        let shared = spectra.map(SharedSpectra::tables::<Levels<WaveLevel, Near>>);
+        let mut shared = shared.as_deref().map(lock);
         let near = (self.capacity > 0).then(|| Arc::clone(&self.near));
         let mut own = Levels { levels: self.levels.clone(), near };
         let store = shared.as_deref_mut().unwrap_or(&mut own);
@@ -306,15 +308,6 @@ impl Blocks for Waves {
                 values.extend(of.clone().map(|k| row(k).re));
                 values.extend(of.map(|k| row(k).im));
             }
-        }
-    }
-
-    fn traction(&mut self, input: &[f64], traction: &mut [f64]) {
-        let waves = self.lattice.waves().all;
-        let count = traction.len() / self.lattice.components();
-        let parts = traction.chunks_exact_mut(count).zip(input.chunks_exact(2 * waves));
-        for (component, (values, part)) in parts.enumerate() {
-            self.lattice.back(component, part.split_at(waves).into(), 1.0, values);
         }
     }
 

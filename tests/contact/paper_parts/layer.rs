@@ -10,6 +10,7 @@ use basemat::interface::{
     Tolerance,
 };
 use basemat::results::Run;
+use basemat::unobserved;
 use basemat_problems::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
 
 const LENGTH: f64 = 1.3;
@@ -158,7 +159,7 @@ fn largest_eigenvalue(multiply: impl Fn(&[f64]) -> Vec<f64>, size: usize) -> f64
 #[test]
 fn conditioning_of_the_contact_operator() {
     let mut soil_ground = ground(SI, 10, Grading::Uniform);
-    soil_ground.prepare(2.5e-3).unwrap();
+    soil_ground.prepare(2.5e-3, None, &mut unobserved).unwrap();
     let size = 20;
     let mut soil = vec![0.0; size * size];
     soil_ground.step_compliance(&mut soil).unwrap();

@@ -123,9 +123,9 @@ fn older_formats_are_refused_by_name() {
     form.as_object_mut().unwrap().remove("sum");
     let older: Checkpoint = serde_json::from_value(form.clone()).unwrap();
     let error = simulation.resume(&older).unwrap_err();
-    assert_eq!(error, CheckpointError::Format { found: 7, needed: 9 }.into());
+    assert_eq!(error, CheckpointError::Format { found: 7, needed: 10 }.into());
     // Without a sum there is no checkpoint of this format.
-    form["format"] = Value::from(9);
+    form["format"] = Value::from(10);
     let bare: Checkpoint = serde_json::from_value(form).unwrap();
     assert_eq!(simulation.resume(&bare).unwrap_err(), CheckpointError::Damaged.into());
 }

@@ -14,7 +14,7 @@ use basemat::structure::{
     Bilinear, ModalDamping, NonlinearForce, RigidBlock, ShearBuilding, Storey, Structure,
     StructureGroup, Triplets, WithSprings,
 };
-use basemat::{CheckpointError, Error, Result};
+use basemat::{CheckpointError, Error, Observer, Result};
 
 use super::{half_plane, refusal, spring_bed};
 use basemat_problems::scenes::{Rider, SI, block, friction, scene};
@@ -215,8 +215,13 @@ impl Ground for Silent {
         self.0.elements()
     }
 
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
-        self.0.prepare(time_step)
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut Observer<'_>,
+    ) -> Result<()> {
+        self.0.prepare(time_step, steps, observer)
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {

@@ -1,17 +1,17 @@
 //! One double for all traits but the structure's.
 
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
-use basemat::bem::{ContactElement, Ground};
+use basemat::bem::{ContactElement, Ground, GroundDescription, PlanElement};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
-use basemat::history::{ConvolutionHistory, HistoryChoice};
+use basemat::history::ConvolutionHistory;
 use basemat::interface::{
     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
     Tolerance,
 };
 use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
-use basemat::{Error, Result, Soil};
+use basemat::{Error, Observer, Result, Soil};
 
 use super::log::Log;
 
@@ -166,28 +166,13 @@ impl Ground for Double {
         &[ContactElement { left: 0.0, right: 1.0 }]
     }
 
-    fn directions(&self) -> usize {
-        self.0.asked("directions");
-        3
+    fn in_plan(&self, element: usize) -> Option<PlanElement> {
+        self.0.asked("in_plan");
+        Some(PlanElement { depth: [CORRECT, element as f64], fraction_inside: 0.5 })
     }
 
-    fn depth(&self, element: usize) -> [f64; 2] {
-        self.0.asked("depth");
-        [CORRECT, element as f64]
-    }
-
-    fn fraction_inside(&self, element: usize) -> f64 {
-        self.0.asked("fraction_inside");
-        1.0 / element as f64
-    }
-
-    fn prepare(&mut self, _: f64) -> Result<()> {
+    fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
         self.0.asked("prepare");
-        Err(refusal())
-    }
-
-    fn expect_steps(&mut self, _: usize, _: Option<&mut basemat::Observer<'_>>) -> Result<()> {
-        self.0.asked("expect_steps");
         Err(refusal())
     }
 
@@ -207,16 +192,6 @@ impl Ground for Double {
         self.0.asked("commit");
     }
 
-    fn soils(&self) -> Vec<Soil> {
-        self.0.asked("soils");
-        vec![soil()]
-    }
-
-    fn sampled_cells(&self) -> Option<[usize; 2]> {
-        self.0.asked("sampled_cells");
-        Some([3, 4])
-    }
-
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.0.asked("static_compliance");
         matrix.fill(3.0 * CORRECT);
@@ -228,15 +203,9 @@ impl Ground for Double {
         Ok(Some(vec![CORRECT]))
     }
 
-    /// Only the crate makes one: that it was asked is all there is to see.
-    fn shear_wave_speed(&self) -> Option<f64> {
-        self.0.asked("shear_wave_speed");
-        Some(CORRECT)
-    }
-
-    fn history_choice(&self) -> Option<HistoryChoice> {
-        self.0.asked("history_choice");
-        None
+    fn description(&self) -> GroundDescription {
+        self.0.asked("description");
+        GroundDescription { soils: vec![soil()], ..Default::default() }
     }
 
     fn increment_error_bound(&self) -> f64 {
@@ -310,13 +279,8 @@ impl ConvolutionHistory for Double {
         5
     }
 
-    fn reserve(&mut self, _: usize) -> Result<()> {
-        self.0.asked("reserve");
-        Err(refusal())
-    }
-
-    fn reserve_observed(&mut self, _: usize, _: &mut basemat::Observer<'_>) -> Result<()> {
-        self.0.asked("reserve_observed");
+    fn prepare(&mut self, _: usize, _: &mut Observer<'_>) -> Result<()> {
+        self.0.asked("prepare");
         Err(refusal())
     }
 

@@ -8,7 +8,7 @@ use basemat::contact::SearchMethod;
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
-use basemat::{Result, Simulation, Soil};
+use basemat::{Observer, Result, Simulation, Soil, unobserved};
 
 use super::random::Random;
 
@@ -32,7 +32,7 @@ impl Ground for Prescribed {
         &self.elements
     }
 
-    fn prepare(&mut self, _: f64) -> Result<()> {
+    fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
         Ok(())
     }
 
@@ -61,7 +61,7 @@ fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElemen
     let mut ground = ElasticGround::new(soil, strip(-2.0..2.0, count).unwrap()).unwrap();
     let courant = random.log_within(0.05, 20.0);
     let time_step = courant * 4.0 / count as f64 / soil.pressure_wave_speed();
-    ground.prepare(time_step).unwrap();
+    ground.prepare(time_step, None, &mut unobserved).unwrap();
     let size = 2 * count;
     let mut matrix = vec![0.0; size * size];
     ground.step_compliance(&mut matrix).unwrap();

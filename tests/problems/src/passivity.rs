@@ -1,8 +1,8 @@
 //! Energy that a half-plane gives or takes under random tractions.
 
-use basemat::Soil;
 use basemat::bem::{ElasticGround, Ground, Strip};
 use basemat::history::{HistoryMethod, HistoryOptions};
+use basemat::{Soil, unobserved};
 
 use super::dense::inverse;
 use super::random::Random;
@@ -31,8 +31,13 @@ impl Scene {
         let options = HistoryOptions { tolerance, ..self.history.into() };
         let mut ground = ElasticGround::new(soil, strip).unwrap().with_history(options).unwrap();
         let length = 2.0 / self.elements as f64;
-        ground.prepare(self.beta * length / soil.pressure_wave_speed()).unwrap();
-        ground.expect_steps(self.steps, None).unwrap();
+        ground
+            .prepare(
+                self.beta * length / soil.pressure_wave_speed(),
+                Some(self.steps),
+                &mut unobserved,
+            )
+            .unwrap();
         ground
     }
 
@@ -82,12 +87,14 @@ impl Scene {
 /// follows.
 pub fn least_work(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
     let count = ground.elements().len();
-    let size = ground.directions() * count;
+    let directions = if ground.in_plan(0).is_some() { 3 } else { 2 };
+    let size = directions * count;
     let mut operator = vec![0.0; size * size];
     ground.step_compliance(&mut operator).unwrap();
     let inverse = inverse(&operator, size);
     let area = |e: usize| {
-        let ([front, back], element) = (ground.depth(e), ground.elements()[e]);
+        let [front, back] = ground.in_plan(e).map_or([0.0, 1.0], |place| place.depth);
+        let element = ground.elements()[e];
         (element.right - element.left) * (back - front)
     };
     let areas: Vec<f64> = (0..count).map(area).collect();

@@ -1,7 +1,7 @@
 //! Rigid massless strip on the half-plane, marched with nothing but the `Ground` trait.
 
-use basemat::Soil;
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
+use basemat::{Soil, unobserved};
 
 use super::dense::inverse;
 
@@ -48,7 +48,7 @@ impl RigidStrip {
 
     /// The strip on any ground whose elements are those of the strip.
     pub fn on(mut ground: Box<dyn Ground>, time_step: f64, contact: Contact) -> Self {
-        ground.prepare(time_step).unwrap();
+        ground.prepare(time_step, None, &mut unobserved).unwrap();
         let elements = ground.elements().len();
         let size = 2 * elements;
         let mut matrix = vec![0.0; size * size];

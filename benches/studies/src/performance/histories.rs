@@ -3,11 +3,11 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use basemat::Result;
 use basemat::bem::PatchKernel;
 use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, RelaxedFftHistory,
 };
+use basemat::{Result, unobserved};
 
 use super::report::timed;
 use basemat_problems::headline::{soil, strip, time_step};
@@ -36,7 +36,7 @@ fn march(history: &mut dyn ConvolutionHistory, size: usize, steps: usize) -> Res
 /// Seconds of the direct sum over `steps` steps.
 pub(crate) fn direct(count: usize, steps: usize) -> Result<f64> {
     let mut direct = DirectHistory::new(patch(count)?);
-    direct.reserve(steps)?;
+    direct.prepare(steps, &mut unobserved)?;
     let [seconds, _] = march(&mut direct, 2 * count, steps)?;
     Ok(seconds)
 }
@@ -47,7 +47,7 @@ pub(crate) fn relaxed(
     steps: usize,
 ) -> Result<Box<dyn ConvolutionHistory>> {
     let mut history = RelaxedFftHistory::new(kernel);
-    history.reserve(steps)?;
+    history.prepare(steps, &mut unobserved)?;
     Ok(Box::new(history))
 }
 

@@ -5,6 +5,7 @@ use crate::Error;
 use crate::bem::layered::test_profiles::{gmb, p1};
 use crate::history::ConvolutionWeights;
 use crate::soil::Soil;
+use crate::unobserved;
 
 const STEP: f64 = 0.2;
 
@@ -47,7 +48,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         let layered = rows[0][0] == "layer_rock";
         let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
         let kernel = kernel(profile.clone(), &square(), Stages::Two);
-        kernel.prepare(256).unwrap();
+        kernel.prepare(256, &mut unobserved).unwrap();
         let quadrature = &kernel.quadrature;
         let mut work = Workspace::default();
         let mut values = vec![[Complex::default(); SERIES]; kernel.classes.count()];
@@ -99,7 +100,7 @@ fn weights_depend_on_the_offset_alone() {
         let oblong = |counts| Lattice { pitch: [0.5, 0.4], counts };
         let small = kernel(p1(gmb(5), gmb(1)), &oblong([2, 3]), stages);
         let large = kernel(p1(gmb(5), gmb(1)), &oblong([4, 3]), stages);
-        large.prepare(200).unwrap();
+        large.prepare(200, &mut unobserved).unwrap();
         let [one, two] = [weights(&small, 100), weights(&large, 200)];
         let largest = one[0][1][0];
         let mut worst = 0.0_f64;
@@ -139,5 +140,5 @@ fn bad_requests_are_told() {
     let mut none = [(); SERIES].map(|()| vec![]);
     let outcome = kernel.coefficients_in_plan(99, 1, none.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
-    assert!(matches!(kernel.prepare(1 << 30), Err(Error::Memory(_))));
+    assert!(matches!(kernel.prepare(1 << 30, &mut unobserved), Err(Error::Memory(_))));
 }

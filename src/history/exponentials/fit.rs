@@ -1,0 +1,87 @@
+//! Fits of exponentials to late convolution weights, shared by the histories of these weights.
+
+use std::sync::Arc;
+
+use super::passivity::{self, Lags, Margin};
+use super::tail::{Measured, Tail};
+use crate::error::{Error, Result};
+use crate::history::convolution::{ConvolutionWeights, LateWeights};
+use crate::history::shared_spectra::SharedSpectra;
+
+/// Error aimed at in the next attempt over that of the one before.
+const CLOSER: f64 = 0.2;
+/// Attempts before giving up: down to rounding from any tolerance.
+const ATTEMPTS: usize = 10;
+
+/// A fit as it was asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Request {
+    /// Lags of the window.
+    pub(super) lags: usize,
+    pub(super) horizon: usize,
+    pub(super) tolerance: f64,
+}
+
+/// Exponentials behind a window, empty, and what was measured of them.
+#[derive(Debug)]
+pub(super) struct Fit {
+    pub(super) request: Request,
+    pub(super) tail: Tail,
+    pub(super) accuracy: Measured,
+    /// Least eigenvalue of the operator's Hermitian part.
+    pub(super) margin: f64,
+}
+
+impl Fit {
+    /// The fewest exponentials that fit and are passive.
+    pub(super) fn new(
+        kernel: &dyn ConvolutionWeights,
+        late: &dyn LateWeights,
+        request: Request,
+    ) -> Result<Self> {
+        let Request { lags, horizon, tolerance } = request;
+        let exact = Lags::new(kernel, lags)?;
+        let (mut aim, mut refusal) = (tolerance, None);
+        for _ in 0..ATTEMPTS {
+            let elements = kernel.classes().elements();
+            let tail = Tail::new(late.exponentials(lags, horizon, aim)?, elements)?;
+            let accuracy = Measured::over(kernel, &tail, lags, horizon)?;
+            aim *= CLOSER;
+            if accuracy.relative > tolerance {
+                let reached = accuracy.relative;
+                refusal.get_or_insert(Error::Accuracy { tolerance, reached });
+                continue;
+            }
+            let Margin { least, frequency } =
+                passivity::margin(kernel, &exact, &tail, horizon as f64);
+            // A NaN is an error as well.
+            if least.is_nan() || least < 0.0 {
+                refusal = Some(Error::NotPassive { margin: least, frequency });
+                continue;
+            }
+            return Ok(Self { request, tail, accuracy, margin: least });
+        }
+        Err(refusal.unwrap_or(Error::Accuracy { tolerance, reached: f64::INFINITY }))
+    }
+}
+
+/// Exponentials behind a window, and the spectra of the window alone.
+#[derive(Clone)]
+pub(super) struct Windowed {
+    pub(super) fit: Arc<Fit>,
+    pub(super) spectra: SharedSpectra,
+}
+
+/// Stores a fit and returns it; if another thread was first, returns the fit of that thread.
+///
+/// Windows of one length share their spectra.
+pub(super) fn keep(made: &mut Vec<Windowed>, fit: Arc<Fit>) -> Windowed {
+    if let Some(known) = made.iter().find(|known| known.fit.request == fit.request) {
+        return known.clone();
+    }
+    let same = made.iter().find(|known| known.fit.request.lags == fit.request.lags);
+    let spectra = same.map_or_else(SharedSpectra::default, |known| known.spectra.clone());
+    let new = Windowed { fit, spectra };
+    made.push(new.clone());
+    new
+}

@@ -1,0 +1,113 @@
+//! Options of a ground's history, and the rule by which it is chosen.
+
+use std::sync::Arc;
+
+use super::chosen::ChosenHistory;
+use super::convolution::{ConvolutionWeights, LateWeights};
+use super::direct::DirectHistory;
+use super::exponentials::{ExponentialHistory, MEMORY};
+use super::method::HistoryMethod;
+use super::relaxed_fft::{LEAF, RelaxedFftHistory, bytes_of_blocks};
+use crate::error::{Result, memory};
+
+/// Sum of the late coefficients of a ground in plan that may be left out, relative to the sum of all.
+const NEGLECTED: f64 = 1e-8;
+/// Tolerance of exponentials that are not asked for: results change by rounding only.
+const ROUNDING: f64 = 1e-12;
+/// Longest window, lags, with which exponentials are chosen: the fit takes a few tenths of a second.
+const LONGEST_WINDOW: usize = 1 << 14;
+
+/// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::bem::{ElasticGround, Strip};
+/// use basemat::history::{HistoryMethod, HistoryOptions};
+///
+/// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+/// let ground = || ElasticGround::new(soil, Strip::graded(-3.0..3.0, 8)?);
+/// let direct = ground()?.with_history(HistoryMethod::Direct)?;
+/// let coarse = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
+/// let approximate = ground()?.with_history(coarse)?;
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryOptions {
+    /// Method; [`HistoryMethod::Auto`] by default.
+    pub method: HistoryMethod,
+    /// Relative error that coefficients may have, 1e-12 to 1e-2.
+    ///
+    /// Exponentials, which only the half-plane's closed form has, use it in place of 1e-12 ([`HistoryMethod::Auto`]) or
+    /// 1e-10 ([`HistoryMethod::Exponentials`]). In plan, [`HistoryMethod::Auto`] drops late coefficients whose sum is
+    /// less than this part of the sum of all, once a run is twice as long as the others: 1e-8 unless given, or their
+    /// [error](ConvolutionWeights::late_error) if that is larger.
+    pub tolerance: Option<f64>,
+    /// Memory that the history may take, bytes; 1 GiB by default.
+    ///
+    /// Steps that need more are [`Error::Memory`](crate::Error::Memory): when the number of steps becomes known
+    /// ([`expected_steps`](crate::coupled::SimulationBuilder::expected_steps), [`run`](crate::Simulation::run)), or
+    /// else before the first step that does not fit, which is not made. A checkpoint can go on with more.
+    pub memory: usize,
+}
+
+impl From<HistoryMethod> for HistoryOptions {
+    fn from(method: HistoryMethod) -> Self {
+        Self { method, ..Self::default() }
+    }
+}
+
+impl Default for HistoryOptions {
+    fn default() -> Self {
+        Self { method: HistoryMethod::Auto, tolerance: None, memory: MEMORY }
+    }
+}
+
+impl HistoryOptions {
+    /// The options, if the tolerance can be reached.
+    pub(crate) fn checked(self) -> Result<Self> {
+        self.tolerance.map_or(Ok(0.0), ExponentialHistory::check_tolerance)?;
+        Ok(self)
+    }
+
+    /// Empty history of `weights` for `steps` steps in all; `None` if no end is known.
+    pub(crate) fn history(
+        self,
+        weights: &Arc<dyn ConvolutionWeights>,
+        steps: Option<usize>,
+    ) -> Result<ChosenHistory> {
+        let count = weights.classes().elements().len() as f64;
+        memory::check("contact elements", count, bytes_of_blocks(&**weights, LEAF)?)?;
+        let kernel = || Arc::clone(weights);
+        let exponentials = |tolerance: f64| {
+            let tolerance = self.tolerance.unwrap_or(tolerance);
+            let horizon = steps.unwrap_or(0).max(ExponentialHistory::HORIZON);
+            ExponentialHistory::within(kernel(), tolerance, horizon, self.memory)
+        };
+        let transforms = || RelaxedFftHistory::new(kernel()).within(self.memory);
+        Ok(match self.method {
+            HistoryMethod::Direct => {
+                ChosenHistory::direct(DirectHistory::new(kernel()).within(self.memory), steps)
+            }
+            HistoryMethod::RelaxedFft => ChosenHistory::transforms(transforms(), steps, 0.0),
+            HistoryMethod::Exponentials => {
+                ChosenHistory::exponentials(exponentials(ExponentialHistory::TOLERANCE)?, steps)
+            }
+            HistoryMethod::Auto => {
+                let early = |late: &dyn LateWeights| late.window() <= LONGEST_WINDOW;
+                let early = weights.late_weights().is_some_and(early);
+                match early.then(|| exponentials(ROUNDING)) {
+                    Some(Ok(history)) => ChosenHistory::exponentials(history, steps),
+                    _ if weights.classes().plan().is_none() => {
+                        ChosenHistory::transforms(transforms(), steps, 0.0)
+                    }
+                    _ => {
+                        let least = NEGLECTED.max(weights.late_error());
+                        let neglected = self.tolerance.unwrap_or(least);
+                        let history = transforms().forgetting(neglected);
+                        ChosenHistory::transforms(history, steps, neglected)
+                    }
+                }
+            }
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! Tables made of convolution weights, shared by all histories of these weights.
+
+use std::any::{Any, TypeId};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use crate::geometry::ContactElement;
+
+/// Spectra and exponentials of convolution weights, shared by all histories of these weights.
+///
+/// Clones are one and the same store. A [`ConvolutionWeights`](crate::history::ConvolutionWeights) keeps one beside
+/// its coefficients and shows it in [`spectra`](crate::history::ConvolutionWeights::spectra).
+#[derive(Clone, Default)]
+pub struct SharedSpectra {
+    stores: Arc<Stores>,
+}
+
+#[derive(Default)]
+struct Stores {
+    /// Elements of the weights; set by the first history.
+    elements: OnceLock<Vec<ContactElement>>,
+    /// One store for each type of table.
+    tables: Mutex<Vec<(TypeId, Arc<dyn Any + Send + Sync>)>>,
+}
+
+/// Tables of one type, in a store.
+pub(super) type Shared<T> = Arc<Mutex<T>>;
+
+/// Locks tables: other threads wait while one computes. After a panic, tables are complete or not there at all.
+pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
+    tables.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl SharedSpectra {
+    /// Whether the store belongs to these elements; an empty store does from now on.
+    pub(super) fn are_of(&self, elements: &[ContactElement]) -> bool {
+        self.stores.elements.get_or_init(|| elements.to_vec()) == elements
+    }
+
+    /// Tables of type `T`; empty ones at first.
+    pub(super) fn tables<T: Default + Send + 'static>(&self) -> Shared<T> {
+        let mut tables = lock(&self.stores.tables);
+        let own = tables.iter().find(|(of, _)| *of == TypeId::of::<T>());
+        if let Some(own) = own.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
+            return own;
+        }
+        let new = Shared::<T>::default();
+        tables.push((TypeId::of::<T>(), new.clone()));
+        new
+    }
+}
+
+short_debug! { SharedSpectra; self; }
