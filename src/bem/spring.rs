@@ -95,7 +95,7 @@ impl SpringGround {
     /// use basemat::bem::{Ground, SpringGround};
     /// let mat = Plan::rectangle(-4.0..4.0, -3.0..3.0, 6)?;
     /// let bed = SpringGround::in_plan(mat, [30.0e6, 20.0e6, 20.0e6])?;
-    /// assert_eq!((bed.directions(), bed.elements().len()), (3, 8 * 6));
+    /// assert!(bed.in_plan(0).is_some() && bed.elements().len() == 8 * 6);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
