@@ -30,6 +30,12 @@ use crate::structure::{Structure, is_nonlinear, probe};
 /// The matrix is scaled to a diagonal of one.
 const ROUNDING: f64 = 1e-9;
 
+/// Number of steps, and more, that stands for a run without a known end.
+pub(crate) const ENDLESS: usize = match 1_usize.checked_shl(40) {
+    Some(steps) => steps,
+    None => usize::MAX >> 4,
+};
+
 /// Default rotation of a base at which a run ends, rad.
 const ROTATION_LIMIT: f64 = 1.0;
 

@@ -1,13 +1,8 @@
 //! Preparation of the ground for the steps of a run.
 
 use crate::Simulation;
-use crate::error::{Observer, Result};
-
-/// Number of steps, and more, that stands for a run without a known end.
-const ENDLESS: usize = match 1_usize.checked_shl(40) {
-    Some(steps) => steps,
-    None => usize::MAX >> 4,
-};
+use crate::coupled::parts::ENDLESS;
+use crate::error::{Error, Observer, Result, unobserved};
 
 impl Simulation {
     /// Prepares the ground for `steps` further steps, with an observer.
@@ -16,27 +11,42 @@ impl Simulation {
     /// with unchanged results. [`Observer`] has an example. 2⁴⁰ steps or more have no known end: nothing is done.
     ///
     /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped) by the observer, and the simulation stays unchanged; [`Error::Memory`](crate::Error::Memory) for more steps than
-    /// fit into the memory of the ground's history; as for [`Ground::prepare`](crate::bem::Ground::prepare).
+    /// [`Error::Stopped`] by the observer, and the simulation stays unchanged; [`Error::Memory`] for more steps than fit
+    /// into the memory of the ground's history; as for [`Ground::prepare`](crate::bem::Ground::prepare).
     pub fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         let made = self.state.step;
         let end = made.saturating_add(steps);
         if end <= self.prepared || end >= ENDLESS {
             return Ok(());
         }
+        let time_step = self.scene.time_step;
+        if made == 0 {
+            self.ground.prepare(time_step, Some(end), observer)?;
+            self.prepared = end;
+            return Ok(());
+        }
+        // A ground that cannot be saved grows step by step.
+        let Ok(saved) = self.ground.save() else { return Ok(()) };
         // Doubled, so that many short runs prepare seldom; histories grow by powers of two.
-        let end = if made > 0 { end.next_power_of_two() } else { end };
-        let mut saved = None;
-        if made > 0 {
-            // A ground that cannot be saved grows step by step.
-            let Ok(values) = self.ground.save() else { return Ok(()) };
-            saved = Some(values);
+        let mut prepared = end.next_power_of_two();
+        match self.ground.prepare(time_step, Some(prepared), observer) {
+            Err(error) if matches!(error, Error::Stopped(_)) || prepared == end => {
+                return Err(error);
+            }
+            Err(_) => {
+                prepared = end;
+                self.ground.prepare(time_step, Some(end), observer)?;
+            }
+            Ok(()) => {}
         }
-        self.ground.prepare(self.scene.time_step, Some(end), observer)?;
-        if let Some(saved) = saved {
+        if let Err(error) = self.ground.restore(made, &saved) {
+            // Back to the ground as it was.
+            let before = Some(self.prepared).filter(|steps| *steps > 0);
+            self.ground.prepare(time_step, before, &mut unobserved)?;
             self.ground.restore(made, &saved)?;
+            return Err(error);
         }
-        self.prepared = end;
+        self.prepared = prepared;
         Ok(())
     }
 }

@@ -48,7 +48,7 @@ impl DirectHistory {
     }
 
     /// Makes lags up to `lags` available.
-    fn grow(&mut self, lags: usize) -> Result<()> {
+    fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
         let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
         let needed = 8.0 * numbers as f64 * new as f64;
@@ -63,7 +63,7 @@ impl DirectHistory {
         }
         let own = self.kernel.classes().layout().components();
         let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
-        self.kernel.prepare(new, &mut unobserved)?;
+        self.kernel.prepare(new, observer)?;
         for class in 0..self.kernel.classes().count() {
             let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
             let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
@@ -101,9 +101,9 @@ impl ConvolutionHistory for DirectHistory {
         (coefficients + traction) * size_of::<f64>()
     }
 
-    fn prepare(&mut self, steps: usize, _observer: &mut Observer<'_>) -> Result<()> {
-        if steps >= self.capacity {
-            self.grow(steps.saturating_add(1))?;
+    fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        if steps > self.capacity {
+            self.grow(steps, observer)?;
         }
         for component in &mut self.traction {
             component.reserve(steps.saturating_sub(component.len()));
@@ -121,7 +121,7 @@ impl ConvolutionHistory for DirectHistory {
             return Ok(());
         }
         if past + 1 > self.capacity {
-            self.grow(past + 1)?;
+            self.grow(past + 1, &mut unobserved)?;
         }
         // Input m (from 0) is seen with lag past + 1 − m.
         for begin in (0..past).step_by(CHUNK) {

@@ -298,3 +298,35 @@ fn memory_ends_by_itself() {
     println!("{error:e} of {bound:e}, {choice}");
     assert!(0.0 < error && error < bound, "{error:e} {bound:e}");
 }
+
+/// A history may be saved before it has looked as far as its last lag, and restored after, and the reverse.
+#[test]
+fn memory_that_ends_is_restored_however_far_is_looked() {
+    let ground = |steps: Option<usize>| {
+        let mut ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), l_shape()).unwrap();
+        ground.prepare(0.4, steps, &mut unobserved).unwrap();
+        ground
+    };
+    let mut far = ground(Some(5000));
+    for (made, from, to) in [
+        (1, None, Some(5000)),
+        (300, None, Some(5000)),
+        (300, Some(5000), None),
+        (2600, Some(2600), Some(5000)),
+        (2600, None, None),
+    ] {
+        let mut one = ground(from);
+        marched(&mut one, made, 7);
+        let mut other = ground(to);
+        other.restore(made, &one.save().unwrap()).unwrap();
+        let next = [&mut one, &mut other].map(|ground| marched(ground, 80, 8));
+        let difference = largest_difference(&next[1], &next[0]);
+        assert!(difference < 1e-9, "{made}, {from:?}, {to:?}: {difference:e}");
+        assert!(next[0].iter().flatten().any(|value| *value != 0.0));
+    }
+    // The other way back, to where nothing has happened.
+    let start = ground(None).save().unwrap();
+    marched(&mut far, 100, 7);
+    far.restore(0, &start).unwrap();
+    assert_eq!(marched(&mut far, 100, 7), marched(&mut ground(Some(5000)), 100, 7));
+}

@@ -84,16 +84,16 @@ impl Watched {
     }
 }
 
-/// Lets the ground compute what the next step takes, by powers of two of steps, with an ear for Ctrl-C. Its errors are
-/// the step's.
+/// Lets the ground compute what the next step takes, by powers of two of steps, with an ear for Ctrl-C.
 pub(super) fn prepared(simulation: &mut Simulation) -> PyResult<()> {
     let done = simulation.state().step;
     if !done.is_power_of_two() {
         return Ok(());
     }
     watched(None, |observer| match simulation.prepare(1, observer) {
-        Err(stopped @ basemat::Error::Stopped(_)) => Err(stopped),
-        _ => Ok(()),
+        // A step that does not fit into the memory says so itself.
+        Err(basemat::Error::Memory(_)) => Ok(()),
+        outcome => outcome,
     })
 }
 

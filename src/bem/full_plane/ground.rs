@@ -248,7 +248,6 @@ impl Ground for FullPlaneGround {
         steps: Option<usize>,
         _observer: &mut Observer<'_>,
     ) -> Result<()> {
-        self.prepared = None;
         if self.incident.is_none() && !self.boundary.is_flat() {
             return Err(Error::Scene {
                 quantity: "full-plane ground",

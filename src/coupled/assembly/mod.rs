@@ -28,8 +28,7 @@ use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
-use crate::coupled::parts::Parts;
-use crate::coupled::parts::SimulationBuilder;
+use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
 use crate::coupled::run::warning::Warning;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::TimeScheme;
@@ -177,7 +176,7 @@ impl SimulationBuilder {
     /// does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.steps = steps;
+        self.steps = if steps < ENDLESS { steps } else { 0 };
         self
     }
 

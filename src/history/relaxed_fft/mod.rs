@@ -277,7 +277,8 @@ impl ConvolutionHistory for RelaxedFftHistory {
 
     /// Displacements of two steps by the lags that a memory leaves out once it has ended.
     fn increment_error_bound(&self) -> f64 {
-        self.end.map_or(0.0, |end| 2.0 * end.rest * self.largest)
+        let ended = self.end.filter(|end| self.steps > end.lag);
+        ended.map_or(0.0, |end| 2.0 * end.rest * self.largest)
     }
 
     fn memory(&self) -> usize {
@@ -339,12 +340,15 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let first = Self::first_kept(last, steps);
         check_inputs(steps - first, width, values)?;
         self.grow(steps, &mut Watch::nobody())?;
-        if self.end.map(|end| end.lag) != last {
+        // Either history may not have looked as far as the last lag yet.
+        let own = self.end.map(|end| end.lag);
+        let own_first = Self::first_kept(own, steps);
+        if own.zip(last).is_some_and(|(own, last)| own != last) || own_first < first {
             return Err(corrupt().into());
         }
         let blocks = self.grow(0, &mut Watch::nobody())?;
         blocks.clear();
-        march(blocks, first, values);
+        march(blocks, own_first, &values[(own_first - first) * width..]);
         self.largest = largest;
         (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
