@@ -15,6 +15,7 @@
 
 use super::static_stages;
 use crate::coupled::base::Base;
+use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
@@ -62,7 +63,7 @@ pub(crate) fn check(
     at_rest: &StaticState,
 ) -> Result<Option<Warning>> {
     let base = &assembled.base;
-    if !base.is_flexible() {
+    if !base.is_flexible() || holds(parts.ground.as_ref()) {
         return Ok(None);
     }
     let own_soil = static_stages::compliance(parts)?;
