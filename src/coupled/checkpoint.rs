@@ -150,10 +150,11 @@ impl Simulation {
     /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
     ///
     /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the
-    /// initial motion, the numbers that the interface laws return for sample states, the nonlinear force at sample
-    /// displacements, and samples of ground motion and loads in the steps so far. Internal variables that a structure
-    /// does not [save][`save`] are not compared. Forces that were [set](Simulation::set_load) are restored. The
-    /// transitions, trials and method of the step before the checkpoint are not kept.
+    /// initial motion, the numbers that the interface laws return for sample states, and samples of ground motion and
+    /// loads in the steps so far. Numbers of a nonlinear force, what a law does with other state variables than the
+    /// first, and internal variables that a structure does not [save][`save`] are not compared. Forces that were
+    /// [set](Simulation::set_load) are restored. The transitions, trials and method of the step before the checkpoint
+    /// are not kept.
     ///
     /// # Errors
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with numbers missing or

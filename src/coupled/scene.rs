@@ -19,7 +19,6 @@ use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::linalg::mixed;
 use crate::structure::probe::Probe;
-use crate::structure::sample_forces;
 
 /// Structure, base, laws and static state for steps; read-only once built.
 ///
@@ -50,8 +49,6 @@ pub(crate) struct Scene {
     /// Number of the gravity stage, and sums over the initial displacement and velocity, for comparison with a
     /// checkpoint.
     pub(crate) start: [f64; 3],
-    /// Samples of the structure's nonlinear force before the run, also for comparison; empty for a linear structure.
-    pub(crate) nonlinear_samples: Vec<f64>,
     /// Shared data for results of the scene's states.
     pub(crate) context: Arc<Context>,
 }
@@ -117,7 +114,6 @@ impl Scene {
             soil: parts.soil.clone(),
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows,
-            nonlinear_samples: sample_forces(parts.structure.as_ref()),
             start: [
                 given.gravity_stage as usize as f64,
                 mixed(&given.displacement),

@@ -50,7 +50,7 @@ pub use models::{
 };
 pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{
-    Tangent, is_nonlinear, nonlinear_state, restore_variables, sample_forces, save_variables,
+    Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
 };
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use section_rows::SectionRows;

@@ -3,7 +3,6 @@
 use super::{Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, same_length};
 use crate::linalg::matrix::SparseMatrix;
-use crate::linalg::mixed;
 
 /// Energy of internal forces, J per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -216,20 +215,4 @@ impl Tangent {
         }
         Ok(())
     }
-}
-
-/// Displacements of the samples of [`sample_forces`], m.
-const SAMPLES: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
-
-/// Weighted sums of a nonlinear force at sample displacements.
-///
-/// Infinite where the force returns an error; empty for a linear structure.
-pub(crate) fn sample_forces(structure: &dyn Structure) -> Vec<f64> {
-    let Some(own) = structure.nonlinear() else { return Vec::new() };
-    let sample = |size: f64| {
-        let mut force = vec![0.0; structure.dofs()];
-        let displacement: Vec<f64> = (1..=force.len()).map(|k| size * (k as f64).sin()).collect();
-        own.force(&displacement, &mut force).map_or(f64::INFINITY, |()| mixed(&force))
-    };
-    SAMPLES.map(sample).to_vec()
 }

@@ -77,13 +77,13 @@ impl Warning {
     /// a scene that is not to scale only the laws are checked.
     pub(crate) fn of_units(
         is_to_scale: bool,
-        laws: &[Box<dyn InterfaceLaw>],
+        (laws, is_plan): (&[Box<dyn InterfaceLaw>], bool),
         gravity: f64,
         pressure: f64,
         storey: Option<f64>,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let frictions = laws.iter().map(|law| friction_at_rest(law.as_ref()));
+        let frictions = laws.iter().map(|law| friction_at_rest(law.as_ref(), is_plan));
         let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
         warnings
             .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
@@ -200,7 +200,7 @@ impl Warning {
         if !scene.layout().is_plan() {
             return None;
         }
-        let greatest = laws.map(|law| friction_at_rest(law.as_ref())).fold(0.0, f64::max);
+        let greatest = laws.map(|law| friction_at_rest(law.as_ref(), true)).fold(0.0, f64::max);
         (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
     }
 

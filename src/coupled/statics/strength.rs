@@ -72,14 +72,19 @@ impl Strength {
 
 /// Friction coefficient of a law on an element at rest, without cohesion.
 ///
-/// As the law states it, by its limits, or by the tractions at which the element slides.
-pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw) -> f64 {
+/// As the law states it; else in plan by its limits, in the plane by the tractions at which the element slides.
+pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, is_plan: bool) -> f64 {
+    if let Some(known) = law.friction_coefficient() {
+        return known;
+    }
+    if !is_plan {
+        return friction(law, PRESSURE);
+    }
     let pressed = ContactState { pressure: PRESSURE, ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
     let state_variables = start.first_state_variables(law);
-    let limits = || law.limits(&start.with_state_variables(&state_variables)).ok();
-    let by_limits = || limits().map(|own| if own.bonded { 0.0 } else { own.friction });
-    law.friction_coefficient().or_else(by_limits).unwrap_or_else(|| friction(law, PRESSURE))
+    let limits = law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default();
+    if limits.bonded { 0.0 } else { limits.friction }
 }
 
 /// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides.
