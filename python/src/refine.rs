@@ -170,11 +170,11 @@ members! {
     name: &str = &own.0.name;
     /// Value of the run, in the unit of the peak.
     value: f64 = own.0.value;
-    /// Value with a time step shorter by 1 %.
+    /// Value with a time step shorter by 1 %, in the unit of the peak.
     shorter_step: f64 = own.0.shorter_step;
-    /// Value on three quarters of the elements, rounded up.
+    /// Value on three quarters of the elements, rounded up, in the unit of the peak.
     three_quarters: f64 = own.0.three_quarters;
-    /// Value on half the elements, rounded up.
+    /// Value on half the elements, rounded up, in the unit of the peak.
     half: f64 = own.0.half;
     /// Largest difference between a twin and the run, in the unit of the peak.
     spread: f64 = own.0.spread();

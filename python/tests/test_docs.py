@@ -72,7 +72,7 @@ def test_every_call_has_a_signature() -> None:
     # What static methods make alone has no constructor.
     assert parameters("PlaneWave") == [] != parameters("PlaneWave.sv")
     keywords = parameters("Simulation")
-    assert len(keywords) == 23 and keywords[4].kind is inspect.Parameter.KEYWORD_ONLY
+    assert len(keywords) == 25 and keywords[4].kind is inspect.Parameter.KEYWORD_ONLY
 
 
 UNITS = r"(?<![\w/])(m|s|Hz|rad|Pa|kg|N|J)(?!\w)|/m|1/s|\bunits?\b"
@@ -202,6 +202,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_Wave": lambda word: bm.SoilColumn(PROFILE, word),
     "_ControlPoint": lambda word: bm.SoilColumn(PROFILE).transfer([1.0], control=word),
     "_InclinedControl": lambda word: WAVE.field(RECORD, -5.0, control=word),
+    "_Change": lambda word: simulation().resume(simulation().checkpoint(), [word]),  # type: ignore[list-item]
     "_GravityStage": lambda word: simulation(gravity_stage=word),
     "_Coordinates": lambda word: simulation(coordinates=word),
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),

@@ -148,13 +148,13 @@ class PeakTwins:
         """Value of the run, in the unit of the peak."""
     @property
     def shorter_step(self) -> float:
-        """Value with a time step shorter by 1 %."""
+        """Value with a time step shorter by 1 %, in the unit of the peak."""
     @property
     def three_quarters(self) -> float:
-        """Value on three quarters of the elements, rounded up."""
+        """Value on three quarters of the elements, rounded up, in the unit of the peak."""
     @property
     def half(self) -> float:
-        """Value on half the elements, rounded up."""
+        """Value on half the elements, rounded up, in the unit of the peak."""
     @property
     def spread(self) -> float:
         """Largest difference between a twin and the run, in the unit of the peak."""
@@ -193,10 +193,10 @@ class SystemMode:
         """Damping ratio β₀ of the soil–structure system."""
     @property
     def period_ratio(self) -> float:
-        """Period lengthening T̃/T."""
+        """Period lengthening T̃/T, a ratio."""
     @property
     def foundation_damping(self) -> float:
-        """Foundation damping β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil."""
+        """Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil."""
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
@@ -220,7 +220,9 @@ class Interaction:
     def probe_ratios(self) -> dict[str, float]:
         """Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names."""
     def ratio(self, name: str) -> float:
-        """Largest magnitude of a scalar such as "base_shear" on the ground over that on the fixed base; NaN where both are zero."""
+        """Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
+        NaN where both are zero.
+        """
     def _repr_html_(self) -> str: ...
 
 @disjoint_base
@@ -603,7 +605,8 @@ class Record(FreeField):
         """Reads all components of the file at ``path``, such as those of a station in three directions: a
         dict from the name of each to its :class:`Record`, in the order of the file.
 
-        Arguments as for :meth:`read`; of columns all but the one of times are read.
+        ``format``, ``unit``, ``time_step`` and ``header_lines`` as for :meth:`read`, none unless given; of columns all but
+        the one of times are read.
         """
     @property
     def time_step(self) -> float:

@@ -121,7 +121,8 @@ impl PyRecord {
     /// Reads all components of the file at ``path``, such as those of a station in three directions: a
     /// dict from the name of each to its :class:`Record`, in the order of the file.
     ///
-    /// Arguments as for :meth:`read`; of columns all but the one of times are read.
+    /// ``format``, ``unit``, ``time_step`` and ``header_lines`` as for :meth:`read`, none unless given; of columns all but
+    /// the one of times are read.
     #[staticmethod]
     #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, header_lines=None))]
     fn read_all<'py>(

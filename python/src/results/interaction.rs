@@ -26,9 +26,9 @@ members! {
     period: f64 = own.0.period;
     /// Damping ratio β₀ of the soil–structure system.
     damping: f64 = own.0.damping;
-    /// Period lengthening T̃/T.
+    /// Period lengthening T̃/T, a ratio.
     period_ratio: f64 = own.0.period_ratio();
-    /// Foundation damping β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil.
+    /// Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil.
     foundation_damping: f64 = own.0.foundation_damping();
 }
 
@@ -70,7 +70,8 @@ members! {
 
 #[pymethods]
 impl PyInteraction {
-    /// Largest magnitude of a scalar such as "base_shear" on the ground over that on the fixed base; NaN where both are zero.
+    /// Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
+    /// NaN where both are zero.
     fn ratio(&self, name: &str) -> PyResult<f64> {
         Ok(self.found.ratio(name.parse::<Quantity>().or_raise()?))
     }
