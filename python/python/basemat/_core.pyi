@@ -2881,7 +2881,7 @@ class Limits:
     def __eq__(self, other: object, /) -> bool: ...
 
 @overload
-def refine(  # type: ignore[overload-overlap]
+def refine(
     elements: int,
     time_step: float,
     scene: Callable[[int, float], Mapping[str, float]],
