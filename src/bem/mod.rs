@@ -67,7 +67,7 @@ pub trait Ground: Any + Send {
         None
     }
 
-    /// Prepares for steps of `time_step` seconds, and forgets all tractions.
+    /// Prepares for steps of `time_step` seconds, and clears all tractions.
     ///
     /// `steps` is the number of steps in all, those so far included; `None` if no end is known. Weights are computed
     /// and memory is allocated here. [`build`](crate::coupled::SimulationBuilder::build) calls it, and so does a run that

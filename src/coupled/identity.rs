@@ -22,7 +22,7 @@ const SLIP: f64 = 1e-4;
 /// Pressure of a sample state if there is no weight, Pa.
 const UNPRESSED: f64 = 1e5;
 /// Number that replaces one that is not finite.
-const ENDLESS: f64 = -7.25;
+const NOT_FINITE: f64 = -7.25;
 
 /// An intended difference from the scene of a checkpoint: see [`Simulation::resume_changed`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -237,6 +237,8 @@ impl Simulation {
             ground.free_field(motion.as_ref(), step.round() * scene.time_step, &mut displacement);
             *moved = mixed(&displacement);
         }
+        let rows = scene.loads.iter().enumerate();
+        let rows: Vec<f64> = rows.map(|(k, load)| mixing_weight(k) * load.mixed_row()).collect();
         let mut force = vec![0.0; scene.model.dofs];
         let instants = count.min(MOST_INSTANTS);
         let stride = instants.div_ceil((LOAD_ENTRIES / force.len().max(1)).max(SAMPLES));
@@ -252,8 +254,8 @@ impl Simulation {
                     mixed(&motion.displacement(place[0], end))
                 };
             let time = (step + scene.coefficients.load_fraction) * scene.time_step;
-            let external = scene.loads.iter().enumerate();
-            let external = external.map(|(k, load)| mixing_weight(k) * load.mixed_value(time));
+            let external = scene.loads.iter().zip(&rows);
+            let external = external.map(|(load, row)| row * load.own_value(time));
             loaded[part] += weight * external.sum::<f64>();
             if instant % stride == 0 {
                 force.fill(0.0);
@@ -279,15 +281,12 @@ fn law_numbers(scene: &Scene) -> Vec<f64> {
         let own = numbers_of(scene.law(element), pressure, scene.time_step, plan);
         all.resize(all.len().max(own.len()), 0.0);
         for (all, own) in all.iter_mut().zip(own) {
-            *all += mixing_weight(element) / sum * finite_or_endless(own);
+            // Numbers that are not finite would hide the others.
+            let own = if own.is_finite() { own } else { NOT_FINITE };
+            *all += mixing_weight(element) / sum * own;
         }
     }
     all
-}
-
-/// The number, or [`ENDLESS`] if it is not finite, since it would hide the others.
-fn finite_or_endless(number: f64) -> f64 {
-    if number.is_finite() { number } else { ENDLESS }
 }
 
 /// Numbers that a law returns under this pressure, Pa.
@@ -295,27 +294,20 @@ fn finite_or_endless(number: f64) -> f64 {
 /// At rest, and at each of [`RATES`] after [`SLIP`], with the first state variables: a law of a user's own may refuse
 /// other ones.
 fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
-    let at_rest = PreviousContact::new(sample_state(0.0, pressure), law.modes()[0], time_step);
+    let state = |slip: f64| ContactState { slip, pressure, ..ContactState::default() };
+    let at_rest = PreviousContact::new(state(0.0), law.modes()[0], time_step);
     let variables = at_rest.first_state_variables(law);
     let mut all = vec![law.state_variables() as f64, law.friction_coefficient().unwrap_or(-1.0)];
     all.extend(&variables);
     add_numbers(law, &at_rest.with_state_variables(&variables), pressure, plan, &mut all);
     let slips = law.modes().iter().copied().find(|mode| mode.is_slip());
-    let mode = slips.unwrap_or(law.modes()[0]);
-    let start = |slip: f64, rate: f64| {
-        let mut start = PreviousContact::new(sample_state(slip, pressure), mode, time_step);
-        (start.slip_rate, start.static_pressure) = (rate, pressure);
-        start
-    };
+    let mut slid = PreviousContact::new(state(SLIP), slips.unwrap_or(law.modes()[0]), time_step);
+    slid.static_pressure = pressure;
     for rate in RATES {
-        let start = start(SLIP, rate);
-        add_numbers(law, &start.with_state_variables(&variables), pressure, plan, &mut all);
+        slid.slip_rate = rate;
+        add_numbers(law, &slid.with_state_variables(&variables), pressure, plan, &mut all);
     }
     all
-}
-
-fn sample_state(slip: f64, pressure: f64) -> ContactState {
-    ContactState { slip, pressure, ..ContactState::default() }
 }
 
 /// Adds the numbers that a law returns for a step from this start.

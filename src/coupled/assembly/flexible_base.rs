@@ -80,9 +80,13 @@ pub(crate) fn check(
             let under = |assembled: &Assembled, soil: &[f64]| {
                 static_stages::under_loads(parts, assembled, soil, law).ok()
             };
-            let many = parts.given.laws.len() > 1;
-            let coarse = if many { under(assembled, &own_soil) } else { None };
-            let coarse = if many { coarse.as_ref() } else { Some(at_rest) };
+            let with_first;
+            let coarse = if parts.given.laws.len() == 1 {
+                Some(at_rest)
+            } else {
+                with_first = under(assembled, &own_soil);
+                with_first.as_ref()
+            };
             let fine = under(&assembled.on(finer), &soil);
             let both = coarse.zip(fine.as_ref());
             difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));

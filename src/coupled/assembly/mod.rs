@@ -343,8 +343,7 @@ impl SimulationBuilder {
         let pressure = given.gravity * assembled.mass_over_area();
         let storey = structure.tallest_storey();
         let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
-        let laws = (&scene.laws[..], scene.layout().is_plan());
-        let of_units = Warning::of_units(is_to_scale, laws, given.gravity, pressure, storey);
+        let of_units = Warning::of_units(is_to_scale, &scene, given.gravity, pressure, storey);
         warnings.extend(of_units);
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;

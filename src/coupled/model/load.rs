@@ -165,11 +165,14 @@ impl SteppedLoad {
         self.set
     }
 
-    /// Value at `time` times a sum over the weights of its row, to distinguish loads.
-    pub(crate) fn mixed_value(&self, time: f64) -> f64 {
-        let row = self.load.row.iter();
-        let sum: f64 = row.map(|&(i, weight)| mixing_weight(i) * weight).sum();
-        self.load.value(time) * sum
+    /// Sum over the weights of the load's row that distinguishes loads.
+    pub(crate) fn mixed_row(&self) -> f64 {
+        self.load.row.iter().map(|&(i, weight)| mixing_weight(i) * weight).sum()
+    }
+
+    /// Value of the load's own function at `time`.
+    pub(crate) fn own_value(&self, time: f64) -> f64 {
+        self.load.value(time)
     }
 
     /// Adds the force at `time`, minus the force in the static state, to `force`; returns its value.

@@ -77,13 +77,14 @@ impl Warning {
     /// a scene that is not to scale only the laws are checked.
     pub(crate) fn of_units(
         is_to_scale: bool,
-        (laws, is_plan): (&[Box<dyn InterfaceLaw>], bool),
+        scene: &Scene,
         gravity: f64,
         pressure: f64,
         storey: Option<f64>,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let frictions = laws.iter().map(|law| friction_at_rest(law.as_ref(), is_plan));
+        let is_plan = scene.layout().is_plan();
+        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), is_plan));
         let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
         warnings
             .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));

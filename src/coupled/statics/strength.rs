@@ -1,6 +1,6 @@
 //! Strength of an interface law under static loads: in the plane by its modes, in plan by its limits.
 
-use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance};
+use crate::interface::{ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 
 /// Traction that counts as zero, relative to the pressure.
 const LITTLE: f64 = 1e-6;
@@ -50,11 +50,7 @@ impl Strength {
 
     /// Strength in plan.
     fn by_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
-        let pressed = ContactState { pressure: pressure.max(0.0), ..ContactState::default() };
-        let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
-        let state_variables = start.first_state_variables(law);
-        // Errors of a law have been reported before.
-        let limits = law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default();
+        let limits = limits_at_rest(law, pressure.max(0.0));
         let limits = if frictionless { limits.frictionless() } else { limits };
         let known = law.friction_coefficient().filter(|_| !frictionless);
         let attracted = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
@@ -74,17 +70,22 @@ impl Strength {
 ///
 /// As the law states it; else in plan by its limits, in the plane by the tractions at which the element slides.
 pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, is_plan: bool) -> f64 {
-    if let Some(known) = law.friction_coefficient() {
-        return known;
-    }
     if !is_plan {
         return friction(law, PRESSURE);
     }
-    let pressed = ContactState { pressure: PRESSURE, ..ContactState::default() };
+    law.friction_coefficient().unwrap_or_else(|| {
+        let limits = limits_at_rest(law, PRESSURE);
+        if limits.bonded { 0.0 } else { limits.friction }
+    })
+}
+
+/// Limits of a law on an element that has not moved so far; the default ones if the law has none, which was reported
+/// before.
+fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
+    let pressed = ContactState { pressure, ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
     let state_variables = start.first_state_variables(law);
-    let limits = law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default();
-    if limits.bonded { 0.0 } else { limits.friction }
+    law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default()
 }
 
 /// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides.
