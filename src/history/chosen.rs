@@ -21,7 +21,8 @@ pub struct HistoryChoice {
     pub steps: Option<usize>,
     /// Memory used now, bytes.
     pub memory: usize,
-    /// Relative error of the coefficients, measured, or their part that may be left out; zero if the method is exact.
+    /// Measured relative error of the coefficients of exponentials, or the fraction of the coefficients' sum that
+    /// transforms may leave out; zero if the method is exact.
     pub error_bound: f64,
     /// Number of Runge–Kutta stages of the convolution quadrature; `None` for closed forms.
     pub stages: Option<usize>,
@@ -51,17 +52,17 @@ impl fmt::Display for HistoryChoice {
     }
 }
 
-/// History of a ground, made by its options or by the caller.
+/// History of a ground, made from its options or supplied by the caller.
 pub(crate) struct ChosenHistory {
     pub(crate) history: Box<dyn ConvolutionHistory>,
-    /// Description; `None` for a history of the caller's own.
+    /// Description; `None` for a history that the caller supplied.
     choice: Option<HistoryChoice>,
-    /// Number that identifies the history in a checkpoint: the horizon of exponentials, steps, or a constant.
+    /// Number that identifies the history in a checkpoint: a constant, or the horizon (steps) of exponentials.
     identity: usize,
 }
 
 impl ChosenHistory {
-    /// Identities of histories without a horizon; horizons are longer.
+    /// Identities of histories without a horizon; every horizon is a larger number.
     const OWN: usize = 0;
     const DIRECT: usize = 1;
     const TRANSFORMS: usize = 2;
@@ -76,7 +77,7 @@ impl ChosenHistory {
         Self { history: Box::new(history), choice: Some(choice), identity }
     }
 
-    /// History of the caller's own.
+    /// Wraps a history that the caller supplied.
     pub(crate) fn own(history: Box<dyn ConvolutionHistory>) -> Self {
         Self { history, choice: None, identity: Self::OWN }
     }
@@ -85,7 +86,7 @@ impl ChosenHistory {
         Self::new(history, HistoryMethod::Direct, steps, (0.0, Self::DIRECT))
     }
 
-    /// Transforms that leave out `neglected` of the sum of all coefficients.
+    /// Wraps transforms that leave out up to the fraction `neglected` of the coefficients' sum.
     pub(super) fn transforms(
         history: RelaxedFftHistory,
         steps: Option<usize>,
@@ -99,7 +100,7 @@ impl ChosenHistory {
         Self::new(history, HistoryMethod::Exponentials, steps, of)
     }
 
-    /// Description of the history; `None` for one of the caller's own.
+    /// Description of the history; `None` for a history that the caller supplied.
     pub(crate) fn choice(&self) -> Option<HistoryChoice> {
         self.choice.map(|choice| HistoryChoice { memory: self.history.memory(), ..choice })
     }
@@ -111,9 +112,9 @@ impl ChosenHistory {
         Ok(values)
     }
 
-    /// Restores the state at `steps` steps, if `values` are those of this history.
+    /// Restores the state at `steps` steps, if this history saved `values`.
     ///
-    /// Returns the horizon in `values` if they are those of exponentials with another horizon.
+    /// If exponentials with another horizon saved `values`, returns that horizon and restores nothing.
     ///
     /// # Errors
     /// [`CheckpointError::OtherScene`] for a history of another kind; as for [`ConvolutionHistory::restore`].

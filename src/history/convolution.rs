@@ -1,4 +1,4 @@
-//! Convolutions: the traits of weights and of histories, and the direct sum.
+//! Traits of a convolution history, of its weights, and of weights with exponential tails.
 
 use super::exponential_sum::ExponentialSum;
 use super::pair_classes::{KINDS, PairClasses};
@@ -6,7 +6,7 @@ use super::shared_spectra::SharedSpectra;
 use crate::error::{CheckpointError, Error, Observer, Result, same_length, unobserved};
 use crate::geometry::SERIES;
 
-/// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
+/// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, for inputs that arrive step by step.
 ///
 /// Contact vectors are laid out as in [`crate::bem`].
 #[auto_impl::auto_impl(Box)]
@@ -17,8 +17,8 @@ pub trait ConvolutionHistory: Send {
     /// Prepares weights and memory for `steps` inputs in all.
     ///
     /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped) by the observer, and the history is as it was;
-    /// [`Error::Memory`](crate::Error::Memory) for more steps than memory is allowed for; if weights cannot be computed.
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer; [`Error::Memory`](crate::Error::Memory) if the steps
+    /// need more memory than allowed; if weights cannot be computed. The history is then unchanged.
     fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()>;
 
     /// Overwrites `displacement` with the history at the end of the next step.
@@ -27,16 +27,17 @@ pub trait ConvolutionHistory: Send {
     /// If the slice has the wrong length or a kernel cannot be evaluated.
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
+    /// Accepts the tractions (Pa) of the step that ends now: all components of all elements.
     fn push(&mut self, traction: &[f64]);
 
-    /// Bytes held in coefficients, tractions and scratch; zero (the default) if that is not known.
+    /// Bytes held in coefficients, tractions and scratch; zero (the default) if not known.
     fn memory(&self) -> usize {
         0
     }
 
-    /// Bound on what is wrong with the change of any element's history displacement over the next
-    /// step, m, for the tractions so far; zero (the default) for an exact history.
+    /// Upper bound of the error of any element's displacement increment due to past tractions, m.
+    ///
+    /// It holds for the next step and the tractions so far; zero (the default) for an exact history.
     fn increment_error_bound(&self) -> f64 {
         0.0
     }
@@ -49,12 +50,13 @@ pub trait ConvolutionHistory: Send {
         Err(CheckpointError::Unsupported { part: "convolution history" }.into())
     }
 
-    /// Goes back (or on) to where `steps` inputs had been accepted and [`save`] returned
-    /// `values`; all that follows is then the same to the last bit. Unchanged on an error.
+    /// Restores the state in which `steps` inputs had been accepted and [`save`] returned `values`.
+    ///
+    /// All later results are then the same to the last bit. The history is unchanged on an error.
     ///
     /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that cannot be those of `steps` inputs,
-    /// [`CheckpointError::Unsupported`] unless a history implements it.
+    /// [`CheckpointError::Corrupt`] for values that `steps` inputs cannot have given, [`CheckpointError::Unsupported`]
+    /// unless a history implements it.
     ///
     /// [`save`]: ConvolutionHistory::save
     fn restore(&mut self, _steps: usize, _values: &[f64]) -> Result<()> {
@@ -62,7 +64,7 @@ pub trait ConvolutionHistory: Send {
     }
 }
 
-/// Error unless `values` are `steps` inputs of `size` each.
+/// Returns an error unless `values` are `steps` inputs of `size` numbers each.
 pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<()> {
     if steps.checked_mul(size) == Some(values.len()) {
         Ok(())
@@ -71,17 +73,17 @@ pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<
     }
 }
 
-// The kernel of a convolution history: a ground's coefficients, lag by lag, and late ones as
-// exponentials.
+// The kernel of a convolution history: the ground's coefficients, lag by lag, and late coefficients as exponentials.
 
-/// Convolution weights Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
-/// one length.
+/// Convolution weights Gⁿ of a laterally homogeneous ground for a patch of elements.
 ///
-/// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the
-/// n-th step from there: n = 1 is the end of the step itself. What is under the patch may vary with depth,
-/// but not along the surface, and must be reciprocal: then only one pair of each of the
-/// [classes](PairClasses) has to be computed, and a pair's coefficients are those of its class times
-/// [`Pair::scale`](super::Pair::scale), the coupling also times [`Pair::sign`](super::Pair::sign):
+/// All steps have one length.
+///
+/// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the n-th step from there:
+/// n = 1 is the end of the step itself. The ground may vary with depth, but not along the surface, and must be
+/// reciprocal. Then only one pair of each [class](PairClasses) has to be computed. The coefficients of a pair are the
+/// coefficients of its class times [`Pair::scale`](super::Pair::scale), the coupling also times
+/// [`Pair::sign`](super::Pair::sign):
 ///
 /// | displacement | due to | coefficient |
 /// |---|---|---|
@@ -90,10 +92,9 @@ pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<
 /// | down | shear | sign · scale · coupling |
 /// | to the right | pressure | −sign · scale · coupling |
 ///
-/// All histories keep tables of their own, made of what [`ConvolutionWeights::coefficients`] gives, so that
-/// nothing here is called in a step unless memory has to grow. The same lag must always have the same bits,
-/// whatever else was asked for, in whatever order and on whatever thread: how a run is cut then
-/// changes nothing.
+/// A history stores tables of its own, made from [`ConvolutionWeights::coefficients`], so that a step calls nothing
+/// here unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then
+/// the division of a run into parts changes nothing.
 ///
 /// The example of [`WeightsGround`](crate::bem::WeightsGround) is a kernel in twenty lines.
 pub trait ConvolutionWeights: Send + Sync {
@@ -102,10 +103,9 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Computes the lags up to `lags` of all classes; nothing for a closed form (the default).
     ///
-    /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
-    /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as
-    /// N + 1 … 2N for powers of two. Convolutions ask for powers of two where the number of steps leaves
-    /// it open.
+    /// Histories call this often, so it must be cheap where all lags are ready. The bits of a lag must not depend on
+    /// `lags`: a kernel that computes lags in blocks takes fixed blocks, such as N + 1 … 2N for powers of two.
+    /// Histories request powers of two where the number of steps leaves a choice.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped) by the observer; if coefficients cannot be computed.
@@ -113,11 +113,12 @@ pub trait ConvolutionWeights: Send + Sync {
         Ok(())
     }
 
-    /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,
-    /// coupling) with the coefficients of `class` for the lags from `first_lag` (≥ 1) on, integrals
-    /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to
-    /// shear with the receiver to the right of the source. Lags that
-    /// were not [prepared](ConvolutionWeights::prepare) are computed now.
+    /// Overwrites `values` with the coefficients of `class` for the lags from `first_lag` (≥ 1) on.
+    ///
+    /// The slices have one length, one slice for each kind: normal, tangential, coupling. Coefficients are integrals
+    /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to shear with the
+    /// receiver to the right of the source. Lags that were not [prepared](ConvolutionWeights::prepare) are computed
+    /// now.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist,
@@ -130,9 +131,11 @@ pub trait ConvolutionWeights: Send + Sync {
         values: [&mut [f64]; KINDS],
     ) -> Result<()>;
 
-    /// Coefficients of cells of a lattice in plan, for kinds zz, xx, yy, xy, zx and zy, integrals over the receiver in
-    /// m³/Pa: zx is down due to shear along x with the receiver to the right of the source, zy down due to shear along
-    /// y with the receiver behind it, xy along one due to shear along the other with both.
+    /// Like [`ConvolutionWeights::coefficients`], for cells of a lattice in plan.
+    ///
+    /// Kinds are zz, xx, yy, xy, zx and zy, integrals over the receiver in m³/Pa. Of these, zx is down due to shear
+    /// along x with the receiver to the right of the source; zy is down due to shear along y with the receiver behind
+    /// the source; xy is along one axis due to shear along the other, with the receiver to the right and behind.
     ///
     /// # Errors
     /// [`Error::Scene`] for a kernel of strips (the default); as for [`ConvolutionWeights::coefficients`].
@@ -145,8 +148,10 @@ pub trait ConvolutionWeights: Send + Sync {
         Err(OTHER_KINDS)
     }
 
-    /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
-    /// default) if it never ends. If the weights become zero, older tractions need not be stored.
+    /// Last lag at which the coupling of `class` is not zero.
+    ///
+    /// It is 0 if the coupling is always zero, and `None` (the default) if it never ends. If the coupling ends,
+    /// histories need no table of it for later lags.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
@@ -154,25 +159,30 @@ pub trait ConvolutionWeights: Send + Sync {
         Ok(None)
     }
 
-    /// Late lags as sums of exponentials, which [`ExponentialHistory`](super::ExponentialHistory)
-    /// needs; `None` (the default) if there are none.
+    /// Late lags as sums of exponentials; `None` (the default) if there are none.
+    ///
+    /// [`ExponentialHistory`](super::ExponentialHistory) needs them.
     fn late_weights(&self) -> Option<&dyn LateWeights> {
         None
     }
 
-    /// Largest sum of the errors of late coefficients, relative to the sum of all; zero (the default) if they are
-    /// exact. It is the least [tolerance](super::HistoryOptions) at which late weights are left out.
+    /// Largest sum of the errors of late coefficients, relative to the sum of all coefficients.
+    ///
+    /// Zero (the default) if they are exact. It is the smallest [tolerance](super::HistoryOptions) at which late
+    /// weights are left out.
     fn late_error(&self) -> f64 {
         0.0
     }
 
-    /// Store of the spectra that histories of this kernel share; `None` (the default) if each makes its own. To be kept
-    /// beside the coefficients, shared by clones, and by nothing else.
+    /// Store of the spectra that histories of this kernel share; `None` (the default) for no store.
+    ///
+    /// Without a store each history makes spectra of its own. A kernel stores it with the coefficients, and only its
+    /// clones share it.
     fn spectra(&self) -> Option<&SharedSpectra> {
         None
     }
 
-    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the means of lag 1.
+    /// Overwrites `matrix` (square, row-major, m/Pa) with the means of lag 1.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length; as for
@@ -189,7 +199,7 @@ pub trait ConvolutionWeights: Send + Sync {
     }
 }
 
-/// Overwrites `matrix` with means by the coefficients of one lag.
+/// Overwrites `matrix` with element means, from the coefficients of one lag.
 fn scatter_first<const KINDS: usize>(
     classes: &PairClasses,
     matrix: &mut [f64],
@@ -224,7 +234,7 @@ pub(super) fn all_kinds(
     }
 }
 
-/// Error of coefficients that a kernel does not have.
+/// Error for a kind of coefficients that a kernel does not have.
 pub(crate) const OTHER_KINDS: Error = Error::Scene {
     quantity: "coefficients of a kernel",
     needed: "`coefficients` are those of strips, `coefficients_in_plan` those of mats in plan",
@@ -232,19 +242,21 @@ pub(crate) const OTHER_KINDS: Error = Error::Scene {
 
 /// A kernel whose late lags are sums of decaying exponentials.
 ///
-/// [`ExponentialHistory`](super::ExponentialHistory) compares what [`LateWeights::exponentials`] gives
-/// with the coefficients themselves, at single lags up to the horizon, and looks whether window and
-/// exponentials together are passive. So [`ConvolutionWeights::coefficients`] should be quick at any lag here.
+/// [`ExponentialHistory`](super::ExponentialHistory) compares these exponentials with the coefficients themselves, at
+/// single lags up to the horizon, and checks that window and exponentials together are passive. So
+/// [`ConvolutionWeights::coefficients`] should be quick at any lag here.
 pub trait LateWeights: Send + Sync {
-    /// The last lag that no exponentials can stand for. The coupling must have ended by then.
+    /// Last lag that exponentials cannot represent. The coupling must have ended by then.
     fn window(&self) -> usize;
 
-    /// Exponentials for the lags from `window` + 1 to `horizon`, `window` at least
-    /// [`LateWeights::window`], each within about `tolerance` of the largest of its lag. What they
-    /// reach is measured, and a smaller tolerance asked for where it is not enough.
+    /// Exponentials for the lags from `window` + 1 to `horizon`.
+    ///
+    /// `window` is at least [`LateWeights::window`]. The error of a coefficient should be about `tolerance` times the
+    /// largest coefficient of its lag. The caller measures the error, and calls again with a smaller tolerance if it is
+    /// too large.
     ///
     /// # Errors
-    /// If there are none.
+    /// If there are no such exponentials.
     fn exponentials(&self, window: usize, horizon: usize, tolerance: f64)
     -> Result<ExponentialSum>;
 }

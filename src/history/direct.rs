@@ -6,21 +6,21 @@ use super::convolution::{ConvolutionHistory, ConvolutionWeights, all_kinds, chec
 use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 
-/// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
+/// Number of steps summed together, so that tractions and coefficients stay in cache.
 const CHUNK: usize = 512;
 
-/// Direct summation of the history: the oracle for all others.
+/// Direct summation of the history: the reference for all other methods.
 ///
-/// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
-/// each contribution is one contiguous dot product.
+/// Coefficients are stored per pair *class* (on a uniform patch, per offset), reversed in time, so that each
+/// contribution is one contiguous dot product.
 pub struct DirectHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
-    /// Coefficients of each kind, class by class, that of lag n at the length less n; of the coupling only while it is
-    /// not zero.
+    /// Coefficients of each kind, class by class, reversed: lag n is the n-th from the end. The coupling is stored only
+    /// while it is not zero.
     kinds: Vec<Vec<Vec<f64>>>,
-    /// Per contact component: its value at every step.
+    /// Tractions of all steps, for each contact component.
     traction: Vec<Vec<f64>>,
     steps: usize,
     /// Memory allowed, bytes.
@@ -47,7 +47,7 @@ impl DirectHistory {
         self
     }
 
-    /// Makes lags up to `lags` available.
+    /// Stores the coefficients of the lags up to `lags`.
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
         let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
@@ -82,7 +82,7 @@ impl DirectHistory {
     }
 }
 
-/// Puts `next` (lags following those stored) in front of `stored`, reversed.
+/// Puts `next` (the lags that follow the stored ones) in front of `stored`, reversed.
 fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
     let mut grown = Vec::with_capacity(stored.len() + next.len());
     grown.extend(next.iter().rev());
@@ -123,7 +123,7 @@ impl ConvolutionHistory for DirectHistory {
         if past + 1 > self.capacity {
             self.grow(past + 1, &mut unobserved)?;
         }
-        // Input m (from 0) is seen with lag past + 1 − m.
+        // Input m (from 0) acts with lag past + 1 − m.
         for begin in (0..past).step_by(CHUNK) {
             let end = (begin + CHUNK).min(past);
             self.kernel.classes().each(|[receiver, source], pair, terms| {
@@ -151,7 +151,7 @@ impl ConvolutionHistory for DirectHistory {
         self.steps += 1;
     }
 
-    /// All tractions, step by step.
+    /// Returns all tractions, step by step.
     fn save(&self) -> Result<Vec<f64>> {
         Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
     }

@@ -2,39 +2,41 @@
 
 use crate::error::{Error, Result, finite, in_bounds, not_negative, same_length};
 
-/// Coefficients behind a window of W lags: at lag W + 1 + a, a = 0, 1, …, those of receiver p and
-/// source q (means, m/Pa) are
+/// Coefficients of the lags after a window of W lags, as a sum of exponentials.
+///
+/// At lag W + 1 + a, a = 0, 1, …, the coefficient of receiver p and source q (a mean, m/Pa) is
 ///
 /// ```math
 /// G_{pq} = l_q \sum_{ij} \varphi_i(p)\, \varphi_j(q) \sum_k w_{ijk}\, e^{-r_k a}
 /// ```
 ///
-/// with `φ_i(p)` the mean of function i over element p, one sum for the normal components and one for the
-/// tangential ones. There is no coupling between them.
+/// where `φ_i(p)` is the mean of function i over element p. There is one sum for the normal components and one for the
+/// tangential components, and no coupling between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExponentialSum {
-    /// Rates per step.
+    /// Decay rates, per step.
     pub(super) rates: Vec<f64>,
-    /// Per function: its means over the elements.
+    /// Means of each function over the elements.
     pub(super) functions: Vec<Vec<f64>>,
     pub(super) products: Vec<TailProduct>,
 }
 
-/// Product of a function of the traction with a function of the displacement, and the other way
-/// round.
+/// Product of a function of the traction and a function of the displacement, with its weights.
+///
+/// It stands for both orders of the two functions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TailProduct {
-    /// i and j of [`ExponentialSum`]; a product of different functions stands for both orders.
+    /// Numbers i and j of the functions in [`ExponentialSum`].
     pub functions: [usize; 2],
     /// Weights of the normal components, 1/(m Pa), for the first few rates.
     pub normal: Vec<f64>,
-    /// Weights of the tangential components, as many.
+    /// Weights of the tangential components, 1/(m Pa), as many as of the normal components.
     pub tangential: Vec<f64>,
 }
 
 impl ExponentialSum {
-    /// A tail of `rates` (per step, not negative), `functions` (their means over all elements) and
-    /// `products`.
+    /// Sum of exponentials with `rates` (per step, not negative) and `functions` (their means over all elements),
+    /// weighted by `products`.
     ///
     /// # Errors
     /// [`Error::Input`] for negative rates or numbers that are not finite, [`Error::Index`] for

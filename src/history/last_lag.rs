@@ -1,27 +1,28 @@
-//! Last lag that a kernel in plan needs, since the effect of a traction dies out.
+//! Last lag that counts of a kernel in plan: the effect of a traction dies out.
 
 use super::convolution::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
 use crate::geometry::SERIES;
 
-/// Shortest memory, lags.
+/// Smallest number of lags that are kept.
 const SHORTEST: usize = 64;
-/// Sum of the lags beyond 2M, relative to that of the lags M + 1 … 2M: coupling falls like n⁻³, all else faster.
+/// Sum of the lags beyond 2M, relative to the sum of the lags M + 1 … 2M: coupling falls like n⁻³, all else faster.
 const BEYOND: f64 = 1.0 / 3.0;
 
-/// Memory of a kernel that forgets.
+/// Lag after which the coefficients of a kernel are neglected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LastLag {
-    /// Last lag that counts, a power of two.
+    /// Last lag that is not neglected, a power of two.
     pub(super) lag: usize,
-    /// Most displacement of any element by all lags beyond, under tractions of at most 1 Pa, m/Pa.
+    /// Bound of the displacement neglected by dropping later lags, per pascal of traction, m/Pa.
     pub(super) rest: f64,
 }
 
 impl LastLag {
-    /// The least power of two beyond which all coefficients together are less than `tolerance` of all; `None` if that
-    /// is not seen in the lags up to `most`. It depends on nothing else, so that it is the same however far is looked.
-    /// The observer's parts are lags; the search ends with fewer of them where the last lag is found.
+    /// Smallest power of two after which the coefficients' sum is at most `tolerance` of the total.
+    ///
+    /// `None` if the lags up to `most` do not reach it. The lag found does not depend on `most`. The observer counts
+    /// lags; the search ends early where the last lag is found.
     pub(super) fn of(
         kernel: &dyn ConvolutionWeights,
         tolerance: f64,
@@ -32,7 +33,7 @@ impl LastLag {
         let area = lattice.pitch[0] * lattice.pitch[1];
         let offsets =
             || (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
-        // Per class and kind, Σ |G|.
+        // Σ |G| for each class and kind.
         let mut all = vec![[0.0; SERIES]; kernel.classes().count()];
         let mut lags = [(); SERIES].map(|()| vec![0.0; SHORTEST]);
         let mut done = 0;
@@ -53,7 +54,7 @@ impl LastLag {
                     }
                 }
             }
-            // The largest sum over a row of the matrix of a component's displacements.
+            // Largest sum over a matrix row, over the displacement components.
             let rows = |sums: &[[f64; SERIES]]| {
                 let mut rows = [0.0; 3];
                 for offset in offsets() {

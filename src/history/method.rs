@@ -1,11 +1,11 @@
 //! Methods by which a ground sums the effect of all past tractions.
 
-/// Convolution history of a ground: the method by which it sums the effect of all past tractions.
+/// Method by which a ground sums the effect of all past tractions.
 ///
-/// Q elements, N steps, C classes of pairs (Q on a uniform strip, about Q²/4 on a graded one), W
-/// the lags before the exponentials (on the half-plane, the power of two at or above the steps in
-/// which the Rayleigh wave crosses the patch three times), M the power of two at or above N; for a coupling that ends
-/// after few lags, as on the half-plane:
+/// The table counts Q elements, N steps and C classes of pairs (Q on a uniform strip, about Q²/4 on a graded one). W is
+/// the number of lags before the exponentials: on the half-plane, the power of two at or above the steps in which the
+/// Rayleigh wave crosses the patch three times. M is the power of two at or above N. The coupling ends after few lags,
+/// as on the half-plane:
 ///
 /// | | result | multiply–adds per step | bytes |
 /// |---|---|---|---|
@@ -14,8 +14,8 @@
 /// | relaxed transforms, wavenumbers | exact to rounding | 128 Q + log₂(N/32) (8 Q + 5 Q log₂ 2N) | (64 Q + 32) M |
 /// | exponentials | within a tolerance | as the transforms, with W for N, and about 3000 | as the transforms, with W for M, and 32 Q W |
 ///
-/// Wavenumbers take the place of pairs from eight equal elements on. A processor makes 4 to 7 of
-/// these multiply–adds in a nanosecond.
+/// From eight equal elements on, wavenumbers replace pairs. A processor makes 4 to 7 of these multiply–adds in a
+/// nanosecond.
 ///
 /// See [`RelaxedFftHistory`](super::RelaxedFftHistory) and
 /// [`ExponentialHistory`](super::ExponentialHistory) for more.
@@ -28,18 +28,17 @@ pub enum HistoryMethod {
     Direct,
     /// Transforms of blocks, [`RelaxedFftHistory`](super::RelaxedFftHistory).
     RelaxedFft,
-    /// A window of exact lags and a sum of exponentials,
-    /// [`ExponentialHistory`](super::ExponentialHistory): memory that does not grow, small
-    /// checkpoints. The kernel has to know its [late lags](super::ConvolutionWeights::late_weights).
+    /// A window of exact lags and a sum of exponentials, [`ExponentialHistory`](super::ExponentialHistory): memory that
+    /// does not grow, small checkpoints. The kernel must give its [late lags](super::ConvolutionWeights::late_weights).
     Exponentials,
     /// One of the above by one rule, whatever the number of steps:
     ///
-    /// * exponentials, on a half-plane under strips: within the tolerance of
-    ///   [`HistoryOptions`](super::HistoryOptions) or else 1e-12, which is rounding; unless the step is so short that
-    ///   they begin after 16 384 lags, or they would take more memory than is allowed, or are not accurate or passive;
+    /// * exponentials for a half-plane under strips, within the tolerance of [`HistoryOptions`](super::HistoryOptions)
+    ///   or else 1e-12, which is rounding; unless the step is so short that they begin after 16 384 lags, or they need
+    ///   more memory than allowed, or are not accurate or passive;
     /// * relaxed transforms otherwise, in plan up to the last lag that counts.
     ///
-    /// How a run is cut, and which number of steps is announced, changes no bit up to 2²⁰ steps.
+    /// The division of a run into parts, and the number of steps announced, change no bit up to 2²⁰ steps.
     #[default]
     Auto,
 }

@@ -12,9 +12,9 @@ use crate::error::{Result, memory};
 
 /// Sum of the late coefficients of a ground in plan that may be left out, relative to the sum of all.
 const NEGLECTED: f64 = 1e-8;
-/// Tolerance of exponentials that are not asked for: results change by rounding only.
+/// Tolerance of exponentials that the rule chooses: results change by rounding only.
 const ROUNDING: f64 = 1e-12;
-/// Longest window, lags, with which exponentials are chosen: the fit takes a few tenths of a second.
+/// Longest window, lags, with which the rule chooses exponentials: the fit takes a few tenths of a second.
 const LONGEST_WINDOW: usize = 1 << 14;
 
 /// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
@@ -39,14 +39,15 @@ pub struct HistoryOptions {
     ///
     /// Exponentials, which only the half-plane's closed form has, use it in place of 1e-12 ([`HistoryMethod::Auto`]) or
     /// 1e-10 ([`HistoryMethod::Exponentials`]). In plan, [`HistoryMethod::Auto`] drops late coefficients whose sum is
-    /// less than this part of the sum of all, once a run is twice as long as the others: 1e-8 unless given, or their
-    /// [error](ConvolutionWeights::late_error) if that is larger.
+    /// less than this fraction of the sum of all coefficients, in runs at least twice as long as the lags that remain.
+    /// Unless given, the fraction is 1e-8, or the [error](ConvolutionWeights::late_error) of late coefficients if that
+    /// is larger.
     pub tolerance: Option<f64>,
     /// Memory that the history may take, bytes; 1 GiB by default.
     ///
-    /// Steps that need more are [`Error::Memory`](crate::Error::Memory): when the number of steps becomes known
+    /// A run that needs more returns [`Error::Memory`](crate::Error::Memory) when its number of steps becomes known
     /// ([`expected_steps`](crate::coupled::SimulationBuilder::expected_steps), [`run`](crate::Simulation::run)), or
-    /// else before the first step that does not fit, which is not made. A checkpoint can go on with more.
+    /// else before the first step that does not fit. A checkpoint can be resumed with more memory.
     pub memory: usize,
 }
 
@@ -63,13 +64,13 @@ impl Default for HistoryOptions {
 }
 
 impl HistoryOptions {
-    /// The options, if the tolerance can be reached.
+    /// Returns the options, or an error if the tolerance cannot be reached.
     pub(crate) fn checked(self) -> Result<Self> {
         self.tolerance.map_or(Ok(0.0), ExponentialHistory::check_tolerance)?;
         Ok(self)
     }
 
-    /// Empty history of `weights` for `steps` steps in all; `None` if no end is known.
+    /// Makes an empty history of `weights` for `steps` steps in all; `None` if no end is known.
     pub(crate) fn history(
         self,
         weights: &Arc<dyn ConvolutionWeights>,

@@ -1,4 +1,4 @@
-//! Pairs of elements, in classes that share their coefficients.
+//! Classes of element pairs that share their coefficients.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -10,10 +10,10 @@ use crate::geometry::{
 };
 use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 
-/// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
+/// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const KINDS: usize = 3;
 
-/// Action of a component of the source's traction on a component of the receiver's displacement.
+/// Effect of one traction component of the source on one displacement component of the receiver.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
     /// Kind of coefficient.
@@ -24,27 +24,27 @@ pub(crate) struct Term {
     pub(crate) factor: f64,
 }
 
-/// Place of the coefficients of a pair of elements.
+/// Class of a pair of elements, with the factors of its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
     /// Class of pairs that the pair belongs to.
     pub class: usize,
-    /// 1/length of the receiver, 1/m: class coefficients are integrals over it, not means.
+    /// 1/length of the receiver, 1/m: coefficients of a class are integrals over the receiver, not means.
     pub scale: f64,
     /// Sign of the coupling between normal and tangential components: +1 for a receiver to the
     /// right of the source, −1 to the left, 0 for an element on itself.
     pub sign: f64,
 }
 
-/// Shortest element over the length of the patch: shorter ones could not be distinguished by class.
+/// Smallest element length relative to the patch: the classes of shorter elements could not be distinguished.
 const SHORTEST: f64 = 1e-8;
 
 /// Elements of a patch, and their pairs sorted into classes.
 ///
-/// On a laterally homogeneous ground (any layering, but no change from place to place) a pair's
-/// coefficients depend on the two lengths and the distance alone, and by reciprocity
-/// lₚ Gₚq = l_q G_qp. So pairs fall into classes: Q of them on a uniform strip, about Q²/4 on a graded
-/// one, instead of Q². Whoever writes a [`ConvolutionWeights`](super::ConvolutionWeights) computes one pair of each.
+/// On a laterally homogeneous ground (any layering, but no change from place to place) a pair's coefficients depend on
+/// the two lengths and the distance alone, and by reciprocity lₚ Gₚq = l_q G_qp. So the Q² pairs fall into classes: Q
+/// of them on a uniform strip, about Q²/4 on a graded one. A [`ConvolutionWeights`](super::ConvolutionWeights) computes
+/// one pair of each class.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -60,12 +60,12 @@ pub struct PairClasses {
     pairs: Vec<Pair>,
     /// Representative (source, receiver) of each class, the receiver on the right.
     representatives: Vec<[ContactElement; 2]>,
-    /// Elements that are cells of a lattice, column and row of each; no pairs are listed then.
+    /// Lattice of elements in plan, and the column and row of each; `pairs` is then empty.
     plan: Option<(Lattice, Vec<[usize; 2]>)>,
 }
 
 impl PairClasses {
-    /// Classes of the pairs of `elements` (left to right, not overlapping).
+    /// Sorts the pairs of `elements` (left to right, not overlapping) into classes.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for lengths not
@@ -82,7 +82,7 @@ impl PairClasses {
         for (p, receiver) in elements.iter().enumerate() {
             for (q, source) in elements.iter().enumerate() {
                 let (left, right) = if p < q { (receiver, source) } else { (source, receiver) };
-                // Rounding of the nodes must not split a class: 1e-12 of the patch is nothing.
+                // Rounding of the nodes must not split a class: differences of 1e-12 of the patch are ignored.
                 #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
                 let key = |length: f64| (length / span * 1e12).round() as i64;
                 let (a, b) = (key(left.length()), key(right.length()));
@@ -102,8 +102,9 @@ impl PairClasses {
         Ok(Self { elements, pairs, representatives, plan: None })
     }
 
-    /// Classes of the pairs of `cells` of a lattice in plan, by column and row: those of [`Lattice::classes`]. The
-    /// elements are their sides along x, for a lattice that begins at `left` (m).
+    /// Classes of the pairs of `cells` (column and row) of a lattice in plan: [`Lattice::classes`].
+    ///
+    /// The elements are the cells' sides along x, for a lattice that begins at `left` (m).
     ///
     /// # Errors
     /// As for [`check_count`].
@@ -123,12 +124,12 @@ impl PairClasses {
         self.plan.as_ref().map(|(lattice, cells)| (lattice, &cells[..]))
     }
 
-    /// Number of kinds of coefficients of a pair: those of a symmetric matrix, its diagonal first.
+    /// Number of kinds of coefficients of a pair: entries of a symmetric matrix, its diagonal first.
     pub(crate) fn kinds(&self) -> usize {
         if self.plan.is_some() { SERIES } else { KINDS }
     }
 
-    /// The elements, from left to right; cells in plan in their own order.
+    /// The elements, from left to right; cells in plan in the order given.
     pub fn elements(&self) -> &[ContactElement] {
         &self.elements
     }
@@ -191,8 +192,10 @@ impl PairClasses {
         }
     }
 
-    /// Overwrites `matrix` (row-major) with the coefficients of all pairs. `of_pair` returns those of a receiver and a
-    /// source, kind by kind, the coupling as if the receiver were on the right and away.
+    /// Overwrites `matrix` (row-major) with the coefficients of all pairs.
+    ///
+    /// `of_pair` returns the coefficients of a receiver and a source, kind by kind, the coupling as if the receiver
+    /// were to the right of the source and behind it.
     pub(crate) fn scatter<T, const KINDS: usize>(
         &self,
         matrix: &mut [T],
@@ -211,12 +214,13 @@ impl PairClasses {
         });
     }
 
-    /// Least eigenvalue of the Hermitian part of a symbol, given pair by pair as for
-    /// [`PairClasses::scatter`], over `own`, a size of each component of an element on itself, by class
-    /// and component; NaN if it is not finite.
+    /// Smallest eigenvalue of the Hermitian part of a symbol, normalised by `own`.
     ///
-    /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can give
-    /// energy away: by Parseval the work of any tractions is not negative if it is not, anywhere on |z| = 1.
+    /// `of_pair` gives the symbol as for [`PairClasses::scatter`]; `own` gives a size for each class and component of
+    /// an element on itself. NaN if the symbol is not finite.
+    ///
+    /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can create energy: by Parseval
+    /// the work of any tractions is not negative if this eigenvalue is not negative anywhere on |z| = 1.
     pub(crate) fn least_eigenvalue<T, const KINDS: usize>(
         &self,
         own: impl Fn(usize, usize) -> f64,
@@ -229,8 +233,9 @@ impl PairClasses {
         hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[least, _]| least)
     }
 
-    /// Whether that of a real symbol is above `bound`, by a factorisation that is much quicker; where it is near, it
-    /// may say no.
+    /// Whether the smallest eigenvalue of a real symbol is above `bound`.
+    ///
+    /// It uses a factorisation, much quicker than eigenvalues; close to `bound` it may return false.
     pub(crate) fn exceeds<const KINDS: usize>(
         &self,
         bound: f64,
@@ -243,7 +248,7 @@ impl PairClasses {
         matrix.iter().all(|value| value.is_finite()) && indefinite_pivot(&matrix, order).is_none()
     }
 
-    /// Matrix of a symbol with rows and columns over the roots of `own`.
+    /// Matrix of a symbol with rows and columns divided by the roots of `own`.
     fn scaled<T, const KINDS: usize>(
         &self,
         own: impl Fn(usize, usize) -> f64,
@@ -257,7 +262,7 @@ impl PairClasses {
         self.scatter(&mut matrix, of_pair);
         let scale = |place: usize| {
             let [component, element] = layout.origin(place);
-            // Of a lattice the first class is that of a cell on itself.
+            // The first class of a lattice is a cell on itself.
             let itself = self.pairs.get(element * (self.elements.len() + 1));
             1.0 / own(itself.map_or(0, |pair| pair.class), component).sqrt()
         };

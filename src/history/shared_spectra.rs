@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::geometry::ContactElement;
 
-/// Spectra and exponentials of convolution weights, shared by all histories of these weights.
+/// Store of spectra and exponentials that all histories of the same weights share.
 ///
-/// Clones are one and the same store. A [`ConvolutionWeights`](crate::history::ConvolutionWeights) keeps one beside
-/// its coefficients and shows it in [`spectra`](crate::history::ConvolutionWeights::spectra).
+/// All clones refer to one store. A [`ConvolutionWeights`](crate::history::ConvolutionWeights) holds it with its
+/// coefficients and returns it from [`spectra`](crate::history::ConvolutionWeights::spectra).
 #[derive(Clone, Default)]
 pub struct SharedSpectra {
     stores: Arc<Stores>,
@@ -16,7 +16,7 @@ pub struct SharedSpectra {
 
 #[derive(Default)]
 struct Stores {
-    /// Elements of the weights; set by the first history.
+    /// Elements of the weights; the first history sets them.
     elements: OnceLock<Vec<ContactElement>>,
     /// One store for each type of table.
     tables: Mutex<Vec<(TypeId, Arc<dyn Any + Send + Sync>)>>,
@@ -25,18 +25,18 @@ struct Stores {
 /// Tables of one type, in a store.
 pub(super) type Shared<T> = Arc<Mutex<T>>;
 
-/// Locks tables: other threads wait while one computes. After a panic, tables are complete or not there at all.
+/// Locks tables: other threads wait while one computes. Even after a panic, a table is complete or absent.
 pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
     tables.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl SharedSpectra {
-    /// Whether the store belongs to these elements; an empty store does from now on.
+    /// Whether the store belongs to these elements; an empty store belongs to them from now on.
     pub(super) fn are_of(&self, elements: &[ContactElement]) -> bool {
         self.stores.elements.get_or_init(|| elements.to_vec()) == elements
     }
 
-    /// Tables of type `T`; empty ones at first.
+    /// Returns the tables of type `T`, empty at first.
     pub(super) fn tables<T: Default + Send + 'static>(&self) -> Shared<T> {
         let mut tables = lock(&self.stores.tables);
         let own = tables.iter().find(|(of, _)| *of == TypeId::of::<T>());

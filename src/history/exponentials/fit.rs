@@ -8,32 +8,32 @@ use crate::error::{Error, Result};
 use crate::history::convolution::{ConvolutionWeights, LateWeights};
 use crate::history::shared_spectra::SharedSpectra;
 
-/// Error aimed at in the next attempt over that of the one before.
+/// Ratio of the error aimed at in an attempt to the error aimed at in the attempt before.
 const CLOSER: f64 = 0.2;
-/// Attempts before giving up: down to rounding from any tolerance.
+/// Largest number of attempts: enough to reach rounding from any tolerance.
 const ATTEMPTS: usize = 10;
 
-/// A fit as it was asked for.
+/// Window, horizon and tolerance of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Request {
-    /// Lags of the window.
+    /// Number of lags in the window.
     pub(super) lags: usize,
     pub(super) horizon: usize,
     pub(super) tolerance: f64,
 }
 
-/// Exponentials behind a window, empty, and what was measured of them.
+/// Exponentials for the lags after a window, without inputs, and their measured errors.
 #[derive(Debug)]
 pub(super) struct Fit {
     pub(super) request: Request,
     pub(super) tail: Tail,
     pub(super) accuracy: Measured,
-    /// Least eigenvalue of the operator's Hermitian part.
+    /// Smallest eigenvalue of the operator's Hermitian part.
     pub(super) margin: f64,
 }
 
 impl Fit {
-    /// The fewest exponentials that fit and are passive.
+    /// Fits the fewest exponentials that are accurate and passive.
     pub(super) fn new(
         kernel: &dyn ConvolutionWeights,
         late: &dyn LateWeights,
@@ -65,7 +65,7 @@ impl Fit {
     }
 }
 
-/// Exponentials behind a window, and the spectra of the window alone.
+/// A fit, and the spectra of its window alone.
 #[derive(Clone)]
 pub(super) struct Windowed {
     pub(super) fit: Arc<Fit>,

@@ -1,4 +1,4 @@
-//! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
+//! History of a window of exact lags and a sum of exponentials: its memory does not grow.
 
 mod fit;
 mod passivity;
@@ -16,44 +16,42 @@ use crate::error::{
     CheckpointError, Error, MemoryError, Observer, Result, Watch, require, same_length,
 };
 
-/// Longest window, lags: the step is so short that all of a run may lie in it.
+/// Longest window, lags: with a longer one the step is so short that the window may cover the whole run.
 const LONGEST_WINDOW: usize = 1_000_000;
-/// Tolerances that can be reached.
+/// Tolerances that a fit can reach.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
-/// Most bytes that are taken, unless given otherwise.
+/// Default memory limit, bytes.
 pub(super) const MEMORY: usize = 1 << 30;
 
-/// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
+/// Window of exact lags and a sum of exponentials for later lags: O(1) memory and time per step.
 ///
 /// The convolution weights of the lags 2 to W are used as they are, by the blocks of
-/// [`RelaxedFftHistory`](super::RelaxedFftHistory) up to length W; later ones are sums of decaying
-/// exponentials with a common set of poles, carried by a few functions over the patch. What is
-/// kept of all tractions before the last 2W are a few hundred numbers, however many steps there were.
+/// [`RelaxedFftHistory`](super::RelaxedFftHistory) up to length W. Later weights are sums of decaying exponentials in
+/// time with a common set of poles, and of a few functions over the patch in space. All tractions before the last 2W
+/// are stored as a few hundred numbers, whatever the number of steps.
 ///
-/// The kernel has to know its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when
-/// the Rayleigh wave has crossed the patch three times: only normal and tangential components are
-/// left, and these are integrals of decaying exponentials, which the trapezoidal rule in the
-/// logarithm of the rate turns into sums. In space Legendre polynomials over the patch carry them.
+/// The kernel must give its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when the
+/// Rayleigh wave has crossed the patch three times. By then only normal and tangential components are left. These are
+/// integrals of decaying exponentials, which the trapezoidal rule in the logarithm of the rate turns into sums. The
+/// functions in space are Legendre polynomials over the patch.
 ///
 /// # Accuracy
 ///
-/// Every coefficient is within `tolerance` of the exact one, relative to the largest coefficient of
-/// the same lag, up to a horizon: 2²⁰ steps, unless another one is given. The number of steps
-/// need not be known; beyond the horizon the relative error grows in proportion to the lag, as the
-/// slowest pole stays what it is. The error is measured against the exact coefficients when the
-/// history is made ([`ExponentialFit::error_bound`]), poles are put closer together until it is small enough, and
-/// what it can do to a run's energies is bounded in the energy balance
+/// Every coefficient is within `tolerance` of the exact one, relative to the largest coefficient of the same lag, up to
+/// a horizon: 2²⁰ steps, unless another horizon is given. The number of steps need not be known. Beyond the horizon the
+/// relative error grows in proportion to the lag, because the slowest pole stays the same. When the history is made,
+/// the error is measured against the exact coefficients ([`ExponentialFit::error_bound`]), and poles are put closer
+/// together until it is small enough. The energy balance gives a bound of its effect on a run's energies
 /// ([`EnergyBalance::soil_error_bound`](crate::coupled::EnergyBalance::soil_error_bound)).
 ///
 /// # Passivity
 ///
-/// The exact operator gives no energy away, and a fit that did could make a run unstable. When the
-/// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
-/// exponentials in closed form, is computed. If it is negative, more poles are taken, closer
-/// together, until it is not; a fit that stays active is [`Error::NotPassive`]. The
-/// discrete operator has plenty to spare ([`ExponentialFit::passivity_margin`]): a tenth or
-/// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
-/// incompressible soil, very short steps) need the additional poles.
+/// The exact operator creates no energy; a fit that creates energy could make a run unstable. When the history is made,
+/// the smallest eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1 is computed, window and exponentials in closed
+/// form. If it is negative, more poles, closer together, are tried; if none help, the error is [`Error::NotPassive`].
+/// The margin of the discrete operator is large ([`ExponentialFit::passivity_margin`]): about a tenth of the immediate
+/// displacement. Only coarse tolerances with windows of thousands of steps (nearly incompressible soil, very short
+/// steps) need the additional poles.
 pub struct ExponentialHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     fit: Arc<Fit>,
@@ -62,27 +60,30 @@ pub struct ExponentialHistory {
     /// The last 2W inputs, input m in slot m mod 2W.
     recent: Vec<f64>,
     steps: usize,
-    /// Whether the last input still has to be worked in.
+    /// Whether the effect of the last input still has to be added.
     pending: bool,
-    /// Largest Σ|τ| of any step so far, Pa.
+    /// Largest Σ|τ| in any step so far, Pa.
     largest: f64,
 }
 
-/// Fit of an [`ExponentialHistory`].
+/// Size, accuracy and passivity of the fit of an [`ExponentialHistory`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ExponentialFit {
-    /// Lags that are exact.
+    /// Number of exact lags.
     pub window: usize,
-    /// Exponentials that carry the rest.
+    /// Number of exponentials for later lags.
     pub poles: usize,
-    /// Functions over the patch that carry it in space.
+    /// Number of functions over the patch for later lags.
     pub functions: usize,
-    /// Largest error of any coefficient up to the horizon over the largest coefficient of its lag, measured when the
-    /// history was made; at most the tolerance given.
+    /// Largest error of any coefficient up to the horizon, relative to the largest coefficient of its lag.
+    ///
+    /// It is measured when the history is made, and is at most the tolerance given.
     pub error_bound: f64,
-    /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, over that of a displacement that comes at once
-    /// (G¹ alone, element by element): not negative.
+    /// Margin against the creation of energy, relative to the immediate displacement; not negative.
+    ///
+    /// It is the smallest eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, divided by the value for an
+    /// immediate displacement (G¹ alone, element by element).
     pub passivity_margin: f64,
 }
 
@@ -97,29 +98,30 @@ short_debug! {
 }
 
 impl ExponentialHistory {
-    /// Accuracy unless another one is given.
+    /// Default tolerance.
     pub(crate) const TOLERANCE: f64 = 1e-10;
-    /// Steps over which `tolerance` holds, unless others are given.
+    /// Default horizon: steps over which the tolerance holds.
     pub(crate) const HORIZON: usize = 1 << 20;
-    /// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
+    /// Longest horizon, steps: far below the limit of 64 bits, or as many as a shorter word can hold.
     pub(crate) const LONGEST: usize = match 1_usize.checked_shl(40) {
         Some(steps) => steps,
         None => usize::MAX >> 4,
     };
 
-    /// History of `kernel`, empty, with every coefficient within `tolerance` of the largest
-    /// one of its lag.
+    /// Makes an empty history of `kernel` with coefficients within `tolerance`.
+    ///
+    /// The error of a coefficient is relative to the largest coefficient of its lag.
     ///
     /// # Errors
-    /// [`Error::NoExponentials`] for a kernel without late lags, or whose coupling has not ended
-    /// before them; [`Error::Input`] for a tolerance not between 1e-12 and 1e-2; [`Error::Memory`] for a
-    /// time step so short that the window would take more than 1 GiB; [`Error::Accuracy`] if the tolerance was
-    /// not reached; [`Error::NotPassive`] if the fit gives energy away.
+    /// [`Error::NoExponentials`] for a kernel without late lags, or whose coupling has not ended before them;
+    /// [`Error::Input`] for a tolerance not between 1e-12 and 1e-2; [`Error::Memory`] for a time step so short that the
+    /// window would take more than 1 GiB; [`Error::Accuracy`] if the tolerance was not reached; [`Error::NotPassive`]
+    /// if the fit creates energy.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>, tolerance: f64) -> Result<Self> {
         Self::with_horizon(kernel, tolerance, Self::HORIZON)
     }
 
-    /// History of `kernel` with a `tolerance` that holds up to `horizon` steps.
+    /// Makes an empty history of `kernel` with a `tolerance` that holds up to `horizon` steps.
     ///
     /// # Errors
     /// As for [`ExponentialHistory::new`].
@@ -162,7 +164,7 @@ impl ExponentialHistory {
         let Windowed { fit, spectra } = if let Some(known) = known {
             known
         } else {
-            // Not while the store is locked: a kernel may work on several threads, which must not wait.
+            // The fit is made while the store is not locked: a kernel may work on several threads, which must not wait.
             let fit = Arc::new(Fit::new(&*kernel, late, request)?);
             match store.as_deref() {
                 Some(store) => keep(&mut lock(store), fit),
@@ -182,7 +184,7 @@ impl ExponentialHistory {
         })
     }
 
-    /// Fit of the coefficients: exact lags, exponentials, and their errors.
+    /// Describes the fit: exact lags, exponentials, and their errors.
     pub fn fit(&self) -> ExponentialFit {
         ExponentialFit {
             window: self.window(),
@@ -205,7 +207,7 @@ impl ExponentialHistory {
         self.fit.request.lags
     }
 
-    /// `tolerance` if it can be reached.
+    /// Returns `tolerance`, or an error if no fit can reach it.
     pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
         let fits = TOLERANCES.contains(&tolerance);
         require("tolerance of the history", tolerance, fits, "from 1e-12 to 1e-2")
@@ -215,27 +217,27 @@ impl ExponentialHistory {
         self.kernel.classes().layout().len()
     }
 
-    /// Place of input `m`.
+    /// Position of input `m` in `recent`.
     fn slot(&self, m: usize) -> std::ops::Range<usize> {
         let size = self.size();
         let slot = m % (2 * self.window());
         slot * size..(slot + 1) * size
     }
 
-    /// Inputs that outputs from `steps` on see through the window: from the beginning of a block on.
+    /// Inputs that the window needs for outputs from `steps` on: they begin with a block.
     fn kept(&self, steps: usize) -> std::ops::Range<usize> {
         let lags = self.window();
         (steps / lags * lags).saturating_sub(lags)..steps
     }
 
-    /// Works the last input in, so that the next output is complete.
+    /// Adds the effect of the last input, so that the next output is complete.
     fn settle(&mut self) {
         if std::mem::take(&mut self.pending) {
             self.window.work_in(self.steps);
         }
     }
 
-    /// Makes one step, without the window.
+    /// Accepts the input of one step, without the window.
     fn accept(&mut self, input: impl FnOnce(&mut [f64])) {
         let slot = self.slot(self.steps);
         let kept = &mut self.recent[slot];
@@ -246,7 +248,7 @@ impl ExponentialHistory {
         self.tail.advance(leaving.map(|slot| &self.recent[slot]));
     }
 
-    /// Puts the last inputs into the window.
+    /// Writes the last inputs into the window.
     fn refill(&mut self) {
         self.window.clear();
         let kept = self.kept(self.steps);
@@ -262,14 +264,14 @@ impl ExponentialHistory {
     }
 }
 
-/// Bytes of a window of `lags` with the inputs in it, and of the lags themselves while the exponentials are fitted.
+/// Bytes of a window of `lags` with its inputs, and of the coefficients during the fit.
 fn bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
     let classes = kernel.classes();
     let numbers = 4 * classes.elements().len() + 2 * classes.count();
     Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers) as f64 * lags as f64)
 }
 
-/// Lags of the window: a block of the transforms, since these take the time of all of it.
+/// Number of lags in the window: a whole block of the transforms, since any part of it takes as much time.
 fn window(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     let needed = "a million or fewer for a history by exponentials";
@@ -316,13 +318,13 @@ impl ConvolutionHistory for ExponentialHistory {
     }
 
     fn increment_error_bound(&self) -> f64 {
-        // Beyond the horizon the error may be as large as what is left of the coefficients.
+        // Beyond the horizon the error may be as large as the remaining coefficients.
         let Fit { request, accuracy, .. } = &*self.fit;
         let beyond = if self.steps > request.horizon { 2.0 * accuracy.last } else { 0.0 };
         (accuracy.increments + beyond) * self.largest
     }
 
-    /// Largest traction, the exponentials' state, and the last inputs.
+    /// Returns the largest traction, the exponentials' state, and the last inputs.
     fn save(&self) -> Result<Vec<f64>> {
         let mut values = vec![self.largest];
         values.extend(self.tail.state());

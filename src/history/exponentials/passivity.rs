@@ -1,11 +1,11 @@
-//! Window and exponentials: their accuracy, and whether together they can give energy away.
+//! Accuracy of exponentials behind a window, and whether both together can create energy.
 //!
 //! Over any run the work of tractions is Σ τ·L Δs, s = Ĝ τ. By Parseval it is never negative if
 //! H(ω) = Re[(1−ζ) L Ĝ(ζ)], ζ = e^(iω), has no negative eigenvalue at any ω; L Gⁿ is symmetric by
-//! reciprocity, so H is the Hermitian part. Near ω = 0 everything but a translation radiates like
-//! ω², so eigenvalues are taken over (1−cos ω) times the diagonal of L G¹, the coefficient of a
-//! displacement that comes at once. The window is a finite sum, and each pole a geometric series:
-//! nothing is cut off.
+//! reciprocity, so H is the Hermitian part. Near ω = 0 all motions but a translation radiate like
+//! ω², so eigenvalues are divided by (1−cos ω) times the diagonal of L G¹, the coefficient of an
+//! immediate displacement. The window is a finite sum, and each pole a geometric series, so no sum
+//! is truncated.
 
 use super::tail::{Measured, Tail};
 use crate::error::{Error, Observer, Result, unobserved};
@@ -17,19 +17,19 @@ use crate::history::shared_spectra::SharedSpectra;
 const PER_DECADE: f64 = 8.0;
 /// Equally spaced frequencies up to π.
 const EVEN: usize = 48;
-/// Lowest frequency over that of the horizon.
+/// Lowest frequency, relative to the frequency of the horizon.
 const LOWEST: f64 = 0.1;
-/// Order of H above which a third of the frequencies must do.
+/// Order of H above which only a third of the frequencies are tried.
 const LARGE: usize = 100;
 
-/// Least eigenvalue and where it is, radians per step.
+/// Smallest eigenvalue, and its frequency in radians per step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Margin {
     pub(super) least: f64,
     pub(super) frequency: f64,
 }
 
-/// Least eigenvalue of H/(1−cos ω), scaled by the diagonal of L G¹, over all frequencies tried.
+/// Smallest eigenvalue of H/(1−cos ω), scaled by the diagonal of L G¹, over all frequencies tried.
 pub(super) fn margin(
     kernel: &dyn ConvolutionWeights,
     lags: &Lags,
@@ -63,7 +63,7 @@ pub(super) fn margin(
     found
 }
 
-/// Least eigenvalue at one frequency.
+/// Smallest eigenvalue at one frequency.
 fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
     let window = lags.length();
@@ -87,15 +87,16 @@ fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f6
     })
 }
 
-// Error of the exponentials against the coefficients that they stand for, over the whole horizon.
+// Error of the exponentials against the exact coefficients, over the whole horizon.
 
-/// Lags checked per octave: about two per period of the trapezoidal rule's error, which goes up
-/// and down with ln t, at places that do not repeat.
+/// Lags checked per octave: about two per period of the trapezoidal rule's error, which oscillates
+/// with ln t, at phases that do not repeat.
 const PER_OCTAVE: f64 = 7.3;
-/// Classes of pairs checked; more are sampled evenly. The error is a polynomial in space.
+/// Number of pair classes checked; of more classes, an even sample. The error is a polynomial in
+/// space.
 const CLASSES: usize = 150;
 
-/// Errors at one lag and the next, and the largest coefficient, per component.
+/// Errors at one lag, their change to the next lag, and the largest coefficient.
 struct Sample {
     error: f64,
     change: f64,
@@ -104,7 +105,7 @@ struct Sample {
 }
 
 impl Measured {
-    /// Lags from `window` + 1 to `horizon`.
+    /// Measures the errors over the lags from `window` + 1 to `horizon`.
     pub(super) fn over(
         kernel: &dyn ConvolutionWeights,
         tail: &Tail,
@@ -169,15 +170,15 @@ impl Measured {
     }
 }
 
-// The window: lags that are used as they are.
+// The window: the exact lags.
 
 const COUPLING_LASTS: Error =
     Error::NoExponentials { needed: "a coupling that ends before the exponentials begin" };
 
-/// A kernel without the lags behind its window.
+/// A kernel whose coefficients are zero after its window.
 pub(super) struct Cut<'a> {
     pub(super) kernel: &'a dyn ConvolutionWeights,
-    /// The last lag that is left.
+    /// Last lag with coefficients.
     pub(super) lags: usize,
     pub(super) spectra: &'a SharedSpectra,
 }
@@ -215,16 +216,17 @@ impl ConvolutionWeights for Cut<'_> {
     }
 }
 
-/// Coefficients of lags 1 to W (those of lag 1 are no part of the history, but of the check for
-/// passivity).
+/// Coefficients of lags 1 to W.
+///
+/// Lag 1 does not belong to the history; the check for passivity needs it.
 #[derive(Debug, Clone)]
 pub(super) struct Lags {
-    /// Coefficients of each kind, class by class; of the coupling only while it is not zero.
+    /// Coefficients of each kind, class by class; the coupling only while it is not zero.
     pub(super) kinds: [Vec<Vec<f64>>; KINDS],
 }
 
 impl Lags {
-    /// Lags 1 to `window`.
+    /// Reads lags 1 to `window` of `kernel`.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, window: usize) -> Result<Self> {
         kernel.prepare(window, &mut unobserved)?;
         let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
@@ -260,7 +262,7 @@ mod tests {
         PatchKernel::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap().elements(), 0.2).unwrap()
     }
 
-    /// Tail that is `factor` times what it should be.
+    /// The correct tail times `factor`.
     fn tail(kernel: &PatchKernel, window: usize, factor: f64) -> Tail {
         let tail = kernel.exponentials(window, 1_000_000, 1e-9).unwrap();
         let mut products = tail.products.clone();

@@ -1,5 +1,5 @@
-//! Late lags as decaying exponentials in time and a few functions over the patch in space, and the
-//! tractions from before the window that they carry from step to step.
+//! Late lags as decaying exponentials in time and a few functions over the patch in space, with their state, which
+//! represents all tractions from before the window.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -8,10 +8,10 @@ use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::history::exponential_sum::{ExponentialSum, TailProduct};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
-/// Measured errors.
+/// Measured errors of exponentials.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Measured {
-    /// Largest error of any coefficient over the largest coefficient of the same lag.
+    /// Largest error of any coefficient, relative to the largest coefficient of the same lag.
     pub(super) relative: f64,
     /// Σ over lags of the largest change of an error from lag to lag, m/Pa.
     pub(super) increments: f64,
@@ -19,7 +19,7 @@ pub(crate) struct Measured {
     pub(super) last: f64,
 }
 
-/// An [`ExponentialSum`] and the state that it carries.
+/// An [`ExponentialSum`] and its state.
 #[derive(Debug, Clone)]
 pub(super) struct Tail {
     /// Lengths of the elements, m.
@@ -27,15 +27,15 @@ pub(super) struct Tail {
     data: ExponentialSum,
     /// e^(−rate), pole by pole.
     decay: Vec<f64>,
-    /// States of normal and tangential components, per function: Σ decay^age · moment, for the poles that have this
-    /// function.
+    /// States of normal and tangential components, for each function: Σ decay^age · moment, for the poles that have
+    /// this function.
     states: [Vec<Vec<f64>>; PLANE],
     moments: Vec<f64>,
     amplitudes: Vec<f64>,
 }
 
 impl Tail {
-    /// Tail without inputs.
+    /// Makes a tail without inputs.
     pub(super) fn new(data: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
         for means in &data.functions {
             same_length("means of a function", means.len(), elements.len())?;
@@ -62,12 +62,12 @@ impl Tail {
         self.decay.len()
     }
 
-    /// Functions over the patch.
+    /// Number of functions over the patch.
     pub(super) fn functions(&self) -> usize {
         self.moments.len()
     }
 
-    /// Numbers that are carried from step to step.
+    /// Number of values in the state.
     pub(super) fn state_length(&self) -> usize {
         self.states.iter().flatten().map(Vec::len).sum()
     }
@@ -79,7 +79,7 @@ impl Tail {
         (products + self.state_length() + functions + 2 * self.poles()) * size_of::<f64>()
     }
 
-    /// The state, to be saved.
+    /// Values of the state, to be saved.
     pub(super) fn state(&self) -> impl Iterator<Item = f64> {
         self.states.iter().flatten().flatten().copied()
     }
@@ -109,7 +109,7 @@ impl Tail {
         }
     }
 
-    /// Adds what the tail gives at the end of the next step.
+    /// Adds the displacement at the end of the next step.
     pub(super) fn add(&mut self, displacement: &mut [f64]) {
         let parts: [_; PLANE] =
             ContactLayout::new(PLANE, self.lengths.len()).split_mut(displacement);
@@ -124,8 +124,9 @@ impl Tail {
         }
     }
 
-    /// Σ weights · `factor` over the poles, for each function with each (functions × functions), of
-    /// normal and tangential components.
+    /// Σ weights · `factor` over the poles, for each pair of functions (functions × functions).
+    ///
+    /// First of the normal components, then of the tangential components.
     fn sum(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; PLANE] {
         let functions = self.functions();
         let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
@@ -165,7 +166,7 @@ impl Tail {
         })
     }
 
-    /// Integral over the receiver of the coefficient of a pair, from such sums.
+    /// Integral over the receiver of a pair's coefficient, from the sums of [`Tail::at_age`] or [`Tail::at_frequency`].
     pub(super) fn of_pair(&self, sum: &[f64], receiver: usize, source: usize) -> f64 {
         let area = self.lengths[receiver] * self.lengths[source];
         let functions = &self.data.functions;
@@ -181,7 +182,7 @@ impl Tail {
     }
 }
 
-/// A step of the states: they decay, and moments are added.
+/// Advances the states by a step: they decay, and moments are added.
 struct Advance<'a> {
     states: &'a mut [Vec<f64>],
     decay: &'a [f64],

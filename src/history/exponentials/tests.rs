@@ -4,7 +4,7 @@ use super::*;
 use crate::bem::{PatchKernel, Strip};
 use crate::soil::Soil;
 
-/// Two threads that find nothing and make the same fit end up with one.
+/// Two threads that make the same fit share the fit that is stored first.
 #[test]
 fn the_first_fit_is_everybodys() {
     let soil = Soil::new(1.0, 0.3, 1.0).unwrap();

@@ -1,4 +1,4 @@
-//! Coupling coefficients between elements, and those of short lags.
+//! Coefficients of short lags, and the blocks of inputs and outputs.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -10,10 +10,10 @@ use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows};
 
-/// Pairs of a patch and its coefficients over short delays.
+/// Pairs of a patch, with their coefficients of short lags.
 pub(super) struct Coefficients {
     pub(super) classes: PairClasses,
-    /// Per class: last d at which the coupling is not zero; the largest number if it never ends.
+    /// Last d at which the coupling of each class is not zero; the largest number if it never ends.
     reaches: Vec<usize>,
     /// Largest reach of all classes.
     pub(super) coupling_reach: usize,
@@ -21,12 +21,12 @@ pub(super) struct Coefficients {
     pub(super) couples_far: bool,
     /// Number of lags over which the coupling is summed directly.
     pub(super) coupling_direct: usize,
-    /// Tables of near lags, empty until they are needed.
+    /// Tables of short lags, empty until they are needed.
     pub(super) near: Arc<Tables>,
 }
 
 impl Coefficients {
-    /// Coefficients of `kernel`; a coupling that reaches no further than `direct` is summed.
+    /// Coefficients of `kernel`; a coupling that ends at `direct` or before is summed directly.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
         let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
@@ -40,12 +40,12 @@ impl Coefficients {
         Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, near })
     }
 
-    /// Values of d that the tables are made of.
+    /// Number of values of d in the tables.
     pub(super) fn length(&self) -> usize {
         LEAF.max(self.coupling_direct + 1)
     }
 
-    /// Adds the next class to `tables`; `values` may go on beyond [`Coefficients::length`].
+    /// Adds the next class to `tables`; `values` may be longer than [`Coefficients::length`].
     pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
         let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
         for ((table, values), end) in tables.iter_mut().zip(values).zip([LEAF, LEAF, reach + 1]) {
@@ -54,7 +54,7 @@ impl Coefficients {
     }
 }
 
-/// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to `coupled` of them.
+/// Adds the effect of input `now` to the other `ahead` outputs of its leaf, and its coupling to `coupled` outputs.
 pub(super) struct Scatter<'a> {
     pub(super) coefficients: &'a Coefficients,
     pub(super) rows: &'a mut [f64],
@@ -110,20 +110,22 @@ impl WithSimd for Scatter<'_> {
 
 // Blocks of inputs and outputs, over pairs of elements or over wavenumbers.
 
-/// Parts in which the making of spectra is watched.
+/// Number of parts in which the computation of spectra is observed.
 pub(super) const PARTS: usize = 100;
 
-/// Inputs and outputs so far, and how blocks of one give blocks of the other.
+/// Inputs and outputs so far, and the computation of blocks of outputs from blocks of inputs.
 pub(crate) trait Blocks: Send {
-    /// Steps for which there is room and for which all levels are ready. Where it is no power of
-    /// two, the outputs of the last blocks end with it, and are missing when it grows.
+    /// Number of steps for which memory and all levels are ready.
+    ///
+    /// If it is not a power of two, the outputs of the last blocks end there, and are missing when the capacity grows.
     fn capacity(&self) -> usize;
 
     /// Real numbers held.
     fn numbers(&self) -> usize;
 
-    /// Makes ready for at least `steps` steps; `watch` is notified in [`PARTS`]. Inputs and outputs stay as they are on
-    /// an error.
+    /// Makes the blocks ready for at least `steps` steps; `watch` is notified in [`PARTS`].
+    ///
+    /// Inputs and outputs are unchanged on an error.
     fn grow(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -131,9 +133,10 @@ pub(crate) trait Blocks: Send {
         watch: &mut Watch,
     ) -> Result<()>;
 
-    /// Makes ready for any number of steps, in memory that does not grow: no coefficient is other than zero beyond d =
-    /// `reach`, a leaf times a power of two; of a lattice none counts from there on. To be called before the first
-    /// step, in the place of [`Blocks::grow`], or where capacity is at most 2 `reach`.
+    /// Makes the blocks ready for any number of steps, in memory that does not grow.
+    ///
+    /// The coefficients after d = `reach`, a leaf times a power of two, must be zero; of a lattice they are ignored.
+    /// Call this before the first step, in place of [`Blocks::grow`], or while the capacity is at most 2 `reach`.
     fn bound(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -141,22 +144,22 @@ pub(crate) trait Blocks: Send {
         watch: &mut Watch,
     ) -> Result<()>;
 
-    /// Works the input of step `now` − 1 in, so that the output of `now` is complete.
+    /// Adds the effect of the input of step `now` − 1, so that the output of `now` is complete.
     fn work_in(&mut self, now: usize);
 
     /// Accepts the input of step `now`.
     fn write(&mut self, now: usize, traction: &[f64]);
 
-    /// Numbers in which the input of a step is kept.
+    /// Number of values that store the input of a step.
     fn width(&self) -> usize;
 
-    /// Appends what is kept of the input of `step`; inputs before `worked_in` were worked in.
+    /// Appends the stored input of `step`; the effects of inputs before `worked_in` have been added.
     fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>);
 
-    /// Accepts for step `now` what [`Blocks::input`] gave.
+    /// Accepts for step `now` an input returned by [`Blocks::input`].
     fn write_input(&mut self, now: usize, input: &[f64]);
 
-    /// Forgets all inputs and outputs.
+    /// Removes all inputs and outputs.
     fn clear(&mut self);
 
     /// Overwrites `displacement` with the output of step `now`.

@@ -1,5 +1,7 @@
-//! Equal elements on a lattice: their coefficients depend on the offset alone, so that a Fourier
-//! transform along the surface takes all pairs apart.
+//! Fourier transforms along the surface, for equal elements on a lattice.
+//!
+//! The coefficients of such elements depend on the offset alone, so that a transform along the surface replaces the
+//! sums over pairs.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -7,8 +9,8 @@
 //! | k | wavenumbers: 0 … S/2 along x; all along y |
 //! | ĝ | 𝓕 of the coefficients over the offset: i times a real number for what is odd in one axis, real otherwise |
 //!
-//! In plan the wavenumbers (kx, −ky) are mirror images: with the sign of what is along y changed, ĝ is that of (kx,
-//! ky).
+//! In plan the wavenumbers (kx, −ky) are mirror images of (kx, ky): ĝ is the same when the sign of the components along
+//! y is changed.
 
 use std::sync::Arc;
 
@@ -23,9 +25,9 @@ use crate::geometry::{Lattice as Plan, SERIES, SPACE};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 
-/// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs
-/// and by wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9.
-/// Below, the time is no gain, and rows take twice the memory.
+/// Smallest number of elements for which the transform along the surface is used. Measured, µs per step by pairs and by
+/// wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9. For fewer elements
+/// wavenumbers gain little time, and their rows take twice the memory.
 pub(super) const WAVES_FROM: usize = 8;
 
 /// Whether a history transforms along the surface, unless given otherwise.
@@ -35,15 +37,15 @@ pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
     classes.plan().is_some() || many && Lattice::of(classes).is_some()
 }
 
-/// Cells of the lattice per element, at most: gaps between strips are transformed too.
+/// Largest number of lattice cells per element: gaps between strips are transformed too.
 const EMPTY: usize = 2;
 
-/// Places of the elements, and the transforms along the surface.
+/// Cells of the elements, and the transforms along the surface.
 pub(super) struct Lattice {
-    /// Place of each element among the cells, row by row of S along x.
+    /// Cell of each element; cells are numbered row by row, S along x.
     cells: Vec<usize>,
     offsets: Offsets,
-    /// 1/size of the elements.
+    /// 1/length of an element in the plane, 1/area in plan.
     scale: f64,
     /// S along x and y; 1 along y in the plane.
     lengths: [usize; 2],
@@ -60,15 +62,15 @@ pub(super) struct Lattice {
     scratch: Vec<Complex<f64>>,
 }
 
-/// Classes of offsets.
+/// Class of each offset.
 enum Offsets {
-    /// Along a strip, where a pair has it.
+    /// Along a strip; `None` for an offset that no pair has.
     Strip(Vec<Option<usize>>),
     Plan(Plan),
 }
 
 impl Lattice {
-    /// The lattice of the elements; `None` if they are not on one, or one mostly empty.
+    /// The lattice of the elements; `None` if they are not on a lattice, or most of its cells are empty.
     pub(super) fn of(pairs: &PairClasses) -> Option<Self> {
         if let Some((lattice, cells)) = pairs.plan() {
             let lengths = lattice.counts.map(|count| smooth(2 * count - 1));
@@ -92,7 +94,7 @@ impl Lattice {
         let cell = |left: f64| ((left - first.left) / pitch).round() as usize;
         let cells: Vec<_> = elements.iter().map(|element| cell(element.left)).collect();
         let mut classes = vec![None; cells.last()? + 1];
-        // Pairs are in one class if they are equal but for rounding: offsets have to agree with it.
+        // Pairs of one class are equal except for rounding: all pairs of one offset must be in one class.
         let mut scales = pairs.pairs().iter().map(|pair| pair.scale);
         let scale = scales.next()?;
         if scales.any(|other| (other - scale).abs() > 1e-9 * scale) {
@@ -191,7 +193,7 @@ impl Lattice {
         debug_assert!(done.is_ok());
     }
 
-    /// 𝓕 of one value per element (missing ones count as zero) into real and imaginary parts.
+    /// Transforms one value per element (missing ones count as zero) to real and imaginary parts.
     pub(super) fn forward(&mut self, component: usize, values: &[f64], [re, im]: [&mut [f64]; 2]) {
         self.real.fill(0.0);
         for (&cell, &value) in self.cells.iter().zip(values) {
@@ -224,13 +226,12 @@ impl Lattice {
         }
     }
 
-    /// Overwrites one value per element from real and imaginary parts; means over the elements.
+    /// Transforms real and imaginary parts back to one mean per element.
     pub(super) fn inverse(&mut self, component: usize, parts: [&[f64]; 2], values: &mut [f64]) {
         self.back(component, parts, self.scale, values);
     }
 
-    /// Overwrites the values of which [`Lattice::forward`] made real and imaginary parts, times a
-    /// factor.
+    /// Transforms real and imaginary parts back to the values given to [`Lattice::forward`], times `factor`.
     pub(super) fn back(
         &mut self,
         component: usize,
@@ -263,7 +264,7 @@ impl Lattice {
                     *value = column[row];
                 }
             }
-            // Real up to rounding, and the inverse transform insists on it; S is even.
+            // These values are real up to rounding; the inverse transform requires exact zeros. S is even.
             (spectrum[0].im, spectrum[length / 2].im) = (0.0, 0.0);
             let done = inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(done.is_ok());
@@ -274,8 +275,10 @@ impl Lattice {
         }
     }
 
-    /// Hands out ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0: `accept` is given the kind, d, and one slice
-    /// over the wavenumbers; the coupling of strips is left out from d = `coupled` on.
+    /// Calls `accept` with ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0.
+    ///
+    /// Its arguments are the kind, d, and one slice over the wavenumbers. The coupling of strips is left out from d =
+    /// `coupled` on.
     pub(super) fn coefficients(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -293,7 +296,7 @@ impl Lattice {
         let mut values = vec![0.0; self.waves().all];
         for begin in (0..count).step_by(CHUNK) {
             let width = CHUNK.min(count - begin);
-            // The first weight is that of the step compliance, no part of the history.
+            // The first weight is the step compliance, which does not belong to the history.
             let skip = usize::from(begin == 0);
             for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };
@@ -328,8 +331,9 @@ impl Lattice {
     }
 }
 
-/// Place of a row of wavenumbers among the S along y, and the sign of a component there: after those with spectra come
-/// their images (kx, −ky), from the first on.
+/// Position of a row of wavenumbers among the S along y, and the sign of a component there.
+///
+/// The rows with spectra come first, then their images (kx, −ky), from the first that has an image on.
 fn place_across(row: usize, across: usize, component: usize) -> (usize, f64) {
     let own = across / 2 + 1;
     if row < own {

@@ -1,4 +1,4 @@
-//! Next output of a leaf from its inputs: one product per wavenumber, input and pair of components.
+//! Next output of a leaf from its inputs: one product for each wavenumber, input and pair of components.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -8,10 +8,10 @@ use crate::geometry::SPACE;
 use crate::history::pair_classes::KINDS;
 use crate::linalg::{Simd, WithSimd};
 
-/// Wavenumbers that are multiplied together.
+/// Number of wavenumbers multiplied together.
 const LANES: usize = 4;
 
-/// Sum over the inputs of a leaf so far, for its next output, of a strip.
+/// Sum over the inputs of a strip's leaf so far, for its next output.
 pub(super) struct StripLeaf<'a> {
     pub(super) sum: &'a mut [f64],
     pub(super) inputs: &'a [f64],
@@ -52,7 +52,7 @@ fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
     }
 }
 
-/// Adds products with coupling, which is i times a real number and of either sign.
+/// Adds products of all three kinds; the coupling is i times a real number, with opposite signs for the two components.
 #[inline(always)]
 fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     let waves = coefficients[0].len();
@@ -72,7 +72,7 @@ fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     }
 }
 
-/// Leaf of cells in plan.
+/// Sum over the inputs of a leaf of cells in plan, for its next output.
 pub(super) struct PlanLeaf<'a> {
     pub(super) sum: &'a mut [f64],
     pub(super) inputs: &'a [f64],
@@ -114,8 +114,9 @@ impl WithSimd for PlanLeaf<'_> {
     }
 }
 
-/// sum ← sum + ĝ · input for L wavenumbers from the `k`-th on, real and imaginary parts of each component. Pressure and
-/// shear couple by i times real numbers, and by −i.
+/// sum ← sum + ĝ · input for L wavenumbers from the `k`-th on, real and imaginary parts of each component.
+///
+/// The coupling of pressure and shear is a real number times i, in the other direction times −i.
 #[inline(always)]
 fn add_all<const L: usize>(
     k: usize,

@@ -1,4 +1,4 @@
-//! Blocks of one size: their transforms and tables, the spectra of the coefficients, rings of past blocks.
+//! Blocks of one size: their transforms, the spectra of their coefficients, and rings of past steps.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Steps that are summed directly before the smallest block is transformed. Measured with 10 and
-/// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
+/// Number of steps summed directly; the smallest block has this size. Measured with 10 and 14 elements: 16 takes as
+/// long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
 pub(crate) const LEAF: usize = 32;
-/// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
+/// Number of frequencies multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
 
 /// Effect of b inputs on the next b outputs: convolutions of length 2b.
@@ -20,8 +20,8 @@ pub(super) struct Level {
     pub(super) size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Spectra of each kind: of all classes, over 2b, b + 1 real parts, then as many imaginary ones, each; none where
-    /// the coupling has died out within smaller blocks.
+    /// Spectra over 2b of each kind and class: b + 1 real parts, then as many imaginary parts. The coupling has none if
+    /// it ends within smaller blocks.
     spectra: [Vec<f64>; KINDS],
 }
 
@@ -44,7 +44,7 @@ impl Work {
             + self.outputs.capacity()
     }
 
-    /// Scratch for the blocks of `level` with `components` transformed together, and for smaller.
+    /// Enlarges the scratch for blocks of `level` with `components` transformed together.
     pub(super) fn grow(&mut self, level: &Level, components: usize) {
         let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
         let zero = Complex::default();
@@ -57,25 +57,25 @@ impl Work {
     }
 }
 
-/// Components of the tractions, and those of the displacements that they move.
+/// Components of tractions and displacements that a product includes.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Components {
-    /// Pressure moves down, shear along.
+    /// Displacement down by pressure, and along by shear.
     Even,
-    /// Normal and tangential tractions each move the other component.
+    /// Displacement down by shear, and along by pressure.
     Coupling,
     /// All components.
     All,
 }
 
-/// Places of inputs and outputs, and the coupling between elements.
+/// Rows of inputs and outputs, and the pair classes of the elements.
 pub(super) struct Block<'a> {
     /// 2Q rows of inputs and outputs.
     pub(super) rows: &'a mut [f64],
     /// Length of a row.
     pub(super) stride: usize,
     pub(super) ring: Ring,
-    /// Inputs so far.
+    /// Number of inputs so far.
     pub(super) now: usize,
     pub(super) classes: &'a PairClasses,
 }
@@ -104,7 +104,7 @@ impl Level {
         }
     }
 
-    /// Adds the spectra of the next class, whose coefficients reach as far as 2b or further.
+    /// Adds the spectra of the next class, from at least 2b coefficients.
     pub(super) fn add_class(&mut self, values: &Class, couples: bool, work: &mut Work) {
         let count = if couples { KINDS } else { PLANE };
         for (values, stored) in values.iter().zip(&mut self.spectra).take(count) {
@@ -117,11 +117,11 @@ impl Level {
         }
     }
 
-    /// Adds what the last b inputs give to the next b outputs.
+    /// Adds the effect of the last b inputs to the next b outputs.
     pub(super) fn apply(&self, block: &mut Block<'_>, part: Components, work: &mut Work) {
         let count = block.classes.elements().len();
         if part == Components::Even {
-            // One component after the other, in half the scratch.
+            // One component after the other needs half the scratch.
             for kind in 0..PLANE {
                 self.apply_to(block, part, kind, [kind * count, count], work);
             }
@@ -130,7 +130,7 @@ impl Level {
         }
     }
 
-    /// [`Level::apply`] to rows from the `first` on; `kind` is theirs where it is one.
+    /// Does [`Level::apply`] for `components` rows from `first` on; `kind` is used if all have one kind.
     fn apply_to(
         &self,
         block: &mut Block<'_>,
@@ -155,7 +155,7 @@ impl Level {
             let scale = receiver.scale / (2 * size) as f64;
             let real = &mut work.real[..2 * size];
             let spectrum = &mut work.spectra[component * bins..][..bins];
-            // Real up to rounding, and the inverse transform insists on it.
+            // These values are real up to rounding; the inverse transform requires exact zeros.
             (spectrum[0].im, spectrum[size].im) = (0.0, 0.0);
             let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
             let done = self.inverse.process_with_scratch(spectrum, real, scratch);
@@ -168,7 +168,7 @@ impl Level {
         }
     }
 
-    /// Replaces the spectra of inputs by those of outputs, tile by tile.
+    /// Replaces the spectra of inputs by the spectra of outputs, tile by tile.
     fn multiply(
         &self,
         classes: &PairClasses,
@@ -242,7 +242,7 @@ fn transform(
     debug_assert!(done.is_ok());
 }
 
-/// Adds (or takes away) the product of two spectra, all as real parts before imaginary ones.
+/// Adds (or subtracts) the product of two spectra, stored as real parts, then imaginary parts.
 fn multiply_add<const PLUS: bool>(output: &mut [f64], factor: [&[f64]; 2], input: &[f64]) {
     vectorized(Product::<PLUS> { output, factor, input });
 }
@@ -283,22 +283,22 @@ impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
     }
 }
 
-// Rows whose places are used again.
+// Rings: rows whose places are used again.
 
-/// Places of steps in a row, which holds this many steps before places are used again.
+/// Number of steps that a row holds before its places are used again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ring(pub(super) usize);
 
 impl Ring {
-    /// Rows that hold all steps.
+    /// A row that holds all steps.
     pub(super) const ENDLESS: Self = Self(usize::MAX);
 
-    /// Place of a step.
+    /// Place of a step in its row.
     pub(super) fn place(self, step: usize) -> usize {
         if self.is_bounded() { step % self.0 } else { step }
     }
 
-    /// Places of the `size` steps before `now`, which are a block of their size.
+    /// Places of the block of `size` steps that ends before `now`.
     pub(super) fn before(self, now: usize, size: usize) -> std::ops::Range<usize> {
         let begin = self.place(now - size);
         begin..begin + size
@@ -315,7 +315,7 @@ impl Ring {
         if self.is_bounded() { number.min(levels - 1) } else { number }
     }
 
-    /// Places whose old inputs have to make room for outputs at `now`.
+    /// Places to be cleared for outputs from `now` on.
     pub(super) fn stale(self, now: usize) -> Option<std::ops::Range<usize>> {
         let half = self.0 / 2;
         let begins = self.is_bounded() && now.is_multiple_of(half);
@@ -323,7 +323,7 @@ impl Ring {
     }
 }
 
-/// `count` rows of the second stride, with what rows of the first hold.
+/// Copies `count` rows of the first stride into longer rows of the second stride.
 pub(super) fn widened<T: Copy + Default>(
     rows: &[T],
     count: usize,
@@ -338,14 +338,14 @@ pub(super) fn widened<T: Copy + Default>(
 
 // Wavenumbers of a lattice.
 
-/// Wavenumbers, and those that have spectra of their own: the others are mirror images.
+/// Numbers of wavenumbers; some have spectra, and the others are mirror images.
 #[derive(Clone, Copy)]
 pub(super) struct WaveNumbers {
-    /// All.
+    /// Number of all wavenumbers.
     pub(super) all: usize,
-    /// Wavenumbers with spectra, which come first.
+    /// Number of wavenumbers with spectra, which come first.
     pub(super) own: usize,
-    /// The first that has an image.
+    /// First wavenumber that has an image.
     pub(super) first: usize,
 }
 
@@ -355,7 +355,7 @@ impl WaveNumbers {
         if wave < self.own { wave } else { wave - self.own + self.first }
     }
 
-    /// Runs of wavenumbers, and the place of the spectrum that each begins with.
+    /// Ranges of wavenumbers, and the place of the first spectrum of each range.
     pub(super) fn runs(self) -> [(std::ops::Range<usize>, usize); 2] {
         [(0..self.own, 0), (self.own..self.all, self.first)]
     }
@@ -363,12 +363,12 @@ impl WaveNumbers {
 
 // Coefficients over short delays.
 //
-// Index d of a coefficient is the number of steps from the traction to the first step that sees it as history: lag d
-// + 1 of the kernel.
+// Index d of a coefficient counts the steps after the step of the traction. Lag d + 1 of the kernel belongs to it.
 
 /// Coefficients d = 0 … of one class, kind by kind.
 pub(super) type Class = [Vec<f64>; KINDS];
 
-/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1, the first of them zero;
-/// the coupling as long as it is not zero.
+/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1.
+///
+/// The first of them is zero. The coupling is stored as long as it is not zero.
 pub(crate) type Tables = [Vec<Vec<f64>>; KINDS];

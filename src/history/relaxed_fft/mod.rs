@@ -1,4 +1,4 @@
-//! The history by transforms of blocks: exact to rounding, O(log² N) per step.
+//! History by Fourier transforms of blocks: exact to rounding, O(log² N) per step.
 
 mod coefficients;
 mod lattice;
@@ -27,28 +27,27 @@ pub(crate) use crate::history::relaxed_fft::coefficients::Blocks;
 use crate::history::relaxed_fft::coefficients::PARTS;
 pub(crate) use crate::history::relaxed_fft::level::LEAF;
 
-/// Lags of a class whose spectra take the time of a sample of layered ground.
+/// Number of lags of one class whose spectra take as long as one sample of layered ground.
 const SPECTRA: usize = 8192;
 
-/// Relaxed blocked convolution: equal to [`DirectHistory`](super::DirectHistory) to rounding, for
-/// any number of steps not known in advance.
+/// Relaxed blocked convolution: equal to [`DirectHistory`](super::DirectHistory) within rounding.
 ///
-/// Time is cut into leaves of 32 steps. Within a leaf, pairs of input and output are summed as
-/// they are. After i steps, i a multiple of the leaf, let b be the leaf times the largest power of
-/// two with which b divides i: what the last b inputs give at the next b outputs is one
-/// convolution of length 2b, done by transforms (Hairer, Lubich & Schlichte 1985, SIAM J. Sci.
-/// Stat. Comput. 6, 532–541). Every pair of input and output is in exactly one such block, so
-/// nothing is left out and nothing approximated.
+/// The number of steps need not be known in advance.
 ///
-/// Each component is transformed once per block; products are summed over the sources in the
-/// frequency domain, with one spectrum per pair *class*: on a uniform patch Q offsets instead of
-/// Q² pairs. The coupling of normal and tangential components ends when the Rayleigh wave has
-/// crossed the patch: it is summed directly where that takes few steps, and otherwise by blocks no
-/// larger than its reach.
+/// Time is divided into leaves of 32 steps. Within a leaf, the effects of inputs on outputs are summed directly. After
+/// i steps, i a multiple of the leaf, let b be the leaf times the largest power of two with which b divides i. The
+/// effect of the last b inputs on the next b outputs is one convolution of length 2b, computed by transforms (Hairer,
+/// Lubich & Schlichte 1985, SIAM J. Sci. Stat. Comput. 6, 532–541). Every pair of input and output is in exactly one
+/// leaf or block, so the result is complete and exact.
 ///
-/// Equal elements on a lattice (a uniform strip, or several of one pitch) are transformed along the
-/// surface too, from 8 of them on: step by step, zero-padded, so that every wavenumber is a
-/// convolution in time by itself and no products over pairs are left.
+/// Each component is transformed once per block. Products are summed over the sources in the frequency domain, with one
+/// spectrum per pair *class*: on a uniform patch Q offsets instead of Q² pairs. The coupling of normal and tangential
+/// components ends when the Rayleigh wave has crossed the patch. A coupling of few steps is summed directly; a longer
+/// one by blocks that cover its length.
+///
+/// From 8 equal elements on a lattice (a uniform strip, or several of one pitch) on, each step is also transformed
+/// along the surface, zero-padded. Every wavenumber is then a separate convolution in time, without products over
+/// pairs.
 ///
 /// # Cost
 ///
@@ -62,35 +61,35 @@ const SPECTRA: usize = 8192;
 /// | tractions, bytes | 16 Q N | 16 Q M | 32 Q M |
 /// | scratch, bytes | none | 8 (Q + 2) M | 32 M |
 ///
-/// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
-/// transforms of length 2b.
+/// The cost of steps differs: the step that completes a block of b computes the whole block, 4Q transforms of length
+/// 2b.
 ///
-/// Convolutions of one kernel share its [spectra](ConvolutionWeights::spectra), where it keeps them: the first
-/// that needs them makes them, on whatever thread.
+/// Histories of one kernel share its [spectra](ConvolutionWeights::spectra), if it stores them: the first history that
+/// needs them computes them, on any thread.
 ///
-/// Memory grows by doubling when steps go on past [`prepare`](ConvolutionHistory::prepare), as far as
-/// [`memory_limit`](crate::memory_limit) allows; within it nothing is allocated. Results may differ in the last digits between processors, as the
+/// Memory is allocated by [`prepare`](ConvolutionHistory::prepare). If more steps follow, it doubles, as far as
+/// [`memory_limit`](crate::memory_limit) allows. Results may differ in the last digits between processors, as the
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn ConvolutionWeights>,
-    /// Blocks, made when they are first needed.
+    /// Blocks; `None` until they are needed.
     blocks: Option<Box<dyn Blocks>>,
-    /// Whether to transform along the surface: `None` where it pays.
+    /// Whether to transform along the surface; `None` to do so where it is faster.
     along_surface: Option<bool>,
     steps: usize,
-    /// Whether the last input still has to be worked in.
+    /// Whether the effect of the last input still has to be added.
     pending: bool,
-    /// Tractions with missing entries.
+    /// Scratch for tractions of which entries are missing.
     padded: Vec<f64>,
-    /// Why inputs could not be accepted.
+    /// Error because of which inputs could not be accepted.
     failed: Option<Error>,
     /// Memory allowed, bytes.
     memory: f64,
-    /// Sum of the coefficients that may be left out, relative to the sum of all.
+    /// Fraction of the coefficients' sum that may be left out.
     forgotten: Option<f64>,
-    /// Last lag of the memory, once known.
+    /// Last lag that counts, once known.
     end: Option<LastLag>,
-    /// Largest traction so far, Pa, where memory may end.
+    /// Largest traction so far, Pa; kept only if late lags may be left out.
     largest: f64,
 }
 
@@ -99,7 +98,7 @@ short_debug! {
 }
 
 impl RelaxedFftHistory {
-    /// History of `kernel`, empty.
+    /// Makes an empty history of `kernel`.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let padded = vec![0.0; kernel.classes().layout().len()];
         Self {
@@ -117,35 +116,40 @@ impl RelaxedFftHistory {
         }
     }
 
-    /// Sets whether to transform along the surface wherever elements are equal and on a lattice; without this call,
-    /// where it was measured to pay. To be called before the first step.
+    /// Sets whether to transform along the surface, where elements are equal and on a lattice.
+    ///
+    /// By default this is done where it was measured to be faster. Call this before the first step.
     #[must_use]
     pub fn with_surface_transform(mut self, wanted: bool) -> Self {
         self.along_surface = Some(wanted);
         self
     }
 
-    /// Limits the memory to `bytes`: more steps are [`Error::Memory`].
+    /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
     pub(super) fn within(mut self, bytes: usize) -> Self {
         self.memory = self.memory.min(bytes as f64);
         self
     }
 
-    /// Ends the memory in plan where all later coefficients together are less than `tolerance` of all.
+    /// Drops late lags in plan whose coefficients' sum is at most `tolerance` of the total.
     pub(super) fn forgetting(mut self, tolerance: f64) -> Self {
         self.forgotten = Some(tolerance);
         self
     }
 
-    /// First of the inputs that are kept of `steps`, in a memory that ends at lag `last`: all that blocks still need.
+    /// First input that is still stored after `steps` steps, if lags after `last` are dropped.
+    ///
+    /// Blocks need all inputs from this one on.
     fn first_kept(last: Option<usize>, steps: usize) -> usize {
         last.map_or(0, |last| (steps / last).saturating_sub(1) * last)
     }
 
-    /// Lags that blocks for `steps` steps need, a power of two; as many as fit where late ones may be left out.
+    /// Number of lags that blocks for `steps` steps need, a power of two.
+    ///
+    /// If late lags may be left out, at most as many as fit into memory.
     ///
     /// # Errors
-    /// [`Error::Memory`] for more than memory is allowed for.
+    /// [`Error::Memory`] for steps that need more memory than allowed.
     fn lags(&self, steps: usize) -> Result<usize> {
         let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX).max(1);
         let known = self.end.map_or(lags, |end| lags.min(2 * end.lag));
@@ -156,7 +160,7 @@ impl RelaxedFftHistory {
         Err(self.too_many(steps)?)
     }
 
-    /// Error of so many steps.
+    /// Error for a number of steps that need too much memory.
     fn too_many(&self, steps: usize) -> Result<Error> {
         Ok(Error::Memory(MemoryError {
             quantity: "steps of the convolution history",
@@ -168,7 +172,7 @@ impl RelaxedFftHistory {
         }))
     }
 
-    /// Makes ready for at least `steps` steps.
+    /// Makes blocks ready for at least `steps` steps, and returns them.
     fn grow(&mut self, steps: usize, watch: &mut Watch) -> Result<&mut dyn Blocks> {
         if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity()) && self.end.is_none()
         {
@@ -214,7 +218,7 @@ impl RelaxedFftHistory {
         Ok(&mut **blocks)
     }
 
-    /// Works the last input in, so that the next output is complete.
+    /// Adds the effect of the last input, so that the next output is complete.
     fn settle(&mut self) -> Result<&mut dyn Blocks> {
         let (now, pending) = (self.steps, self.pending);
         self.grow(now.saturating_add(1), &mut Watch::nobody())?;
@@ -232,7 +236,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps
     }
 
-    /// Computes weights and spectra, both with the observer.
+    /// Computes weights and spectra; the observer sees both.
     fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         let (kernel, lags) = (Arc::clone(&self.kernel), self.lags(steps)?);
         let spectra = lags.saturating_mul(kernel.classes().count()) / SPECTRA + 1;
@@ -242,7 +246,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
             observer(whole)
         };
         let weights = match self.forgotten.filter(|_| self.end.is_none()) {
-            // In plan, as far as the last lag that counts.
+            // In plan, up to the last lag that counts.
             Some(tolerance) => {
                 LastLag::of(&*kernel, tolerance, lags, &mut part).map(|end| self.end = end)
             }
@@ -275,7 +279,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         Ok(())
     }
 
-    /// Displacements of two steps by the lags that a memory leaves out once it has ended.
+    /// Bound of the displacements of two steps due to the dropped lags.
     fn increment_error_bound(&self) -> f64 {
         let ended = self.end.filter(|end| self.steps > end.lag);
         ended.map_or(0.0, |end| 2.0 * end.rest * self.largest)
@@ -307,7 +311,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps += 1;
     }
 
-    /// All inputs that count, step by step: what they give to coming steps is worked out again.
+    /// Returns all inputs that still count, step by step; `restore` computes their effects again.
     fn save(&self) -> Result<Vec<f64>> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
@@ -325,7 +329,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        // Before there is room for them: a damaged number of steps may ask for any amount.
+        // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
         let width = self.grow(1, &mut Watch::nobody())?.width();
         let corrupt = || CheckpointError::Corrupt { quantity: "memory of the history" };
         let (values, largest, last) = match (self.forgotten, values) {
@@ -340,7 +344,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let first = Self::first_kept(last, steps);
         check_inputs(steps - first, width, values)?;
         self.grow(steps, &mut Watch::nobody())?;
-        // Either history may not have looked as far as the last lag yet.
+        // In either history the last lag may not be known yet.
         let own = self.end.map(|end| end.lag);
         let own_first = Self::first_kept(own, steps);
         if own.zip(last).is_some_and(|(own, last)| own != last) || own_first < first {
@@ -355,8 +359,9 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 }
 
-/// Empty blocks for any number of steps, of a kernel with no coefficient beyond lag `reach`, a leaf
-/// times a power of two.
+/// Makes empty blocks for any number of steps, of a kernel without coefficients after lag `reach`.
+///
+/// `reach` is a leaf times a power of two.
 pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<Box<dyn Blocks>> {
     let classes = kernel.classes();
     let lattice = Lattice::of(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
@@ -368,7 +373,9 @@ pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<B
     Ok(blocks)
 }
 
-/// Goes through all steps again, from nothing before step `first` to where the last of `inputs` is still pending.
+/// Repeats the steps from `first` on with `inputs`, with no inputs before them.
+///
+/// The effect of the last input is still to be added.
 fn march(blocks: &mut dyn Blocks, first: usize, inputs: &[f64]) {
     for (ahead, input) in inputs.chunks_exact(blocks.width()).enumerate() {
         let now = first + ahead;

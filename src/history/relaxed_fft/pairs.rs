@@ -13,18 +13,18 @@ use crate::history::pair_classes::KINDS;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
-/// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
-/// it up to here; further on blocks are faster.
+/// Longest coupling, steps, that is summed directly. Up to here times hardly depend on it; for a longer coupling blocks
+/// are faster.
 const DIRECT_COUPLING: usize = 64;
 
-/// Rows begin at different places of a page: else equal places of all fall into one cache set.
+/// Rows begin at different places of a page; otherwise equal places of all rows fall into one cache set.
 const PAGE_OF_NUMBERS: usize = 512;
 const LINE_OF_NUMBERS: usize = 8;
 
-/// Steps of a leaf over pairs, all levels of blocks, and what has come in so far.
+/// Blocks over pairs of elements: the current leaf, all levels, inputs and outputs so far.
 pub(super) struct Pairs {
     coefficients: Coefficients,
-    /// Steps that are summed directly.
+    /// Blocks of each size, from the smallest on.
     levels: Vec<Arc<Level>>,
     planner: RealFftPlanner<f64>,
     work: Work,
@@ -32,17 +32,17 @@ pub(super) struct Pairs {
     rows: Vec<f64>,
     stride: usize,
     ring: Ring,
-    /// Steps for which there are rows and levels: the leaf times a power of two.
+    /// Number of steps for which there are rows and levels: the leaf times a power of two.
     capacity: usize,
 }
 
 impl Pairs {
-    /// Blocks of `kernel`, empty.
+    /// Makes empty blocks of `kernel`.
     pub(super) fn new(kernel: &dyn ConvolutionWeights) -> Result<Self> {
         Self::with_coupling(kernel, DIRECT_COUPLING)
     }
 
-    /// Blocks for rows whose places are used again: nothing may reach beyond a leaf but blocks.
+    /// Makes empty blocks for rows whose places are used again: no coupling beyond a leaf is summed directly.
     pub(super) fn bounded(kernel: &dyn ConvolutionWeights) -> Result<Self> {
         Self::with_coupling(kernel, 0)
     }
@@ -60,19 +60,20 @@ impl Pairs {
         })
     }
 
-    /// Q.
+    /// Number of elements, Q.
     fn elements(&self) -> usize {
         self.coefficients.classes.elements().len()
     }
 
-    /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
+    /// Whether blocks of `size` have spectra of the coupling: up to the first size that covers its reach.
     fn couples(&self, size: usize) -> bool {
         let coefficients = &self.coefficients;
         coefficients.couples_far && (size == LEAF || size / 2 < coefficients.coupling_reach)
     }
 
-    /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf unless
-    /// they are there: all of one evaluation of the kernel.
+    /// Makes the levels from `first` to the one before `end`, and the coefficients of a leaf unless they are there.
+    ///
+    /// The kernel is evaluated once for all of them.
     fn make(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -96,7 +97,7 @@ impl Pairs {
             let mut values: Class = [(); KINDS].map(|()| vec![0.0; length]);
             for class in 0..classes {
                 watch.reach(PARTS * class / classes)?;
-                // The first weight is that of the step compliance, no part of the history.
+                // The first weight is the step compliance, which does not belong to the history.
                 kernel.coefficients(class, 2, values.each_mut().map(|kind| &mut kind[1..]))?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
@@ -112,8 +113,9 @@ impl Pairs {
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
 
-    /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
-    /// they are there, with scratch for their blocks.
+    /// Takes the `wanted` smallest levels and a leaf's coefficients from the kernel's store, or makes them.
+    ///
+    /// Allocates scratch for their blocks.
     fn take_levels(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -122,7 +124,7 @@ impl Pairs {
         watch: &mut Watch,
     ) -> Result<()> {
         let count = self.elements();
-        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        // The kernel is prepared before the spectra are locked: it may work on several threads, which must not wait.
         kernel.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
         let spectra = kernel.spectra().filter(|s| s.are_of(kernel.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<Level, Tables>>);
@@ -166,7 +168,7 @@ impl Blocks for Pairs {
         let count = self.elements();
         let wanted = (capacity / LEAF).ilog2() as usize;
         self.take_levels(kernel, wanted, capacity, watch)?;
-        // Inputs reach past the end of the capacity only by a coupling that is summed directly.
+        // Only a coupling that is summed directly has outputs beyond the capacity.
         let needed = capacity + self.coefficients.coupling_direct;
         let stride = needed.next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
         self.rows = widened(&self.rows, 2 * count, [self.stride, stride]);

@@ -1,21 +1,21 @@
-//! Transforms along the surface of coefficients in plan, by their symmetry, and lengths of transforms.
+//! Transforms along the surface of coefficients in plan, by their symmetry.
 
 use crate::error::Result;
 use crate::geometry::{Lattice, SERIES};
 use crate::history::convolution::ConvolutionWeights;
 use crate::linalg::add_combined_rows;
 
-/// Lags that are evaluated together.
+/// Number of lags evaluated together.
 pub(super) const CHUNK: usize = 512;
 
-/// Wavenumbers of a lattice in plan, all and those with spectra.
+/// Number of wavenumbers of a lattice in plan: all, and only those with spectra.
 pub(crate) fn waves_in_plan(lattice: &Lattice) -> [usize; 2] {
     let [along, across] = lattice.counts.map(|count| smooth(2 * count - 1));
     [across, across / 2 + 1].map(|rows| (along / 2 + 1) * rows)
 }
 
-/// Hands out what [`Lattice::coefficients`](super::lattice::Lattice::coefficients) does, as products with cosines and
-/// sines along x and along y.
+/// Does [`Lattice::coefficients`](super::lattice::Lattice::coefficients) in plan, by products with cosines and sines
+/// along x and y.
 pub(super) fn coefficients_in_plan(
     lattice: &Lattice,
     lengths: [usize; 2],
@@ -25,7 +25,8 @@ pub(super) fn coefficients_in_plan(
 ) -> Result<()> {
     let [columns, rows] = lattice.counts;
     let own = lengths.map(|length| length / 2 + 1);
-    // Offset by offset, all wavenumbers: Σ over both signs of what is even, and that of what is odd over i.
+    // Factors of each offset and wavenumber: the sum over both signs of the offset, for an even function, and for an
+    // odd one divided by i.
     let waves = [0, 1].map(|axis| {
         let turn = std::f64::consts::TAU / lengths[axis] as f64;
         let angle = move |offset: usize, k: usize| turn * (offset * k % lengths[axis]) as f64;
@@ -65,7 +66,7 @@ pub(super) fn coefficients_in_plan(
             along.fill(0.0);
             both.fill(0.0);
             add_combined_rows(x, &table[..columns * rows * width], rows * width, 1.0, along);
-            // A part that is odd in both is i² times.
+            // A kind that is odd along both axes has the factor i².
             let sign = if odd == [true; 2] { -1.0 } else { 1.0 };
             let parts = along.chunks_exact(rows * width);
             for (part, sums) in parts.zip(both.chunks_exact_mut(own[1] * width)) {

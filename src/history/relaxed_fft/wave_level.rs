@@ -1,4 +1,4 @@
-//! Blocks of one size over the wavenumbers of a lattice, and spectra that grounds share.
+//! Blocks of one size over the wavenumbers of a lattice, and levels that histories share.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,33 +10,33 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-/// Kind of the coefficients by which a component of the tractions moves one of the displacements: of two and of three.
+/// Kind of the coefficient for each displacement (row) and traction (column): of two components, and of three.
 const KIND: [&[&[usize]]; 2] = [&[&[0, 2], &[2, 1]], &[&[0, 4, 5], &[4, 1, 3], &[5, 3, 2]]];
 
-/// Kinds of an N × N matrix.
+/// Kinds of the coefficients of N components.
 pub(super) fn kinds<const N: usize>() -> [[usize; N]; N] {
     let rows = KIND[usize::from(N == 3)];
     std::array::from_fn(|row| std::array::from_fn(|column| rows[row][column]))
 }
 
-/// The kind of a strip that ends.
+/// Kind that ends on a strip: the coupling.
 pub(super) const COUPLING: usize = 2;
 
-/// Per kind, d = 0 … leaf − 1 times the number of wavenumbers with spectra.
+/// Coefficients of a leaf, for each kind: d = 0 … leaf − 1, and in each the wavenumbers with spectra.
 pub(super) type Near = Vec<Vec<f64>>;
 
-/// Effect of b inputs on the next b outputs, for each wavenumber by itself: one wavenumber's blocks
-/// and spectra fit into cache.
+/// Effect of b inputs on the next b outputs, separately for each wavenumber.
+///
+/// The blocks and spectra of one wavenumber fit into cache.
 pub(super) struct WaveLevel {
     /// b.
     pub(super) size: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
     waves: WaveNumbers,
-    /// Kind by kind: per wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real
-    /// numbers in time, so that the others are conjugates; those of what couples pressure and shear
-    /// stand for i times them. That of a strip's coupling is empty where
-    /// it has died out within smaller blocks.
+    /// Spectra of each kind: for each wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real numbers
+    /// in time, so that the upper frequencies are conjugates. The coupling of pressure and shear is i times the stored
+    /// coefficients. A strip's coupling has no spectra if it ends within smaller blocks.
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
@@ -74,7 +74,7 @@ impl WaveLevel {
         !self.spectra[kind].is_empty()
     }
 
-    /// Keeps the coefficients of d, one per wavenumber, in the place of the spectra.
+    /// Stores the coefficients of d, one per wavenumber, in the memory of the spectra.
     pub(super) fn keep(&mut self, kind: usize, d: usize, values: &[f64]) {
         let rows = self.spectra[kind].chunks_exact_mut(self.size + 1);
         if d.is_multiple_of(2) {
@@ -84,7 +84,7 @@ impl WaveLevel {
         }
     }
 
-    /// Overwrites `time` with the coefficients that are kept of a wavenumber.
+    /// Overwrites `time` with the coefficients stored for a wavenumber.
     pub(super) fn kept(&self, kind: usize, wave: usize, time: &mut [f64]) {
         let row = &self.spectra[kind][wave * (self.size + 1)..][..self.size];
         for (pair, value) in time.chunks_exact_mut(2).zip(row) {
@@ -92,7 +92,7 @@ impl WaveLevel {
         }
     }
 
-    /// Transforms 2b coefficients, which are overwritten as well, to the spectrum.
+    /// Transforms 2b coefficients to the spectrum; overwrites `time` too.
     pub(super) fn transform(
         &mut self,
         kind: usize,
@@ -110,8 +110,9 @@ impl WaveLevel {
         debug_assert!(done.is_ok());
     }
 
-    /// Adds what the b inputs before `now` give to the b outputs from there on, in all rows: one
-    /// per wavenumber for the first component, then as many for each of the others.
+    /// Adds the effect of the b inputs before `now` to the b outputs from `now` on, in all rows.
+    ///
+    /// There is one row per wavenumber for the first component, then as many for each other component.
     pub(super) fn apply(
         &self,
         rows: &mut [Complex<f64>],
@@ -126,7 +127,7 @@ impl WaveLevel {
         let (before, begin) = (ring.before(now, size), ring.place(now));
         let ahead = begin..stride.min(begin + size);
         if part == Components::Even {
-            // One component at a time: the largest blocks are the coupling's, or half as many.
+            // One component at a time: the largest blocks need no more scratch than the blocks of the coupling.
             let block = &mut blocks[..2 * size];
             for (kind, rows) in rows.chunks_exact_mut(self.waves.all * stride).enumerate() {
                 for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
@@ -178,7 +179,7 @@ impl WaveLevel {
         }
     }
 
-    /// Transforms b inputs, as many zeros behind them.
+    /// Transforms b inputs, followed by as many zeros.
     fn take(
         &self,
         inputs: &[Complex<f64>],
@@ -190,7 +191,7 @@ impl WaveLevel {
         self.forward.process_with_scratch(block, scratch);
     }
 
-    /// Transforms back, and adds the later half to b outputs, or as many as there are.
+    /// Transforms back, and adds the second half to the outputs, at most b.
     fn give(
         &self,
         block: &mut [Complex<f64>],
@@ -205,7 +206,7 @@ impl WaveLevel {
     }
 }
 
-/// The upper frequencies of a spectrum whose lower ones are given, from the lowest of them on.
+/// The upper frequencies of a spectrum, in ascending order, from its lower ones.
 fn upper(lower: &[Complex<f64>]) -> impl Iterator<Item = Complex<f64>> {
     lower[1..lower.len() - 1].iter().rev().map(Complex::conj)
 }
@@ -233,8 +234,10 @@ fn times_i(value: Complex<f64>) -> Complex<f64> {
     Complex::new(-value.im, value.re)
 }
 
-/// Blocks of N components, multiplied by a Hermitian matrix: what couples the first with the others is i times the
-/// spectrum in its row, −i times in its column.
+/// Multiplies blocks of N components by a Hermitian matrix.
+///
+/// The factor between the first component and the others is i times the spectrum in the first row, −i times in the
+/// first column.
 fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Complex<f64>]; N]; N]) {
     let length = blocks.len() / N;
     let bins = length / 2 + 1;
@@ -248,7 +251,7 @@ fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Comple
     multiply_matrix::<N, true>(high, spectra);
 }
 
-/// The lower frequencies, or the upper ones.
+/// Multiplies the lower frequencies, or the upper ones.
 fn multiply_matrix<const N: usize, const UPPER: bool>(
     mut blocks: [&mut [Complex<f64>]; N],
     spectra: [[&[Complex<f64>]; N]; N],
@@ -288,8 +291,10 @@ impl<L, N> Default for Levels<L, N> {
 }
 
 impl<L, N: Default> Levels<L, N> {
-    /// The `wanted` smallest levels and the coefficients of a leaf: `make` makes the levels from one number to the
-    /// one before another, and the coefficients unless they are there.
+    /// Returns the `wanted` smallest levels and the coefficients of a leaf.
+    ///
+    /// `make` makes missing levels, from the first number given to the one before the second, and the coefficients if
+    /// they are missing.
     pub(super) fn take(
         &mut self,
         wanted: usize,

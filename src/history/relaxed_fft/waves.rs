@@ -1,5 +1,5 @@
-//! Blocks over the wavenumbers of a lattice: no pairs of elements are left, only one convolution in
-//! time per wavenumber and kind.
+//! Blocks over the wavenumbers of a lattice: one convolution in time for each wavenumber and kind, without pairs of
+//! elements.
 
 use std::sync::Arc;
 
@@ -20,26 +20,25 @@ use crate::linalg::vectorized;
 /// Numbers left free between the ends of rows, so that equal places of all rows do not fall into one cache set.
 const PADDING: usize = 4;
 
-/// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.
+/// Blocks over wavenumbers: the current leaf, all levels, inputs and outputs so far.
 ///
 /// Within a leaf, a step's contact vector over B wavenumbers is held as two slices of B for each component: real and
 /// imaginary parts.
 pub(super) struct Waves {
     lattice: Lattice,
-    /// Steps that are summed directly.
     /// Last d at which any coupling is not zero; the largest number if it never ends.
     reach: usize,
     near: Arc<Near>,
     levels: Vec<Arc<WaveLevel>>,
     planner: FftPlanner<f64>,
-    /// B rows of `stride` for each component: inputs before the present leaf, outputs as far as known from there on.
+    /// B rows of `stride` for each component: inputs before the present leaf, then outputs as far as known.
     rows: Vec<Complex<f64>>,
     stride: usize,
     ring: Ring,
     capacity: usize,
-    /// Last lag of a memory that ends.
+    /// Last lag that counts, if later lags are dropped.
     end: Option<usize>,
-    /// Inputs of this leaf, and what all earlier leaves give at its outputs.
+    /// Inputs of this leaf, and in `far` the effect of all earlier leaves on its outputs.
     inputs: Vec<f64>,
     far: Vec<f64>,
     sum: Vec<f64>,
@@ -49,7 +48,7 @@ pub(super) struct Waves {
 }
 
 impl Waves {
-    /// Blocks of elements on `lattice`, empty.
+    /// Makes empty blocks of elements on `lattice`.
     pub(super) fn new(lattice: Lattice, kernel: &dyn ConvolutionWeights) -> Result<Self> {
         let size = width(&lattice);
         Ok(Self {
@@ -71,13 +70,12 @@ impl Waves {
         })
     }
 
-    /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
+    /// Whether blocks of `size` have spectra of the coupling: up to the first size that covers its reach.
     fn couples(&self, size: usize) -> bool {
         self.reach > 0 && (size == LEAF || size / 2 < self.reach)
     }
 
-    /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf
-    /// unless they are there.
+    /// Makes the levels from `first` to the one before `end`, and the coefficients of a leaf unless they are there.
     fn make(
         &mut self,
         kernel: &dyn ConvolutionWeights,
@@ -148,7 +146,7 @@ impl Waves {
         Ok(table)
     }
 
-    /// Moves the leaf that ends before `now` to the rows, works it in, and takes up the next one.
+    /// Moves the leaf that ends before `now` to the rows, adds its effect, and begins the next leaf.
     fn turn(&mut self, now: usize) {
         let (waves, ring) = (self.lattice.waves().all, self.ring);
         let size = width(&self.lattice);
@@ -184,24 +182,25 @@ impl Waves {
         }
     }
 
-    /// Rows of `stride`, with what they hold.
+    /// Lengthens all rows to `stride`; their values are kept.
     fn widen(&mut self, stride: usize) {
         self.rows = widened(&self.rows, width(&self.lattice) / 2, [self.stride, stride]);
         self.stride = stride;
     }
 
-    /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
-    /// they are there, with scratch for their blocks.
+    /// Takes the `wanted` smallest levels and a leaf's coefficients from the kernel's store, or makes them.
+    ///
+    /// Allocates scratch for their blocks.
     fn take_levels(
         &mut self,
         kernel: &dyn ConvolutionWeights,
         wanted: usize,
         watch: &mut Watch,
     ) -> Result<()> {
-        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        // The kernel is prepared before the spectra are locked: it may work on several threads, which must not wait.
         let lags = LEAF << wanted;
         kernel.prepare(lags.min(self.end.unwrap_or(lags)), &mut unobserved)?;
-        // Where memory ends, spectra are not those of all lags.
+        // If late lags are dropped, the spectra do not include all lags, and the store is not used.
         let spectra = kernel.spectra().filter(|_| self.end.is_none());
         let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<WaveLevel, Near>>);
@@ -213,7 +212,7 @@ impl Waves {
             store.take(wanted, |range, near| self.make(kernel, range, near, watch))?;
         let zero = Complex::default();
         if let Some(level) = self.levels.last() {
-            // Where components couple, both are transformed before they are multiplied.
+            // Components with coupling are all transformed before they are multiplied.
             let coupled = self.levels.iter().rfind(|level| level.has(COUPLING));
             let coupled = coupled.map_or(0, |l| 2 * self.lattice.components() * l.size);
             let length = self.blocks.len().max(coupled).max(2 * level.size);
@@ -342,7 +341,7 @@ impl Blocks for Waves {
     }
 }
 
-/// Numbers of a step's contact vector over the wavenumbers of a lattice.
+/// Length of a step's contact vector over the wavenumbers of a lattice.
 fn width(lattice: &Lattice) -> usize {
     2 * lattice.components() * lattice.waves().all
 }

@@ -1,4 +1,5 @@
-//! The convolution over cells in plan by transforms, directly, and by a sum of one's own.
+//! Compares the convolution over cells in plan by transforms, by the direct sum, and by a sum
+//! written here.
 
 use std::sync::Arc;
 
@@ -9,7 +10,7 @@ use crate::error::Error;
 use crate::geometry::{Lattice as Plan, SERIES, offset};
 use crate::history::{ConvolutionHistory, DirectHistory, PairClasses, RelaxedFftHistory};
 
-/// Random coefficients that fade out, with the zeros that symmetry asks for.
+/// Random coefficients that decay, with the zeros that symmetry requires.
 struct Made {
     classes: PairClasses,
     lattice: Plan,
