@@ -14,11 +14,11 @@ use crate::soil::{Base, SoilProfile};
 /// Default tolerance of the wavenumber integrals.
 const TOLERANCE: f64 = 1e-10;
 
-/// A profile and how accurately it is stepped.
+/// Soil profile, with the accuracy of its convolution weights.
 #[derive(Debug, Clone)]
 pub(super) struct ElasticSource {
     pub(super) profile: SoilProfile,
-    /// Cells under mats, in place of strips.
+    /// Cells under mats; `None` for strips.
     pub(super) plan: Option<Plan>,
     pub(super) stages: Option<Stages>,
     pub(super) tolerance: f64,
@@ -32,7 +32,7 @@ impl ElasticSource {
         Ok(Self { profile, plan, stages: None, tolerance: TOLERANCE, file: None })
     }
 
-    /// The stages for steps of `time_step` seconds; `None` for the closed form.
+    /// Runge–Kutta stages for steps of `time_step` seconds; `None` for the closed form.
     pub(super) fn stages(&self, time_step: f64) -> Option<Stages> {
         let by_rule = || Stages::for_profile(&self.profile, time_step);
         let strips = self.plan.is_none();
@@ -101,7 +101,7 @@ impl WeightsSource for ElasticSource {
     fn identity(&self) -> Option<Vec<f64>> {
         let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
         let mut numbers = vec![stages, self.tolerance];
-        // Grounds with a file do not take their kernel from one without.
+        // A ground with a file does not share its kernel with a ground without a file.
         let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
         numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
         numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));

@@ -1,15 +1,14 @@
 //! Influence coefficients of boundary elements on an elastic half-plane, step by step.
 //!
-//! A unit traction acts on a source element during one time step; wanted is the mean displacement
-//! of a receiver element n step ends later. With `c_S` = μ = 1 and τ = t/|x|
+//! A unit traction acts on a source element during one time step. The coefficient is the mean displacement of a
+//! receiver element n step ends later. With `c_S` = μ = 1 and τ = t/|x|
 //!
 //! * G = 1/(π l) ∫∫ w(x) f(t/|x|)/|x| dt dx = 1/(π l) ∫ f(τ) A(τ) dτ
 //! * A(τ) = ∫ w(x) dx over t₀/τ < x < t₁/τ
 //!
-//! with l the length of the receiver, f the self-similar surface kernel (Cagniard–de Hoop; Achenbach 1973, ch. 7; Kausel 2006)
-//! and w the length of overlap of the two elements shifted by x. Every term of A is positive for
-//! separate elements, so nothing cancels; differences of the closed-form double primitive lose up
-//! to fourteen digits here.
+//! with l the length of the receiver, f the self-similar surface kernel (Cagniard–de Hoop; Achenbach 1973, ch. 7;
+//! Kausel 2006) and w the length of overlap of the two elements shifted by x. For separate elements every term of A is
+//! positive, so no digits are lost; differences of the closed-form double primitive lose up to fourteen digits here.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -72,7 +71,7 @@ impl InfluenceKernel {
         1.0 / (std::f64::consts::PI * self.modulus)
     }
 
-    /// Data of a pair of elements that do not depend on the lag.
+    /// Computes the data of a pair of elements that do not depend on the lag.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both elements have finite ends, the left one first.
@@ -102,8 +101,9 @@ impl InfluenceKernel {
         Ok(PairInfluence { kernel: self, overlap, moments })
     }
 
-    /// The coefficients of one lag, m/Pa: at lag n ≥ 1, mean displacements of the receiver at the end of the n-th
-    /// step when a unit traction acts on the source during the first.
+    /// Mean displacements of the receiver due to a unit traction on the source, m/Pa.
+    ///
+    /// At lag n ≥ 1 they are the displacements at the end of the n-th step, with the traction during the first step.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad element or lag 0.
@@ -123,7 +123,7 @@ impl InfluenceKernel {
 pub(super) struct PairInfluence<'a> {
     kernel: &'a InfluenceKernel,
     overlap: Overlap,
-    /// `M_k` over the 2k-th power of the largest offset.
+    /// `M_k` divided by the 2k-th power of the largest offset.
     moments: [f64; TERMS],
 }
 
@@ -163,7 +163,7 @@ impl PairInfluence<'_> {
         }
         let crossing = self.kernel.branches.arrival * self.overlap.farthest() / self.kernel.step;
         let mut lag = lag_from(crossing.floor());
-        // A lag too large for a count stays at the largest one.
+        // A lag too large for an integer stays at the largest integer.
         while lag < usize::MAX && self.couples((lag.saturating_sub(1)) as f64 * self.kernel.step) {
             lag += 1;
         }
@@ -176,7 +176,7 @@ impl PairInfluence<'_> {
         self.overlap.one_sided && begin < branches.arrival * self.overlap.farthest()
     }
 
-    /// Σ `c_k` `M_k` ∫ t^(−2k−1) dt, every factor without cancellation.
+    /// Σ `c_k` `M_k` ∫ t^(−2k−1) dt, each factor computed without cancellation.
     fn late(&self, begin: f64, end: f64) -> Surface {
         let kernel = self.kernel;
         let [zz, xx] = &kernel.late;
@@ -250,7 +250,7 @@ impl PairInfluence<'_> {
     }
 }
 
-/// A lag from a count that may be too large for one.
+/// Converts a count to a lag; a count that is too large becomes the largest integer.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn lag_from(count: f64) -> usize {
     // Float to integer casts saturate.

@@ -1,16 +1,16 @@
 //! Late lags of the half-plane as sums of decaying exponentials.
 //!
-//! Behind the Rayleigh wave the convolution weights are (see `PairInfluence`)
+//! After the Rayleigh wave has passed, the convolution weights are (see `PairInfluence`)
 //!
 //! * G = 1/(πμ) · (1/l) ∫∫ Σ `c_k` (ξ−η)^(2k) ∫ t^(−2k−1) dt dξ dη
 //! * t^(−2k−1) = 1/(2k)! ∫₀^∞ s^(2k) e^(−st) ds
 //! * G = 1/(πμ) ∫₀^∞ (e^(sδ)−1) e^(−s n δ) · (1/l) ∫∫ Φ(s(ξ−η)) dξ dη ds/s,
 //!   Φ(y) = Σ `c_k` y^(2k)/(2k)!
 //!
-//! The integral over u = ln s decays at both ends and is analytic in a strip, so that the
-//! trapezoidal rule converges exponentially in the reciprocal of its step (Beylkin & Monzón 2010,
-//! Appl. Comput. Harmon. Anal. 28, 131–149); its error is relative at every t and for every k.
-//! Φ is entire: a few Legendre polynomials over the patch carry it, the fewer the smaller s.
+//! The integral over u = ln s decays at both ends and is analytic in a strip, so that the trapezoidal rule converges
+//! exponentially in the reciprocal of its step (Beylkin & Monzón 2010, Appl. Comput. Harmon. Anal. 28, 131–149); its
+//! error is relative at every t and for every k. Φ is entire: a few Legendre polynomials over the patch represent it,
+//! fewer for a smaller s.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -27,21 +27,21 @@ use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, PairClasses, TailProduct};
 use crate::linalg::gauss;
 
-/// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
-/// the coefficients themselves are summed from the same series.
+/// Exponentials begin when the Rayleigh wave has crossed the patch this many times. After three, the coefficients
+/// themselves are summed from the same series.
 const CROSSINGS: f64 = 3.0;
-/// Number of poles that no tolerance needs.
+/// Limit of the number of poles; no tolerance needs so many.
 const MOST: f64 = 1e4;
-/// Polynomials that a pole may have.
+/// Largest number of polynomials of a pole.
 const DEGREES: usize = 24;
-/// Share of the tolerance for polynomials left out.
+/// Fraction of the tolerance reserved for neglected polynomials.
 const DROPPED: f64 = 0.05;
-/// Energy that neglected polynomials may take from slow motions, over that which a step
-/// radiates at once: far below what passivity has to spare.
+/// Largest energy that neglected polynomials take from slow motions, relative to the energy that a step radiates at
+/// once. It is far below the passivity margin.
 const DROPPED_ENERGY: f64 = 1e-4;
 
 impl LateWeights for PatchKernel {
-    /// Lags until the Rayleigh wave has crossed the patch three times.
+    /// Number of lags until the Rayleigh wave has crossed the patch three times.
     fn window(&self) -> usize {
         let InfluenceKernel { branches, step, .. } = &self.kernel;
         let lags = (CROSSINGS * branches.arrival * self.classes().span() / step).ceil();
@@ -61,15 +61,15 @@ impl LateWeights for PatchKernel {
     }
 }
 
-/// Poles for lags from `window` + 1 to `horizon`.
+/// Sum of exponentials for lags from `window` + 1 to `horizon`.
 fn tail(
     kernel: &InfluenceKernel,
     classes: &PairClasses,
     [window, horizon]: [f64; 2],
     tolerance: f64,
 ) -> Result<ExponentialSum> {
-    // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the Rayleigh wave
-    // included.
+    // The error of the trapezoidal rule is about e^(3−π²/h); this includes the narrowing of the analytic strip by the
+    // Rayleigh wave.
     let h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
     let InfluenceKernel { late: terms, step, .. } = kernel;
     let (unit, half) = (kernel.unit(), 0.5 * classes.span());
@@ -77,7 +77,7 @@ fn tail(
     let fastest = (1.5 * (5.0 - tolerance.ln()) / begin).ln();
     let slowest = (DROPPED * tolerance / (horizon * step)).ln();
     let count = ((fastest - slowest) / h).ceil();
-    // Infinite where the horizon is longer than any number.
+    // The count is infinite where the horizon exceeds the largest number.
     require(
         "number of exponentials",
         count,
@@ -99,7 +99,7 @@ fn tail(
             pole
         })
         .collect();
-    // A pole has all the degrees of slower ones, so that each degree has the first few poles.
+    // A pole has all the degrees of slower poles, so that each degree has the first few poles.
     for k in (1..poles.len()).rev() {
         poles[k - 1].degrees = poles[k - 1].degrees.max(poles[k].degrees);
     }
@@ -119,7 +119,7 @@ fn tail(
     ExponentialSum::new(rates, means(classes.elements(), degrees), products)
 }
 
-/// A rate and the Legendre coefficients of Φ that go with it.
+/// A rate, and the Legendre coefficients of Φ for it.
 struct Pole {
     s: f64,
     weight: f64,
@@ -129,7 +129,7 @@ struct Pole {
 }
 
 impl Pole {
-    /// `reach` is s times half of the patch.
+    /// Makes a pole; `reach` is s times half the length of the patch.
     fn new(
         terms: &[[f64; TERMS]; 2],
         differences: &[f64],
@@ -159,7 +159,7 @@ impl Pole {
         Self { s, weight, degrees: DEGREES, table }
     }
 
-    /// Keeps as few degrees as the rest, over that of t⁻¹ alone, is within both limits.
+    /// Keeps the fewest degrees for which the rest, relative to t⁻¹ alone, is within both limits.
     fn cut(&mut self, terms: &[[f64; TERMS]; 2], accuracy: f64, energy: f64) {
         let limit = accuracy.min(energy);
         let mut rest = [0.0; 2];
@@ -210,8 +210,9 @@ fn means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
     means
 }
 
-/// Legendre coefficients of (x−y)^(2k) in x and y, `DEGREES` × `DEGREES` for each k. Of the
-/// binomial's terms those with a coefficient are all of one sign: nothing cancels.
+/// Legendre coefficients of (x−y)^(2k) in x and y, `DEGREES` × `DEGREES` for each k.
+///
+/// All binomial terms that contribute to a coefficient have one sign, so no digits are lost.
 fn differences() -> Vec<f64> {
     let powers = monomials(2 * TERMS - 1);
     let mut tables = vec![0.0; TERMS * DEGREES * DEGREES];

@@ -1,14 +1,14 @@
-//! The soil under the base: patches of boundary elements and what the integrator needs of them.
+//! The soil under the base: boundary elements, and the trait through which the integrator uses them.
 //!
 //! # Contact vectors
 //!
-//! Slices called `traction` and `displacement` have 2Q entries for Q elements: first the Q normal
-//! components (pressure p, positive in compression, and displacement **down**), then the Q
-//! tangential ones (traction τ on the soil and displacement, positive to the right). They are
-//! means over the elements, from left to right.
+//! Slices called `traction` and `displacement` have 2Q entries for Q elements. The first Q are the normal components
+//! (pressure p, positive in compression; displacement, positive **down**). The other Q are the tangential components
+//! (traction τ on the soil and displacement, positive to the right). All are means over the elements, from left to
+//! right.
 //!
-//! A ground [in plan](Ground::in_plan) has three directions: its vectors have 3Q entries, down, along x (to the
-//! right) and along y (away from the reader). Its elements are rectangles, in any order.
+//! A ground [in plan](Ground::in_plan) has three directions. Its vectors have 3Q entries: down, along x (to the right)
+//! and along y (away from the reader). In plan, read 3Q for 2Q everywhere. Its elements are rectangles, in any order.
 
 mod elastic_ground;
 mod elastic_source;
@@ -45,23 +45,25 @@ use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// A soil as the time integrator sees it: implement this for a ground of your own.
+/// Soil under the base; implement this for a ground of your own.
 ///
-/// A ground responds with the mean displacement of every element at the end of a step, as the sum
-/// of a part by the step compliance (a matrix times the tractions of this step, which are constant over
-/// the step) and a history part (all earlier tractions). Tractions here are **changes** against
-/// the static state, and so are displacements.
+/// A ground returns the mean displacement of every element at the end of a step. It is the sum of the step compliance
+/// (a matrix) times the tractions of this step, which are constant over the step, and of the history, the effect of all
+/// earlier tractions. Tractions and displacements are **changes** from the static state.
 ///
-/// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) leads back to
-/// your own type, and what it has found or kept.
+/// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
 #[auto_impl::auto_impl(Box)]
 pub trait Ground: Any + Send {
-    /// The elements, from left to right, not overlapping; of a ground in plan their sides along x, in any order.
+    /// The elements, from left to right, not overlapping.
+    ///
+    /// In plan these are the elements' sides along x, in any order.
     fn elements(&self) -> &[ContactElement];
 
-    /// Place of an element in plan, of every element or of none; `None` (the default) in the plane.
+    /// Ends along y of an element in plan; `None` (the default) in the plane.
     ///
-    /// In plan elements move in three directions; forces, moments and energies are those of the whole body, in N, N m
+    /// A ground returns a place for every element or for none.
+    ///
+    /// In plan elements move in three directions, and forces, moments and energies refer to the whole body, in N, N m
     /// and J.
     fn in_plan(&self, _element: usize) -> Option<PlanElement> {
         None
@@ -69,13 +71,14 @@ pub trait Ground: Any + Send {
 
     /// Prepares for steps of `time_step` seconds, and clears all tractions.
     ///
-    /// `steps` is the number of steps in all, those so far included; `None` if no end is known. Weights are computed
-    /// and memory is allocated here. [`build`](crate::coupled::SimulationBuilder::build) calls it, and so does a run that
-    /// goes on beyond `steps`: before the first step, or with [`Ground::save`] before and [`Ground::restore`] after it.
+    /// `steps` is the total number of steps, including the steps so far; `None` if no end is known. Weights are
+    /// computed and memory is allocated here. [`build`](crate::coupled::SimulationBuilder::build) calls it, and so does
+    /// a run that goes on beyond `steps`: before the first step, or later with [`Ground::save`] before and
+    /// [`Ground::restore`] after the call.
     ///
     /// # Errors
-    /// If this ground cannot march with this step ([`Error::part`](crate::Error::part) makes an error of a ground of
-    /// your own) or so many steps; [`Error::Stopped`] by the observer. The ground is then as it was.
+    /// If this ground cannot take this time step or number of steps ([`Error::part`](crate::Error::part) makes an error
+    /// of a ground of your own); [`Error::Stopped`] by the observer. The ground is then unchanged.
     fn prepare(
         &mut self,
         time_step: f64,
@@ -83,37 +86,39 @@ pub trait Ground: Any + Send {
         observer: &mut Observer<'_>,
     ) -> Result<()>;
 
-    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the displacement at the end of a step
-    /// due to unit tractions during it. Symmetric when rows are weighted by element lengths if
-    /// the ground is an energy method; nothing here relies on it.
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with end-of-step displacements due to unit tractions.
+    ///
+    /// The tractions act during the step. If the ground is an energy method, the matrix is symmetric once rows are
+    /// multiplied by element lengths; the integrator does not rely on it.
     ///
     /// # Errors
     /// If the ground is not prepared or the slice has the wrong length.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
-    /// Overwrites `displacement` (2Q, m) with what all committed tractions give at the end of the
-    /// next step.
+    /// Overwrites `displacement` (2Q, m) with the effect of all committed tractions at the end of the next step.
     ///
     /// # Errors
     /// If the history cannot be evaluated.
     fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
+    /// Accepts the tractions (2Q, Pa) of the step that ends now.
     fn commit(&mut self, traction: &[f64]);
 
-    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit
-    /// tractions, up to a rigid settlement. Symmetric in the same sense, or not.
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with static displacements due to unit tractions.
+    ///
+    /// A rigid settlement may be added to all of them. The matrix need not be symmetric.
     ///
     /// # Errors
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
-    /// Static compliance, as [`Ground::static_compliance`], of the two halves of each element in its place; in plan of
-    /// its four quarters: left front, right front, left back, right back. `None` (the default) if it is not known: by
-    /// it `build` finds whether a flexible base needs more elements.
+    /// Static compliance of elements cut into halves, or in plan into quarters; `None` by default.
+    ///
+    /// The matrix is like [`Ground::static_compliance`], with the parts of each element in its place; in plan left
+    /// front, right front, left back, right back. `build` uses it to find whether a flexible base needs more elements.
     ///
     /// # Errors
-    /// If it cannot be computed.
+    /// If the matrix cannot be computed.
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         Ok(None)
     }
@@ -130,7 +135,7 @@ pub trait Ground: Any + Send {
         0.0
     }
 
-    /// All that the committed tractions have left behind, for [`Ground::restore`].
+    /// Saves the effect of the committed tractions on later steps, for [`Ground::restore`].
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`], unless a ground implements it.
@@ -138,8 +143,9 @@ pub trait Ground: Any + Send {
         Err(CheckpointError::Unsupported { part: "ground" }.into())
     }
 
-    /// Goes to where `steps` steps had been committed and [`Ground::save`] returned
-    /// `values`, all finite. Unchanged on an error.
+    /// Restores the state in which `steps` steps had been committed and [`Ground::save`] returned `values`.
+    ///
+    /// All values are finite. The ground is unchanged on an error.
     ///
     /// # Errors
     /// [`CheckpointError::Corrupt`] for values that cannot be a checkpoint of this ground,
@@ -148,8 +154,9 @@ pub trait Ground: Any + Send {
         Err(CheckpointError::Unsupported { part: "ground" }.into())
     }
 
-    /// Overwrites `displacement` (2Q or 3Q, m; normal components **down**) with the motion of the soil
-    /// without structure at `time`. The default samples `motion` at the element midpoints.
+    /// Overwrites `displacement` (2Q, m) with the soil's motion without structure at `time`.
+    ///
+    /// Normal components are positive **down**. The default evaluates `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let layout = ContactLayout::new(directions(self), self.elements().len());
         if layout.components() == SPACE {
@@ -173,35 +180,36 @@ pub trait Ground: Any + Send {
     }
 }
 
-/// Place of a contact element in plan: its ends along y, and its part inside the outline.
+/// Ends of a contact element along y, and the fraction of its area inside the outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanElement {
-    /// Front and back end along y, m.
+    /// Front and back end of the element along y, m.
     pub depth: [f64; 2],
-    /// Part of the area inside the outline of the mat, above 0 and at most 1.
+    /// Fraction of the area inside the outline of the mat, above 0 and at most 1.
     ///
-    /// Pressures, shear tractions and strengths of a simulation refer to it; tractions of a ground are those of the
-    /// whole element.
+    /// A simulation's pressures, shear tractions and strengths refer to the area inside; a ground's tractions refer to
+    /// the whole element.
     pub fraction_inside: f64,
 }
 
-/// Soil and history of a ground.
+/// Soil and history of a ground, for warnings and pages.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GroundDescription {
     /// Speed of shear waves near the surface, m/s, for the resolution of elements; `None` without waves.
     pub shear_wave_speed: Option<f64>,
-    /// Soils of the ground; a run warns of an unusual one:
+    /// Soils of the ground; a run warns of an unusual soil:
     /// [`Warning::UnusualSoil`](crate::coupled::Warning::UnusualSoil).
     pub soils: Vec<Soil>,
-    /// Numbers of cells in the sample whose passivity is checked, and of all; `None` if all are checked.
+    /// Number of cells whose passivity is checked, and of all cells; `None` if all are checked.
     ///
-    /// A run warns of a sample: [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
+    /// If only a sample is checked, a run warns:
+    /// [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
     pub sampled_cells: Option<[usize; 2]>,
     /// Convolution history; `None` without one.
     pub history: Option<HistoryChoice>,
 }
 
-/// Ends along y of an element in the plane, m: a metre of depth.
+/// Ends along y of an element in the plane, m: it is a metre deep.
 const METRE: [f64; 2] = [0.0, 1.0];
 
 /// Number of directions in which the elements of a ground move.
@@ -215,7 +223,7 @@ const NOT_PREPARED: Error = Error::Scene {
     needed: "`prepare` must be called with the time step first",
 };
 
-/// The elements of a ground, checked.
+/// Returns the elements of a ground, or an error if they are not valid.
 pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     let elements = ground.elements().to_vec();
     let places: Vec<_> = (0..elements.len()).map(|element| ground.in_plan(element)).collect();
@@ -230,23 +238,25 @@ pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
     Patch::new(directions(ground), elements, depths, inside.collect())
 }
 
-/// A soil that has convolution weights and a static compliance: all that
-/// [`WeightsGround`] needs.
+/// Soil with convolution weights and a static compliance, as [`WeightsGround`] needs it.
 pub trait WeightsSource: Any + Send {
-    /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`
-    /// seconds. They should be computed when coefficients are called for, not now: other grounds may be
-    /// waiting for the same kernel.
+    /// Convolution weights of `elements` (left to right, not overlapping) for steps of `time_step` seconds.
+    ///
+    /// Compute coefficients when they are requested, not in this call: other grounds may be waiting for the same
+    /// kernel.
     ///
     /// # Errors
-    /// If the soil has none for these elements or this step.
+    /// If the soil has no weights for these elements or this step.
     fn kernel(
         &self,
         elements: &[ContactElement],
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>>;
 
-    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa; 2Q numbers as in the module) with the
-    /// mean static displacements of the elements due to unit tractions, up to a rigid settlement.
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with static displacements due to unit tractions.
+    ///
+    /// Rows and columns are ordered as the [contact vectors](crate::bem). Displacements are means over the elements; a
+    /// rigid settlement may be added to all of them.
     ///
     /// # Errors
     /// If the slice has the wrong length.
@@ -257,9 +267,10 @@ pub trait WeightsSource: Any + Send {
         None
     }
 
-    /// Numbers that say which soil of its type it is, so that equal ones can share kernels
-    /// ([`SharedKernels`]): equal numbers must mean equal bits of all
-    /// coefficients. `None` (the default) if kernels are not to be shared.
+    /// Numbers that identify the soil among its type, so that equal soils share kernels; `None` by default.
+    ///
+    /// Equal numbers must mean equal bits of all coefficients. With `None`, [`SharedKernels`] shares no kernel of this
+    /// soil.
     fn identity(&self) -> Option<Vec<f64>> {
         None
     }

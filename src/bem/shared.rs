@@ -9,16 +9,16 @@ use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 
-/// Kernels kept, at most: the latest.
+/// Largest number of kernels stored: the ones used last.
 const KEPT: usize = 8;
 
-/// Coefficients, and spectra made of them, that grounds of one soil, mesh and time step share.
+/// Store of weights and spectra for grounds of one soil, mesh and time step.
 ///
 /// Grounds with clones of one store ([`ElasticGround::with_shared_kernels`],
 /// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and store them once. The
-/// store keeps the coefficients of the last eight different soils, meshes and steps. Results are the same to the last
-/// bit. [`WeightsSource::identity`] decides whether two soils are the same. A thread that needs weights another thread
-/// is computing waits for them. A source may take other coefficients from the same store while it computes its own.
+/// store holds the eight combinations of soil, mesh and step used last. Results are the same to the last bit.
+/// [`WeightsSource::identity`] decides whether two soils are the same. A thread that needs weights another thread is
+/// computing waits for them. A source may take other weights from the same store while it computes its own.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
@@ -47,19 +47,19 @@ pub struct SharedKernels {
 #[derive(Debug, Default)]
 struct Store {
     kernels: Mutex<Kernels>,
-    /// Tells those who wait that a kernel is there, or will not be.
+    /// Notifies waiting threads that a kernel is ready or has failed.
     ended: Condvar,
 }
 
 #[derive(Debug, Default)]
 struct Kernels {
     kept: Vec<Entry>,
-    /// Kernels that threads are making now, and those that others wait for.
+    /// Kernels that threads are computing now; in `waiting`, kernels that other threads wait for.
     being_made: Vec<(Arc<Key>, ThreadId)>,
     waiting: Vec<(Arc<Key>, ThreadId)>,
 }
 
-/// All that determines a kernel.
+/// Soil, time step and elements that determine a kernel.
 #[derive(Debug, PartialEq)]
 struct Key {
     source: TypeId,
@@ -80,7 +80,7 @@ impl Kernels {
         self.being_made.iter().find(|(other, _)| **other == *key).map(|(_, maker)| *maker)
     }
 
-    /// Whether `maker` is `thread`, or waits for it, through others or not.
+    /// Whether `maker` is `thread`, or waits for it directly or through other threads.
     fn leads_to(&self, mut maker: ThreadId, thread: ThreadId) -> bool {
         while maker != thread {
             let wanted = self.waiting.iter().find(|(_, waits)| *waits == maker);
@@ -93,7 +93,7 @@ impl Kernels {
     }
 }
 
-/// Kernel that is being made; whether it succeeds or fails, no thread waits for it after that.
+/// Kernel that is being computed; when dropped, ends the wait of other threads.
 struct Making<'a> {
     store: &'a SharedKernels,
     key: &'a Arc<Key>,
@@ -107,7 +107,7 @@ impl Drop for Making<'_> {
 }
 
 impl SharedKernels {
-    /// Number of kernels held.
+    /// Number of kernels stored.
     pub fn count(&self) -> usize {
         self.kernels().kept.len()
     }
@@ -116,7 +116,7 @@ impl SharedKernels {
         self.store.kernels.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The kernel of these elements, made now if it is not there or `source` has no identity.
+    /// Returns the kernel of these elements; makes it if it is not stored or `source` has no identity.
     pub(super) fn kernel(
         &self,
         source: &dyn WeightsSource,
@@ -134,7 +134,7 @@ impl SharedKernels {
         if let Some(kernel) = self.kept_or_begun(&key)? {
             return Ok(kernel);
         }
-        // The store stays open while the kernel is made: it may need others.
+        // The store is not locked while the kernel is made: the kernel may need other kernels.
         let making = Making { store: self, key: &key };
         let kernel = source.kernel(elements, time_step)?;
         let mut kernels = self.kernels();
@@ -147,13 +147,15 @@ impl SharedKernels {
         Ok(kernel)
     }
 
-    /// The kernel of `key` once no other thread is making it; none if it is for the caller to make.
+    /// Returns the stored kernel of `key`, after waiting for another thread that makes it.
+    ///
+    /// Returns none if the caller has to make it.
     fn kept_or_begun(&self, key: &Arc<Key>) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
         let own = thread::current().id();
         let mut kernels = self.kernels();
         loop {
             if let Some(place) = kernels.kept.iter().position(|entry| entry.key == *key) {
-                // The latest used is the last to go.
+                // The kernel used last is removed last.
                 let entry = kernels.kept.remove(place);
                 let kernel = Arc::clone(&entry.kernel);
                 kernels.kept.push(entry);

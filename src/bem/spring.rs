@@ -10,9 +10,8 @@ use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction,
-/// stepped by a θ rule: θ = ½ (the default) takes nothing from the springs' energy, θ = 1 damps the
-/// ringing that a bed without dashpots keeps after it was let go.
+/// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction, stepped by a θ rule: θ = ½ (the
+/// default) conserves the springs' energy, θ = 1 damps the ringing of a released bed without dashpots.
 ///
 /// ```
 /// use basemat::bem::{Ground, SpringGround};
@@ -26,11 +25,11 @@ use crate::structure::Structure;
 #[derive(Debug, Clone)]
 pub struct SpringGround {
     elements: Vec<ContactElement>,
-    /// Front and back end of each along y, m, in plan.
+    /// Front and back end of each element along y, m; only in plan.
     depths: Option<Vec<[f64; 2]>>,
     /// Stiffness downwards, along x and in plan along y, Pa/m.
     stiffness: [f64; SPACE],
-    /// Dashpots downwards, along x and in plan along y, Pa·s/m.
+    /// Dashpot coefficient downwards, along x and in plan along y, Pa·s/m.
     dashpot: [f64; SPACE],
     theta: f64,
     time_step: f64,
@@ -51,9 +50,10 @@ impl SpringGround {
         Self::on_strips(&[Strip::uniform(range, count)?], normal_stiffness, tangential_stiffness)
     }
 
-    /// Bed under each foundation of `structure`, as wide as that is, of `count` equal elements. Under a structure
-    /// with [faces](Structure::contact_faces) it is a bed [in plan](SpringGround::in_plan), with `count` cells along
-    /// the shorter side of them all, and the tangential stiffness in both directions.
+    /// Bed of `count` equal elements under each foundation of `structure`, as wide as the foundation.
+    ///
+    /// Under a structure with [faces](Structure::contact_faces) it is a bed [in plan](SpringGround::in_plan). It has
+    /// `count` cells along the shorter side of all faces together, and the tangential stiffness in both directions.
     ///
     /// # Errors
     /// As for [`Strip::under`] and [`SpringGround::new`], or [`Plan::on_faces`] and [`SpringGround::in_plan`].
@@ -86,8 +86,9 @@ impl SpringGround {
         Self::bed(elements, None, [normal_stiffness, tangential_stiffness, tangential_stiffness])
     }
 
-    /// Bed in three dimensions under the contact elements of a [`Plan`], with a `stiffness` (Pa/m) down, along x and
-    /// along y. Springs are independent of each other, so that cells end where the outline does
+    /// Bed in three dimensions under the contact elements of a [`Plan`].
+    ///
+    /// `stiffness` (Pa/m) is down, along x and along y. Springs do not interact, so cells end at the outline
     /// ([`Plan::without_overhang`]).
     ///
     /// ```
@@ -101,7 +102,7 @@ impl SpringGround {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero;
-    /// [`Error::Memory`](crate::Error::Memory) for more elements than matrices between them allow; as for
+    /// [`Error::Memory`](crate::Error::Memory) for more elements than their matrices allow; as for
     /// [`Plan::without_overhang`].
     pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
         let (elements, depths) = plan.without_overhang()?.sides();
@@ -129,7 +130,9 @@ impl SpringGround {
         })
     }
 
-    /// Adds dashpots (Pa·s/m) beside the springs, the tangential ones in both directions of a bed in plan.
+    /// Adds dashpots (Pa·s/m) parallel to the springs.
+    ///
+    /// In plan the tangential dashpots act in both directions.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both are finite and not below zero.
@@ -140,7 +143,7 @@ impl SpringGround {
         Ok(self)
     }
 
-    /// Replaces θ of the integration in time, from ½ to 1.
+    /// Sets θ of the time integration, from ½ to 1.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) outside this range.
@@ -149,7 +152,7 @@ impl SpringGround {
         Ok(self)
     }
 
-    /// Error before `prepare`: without a time step there is no impedance.
+    /// Returns an error before `prepare`: without a time step the impedance is not defined.
     fn check_prepared(&self) -> Result<()> {
         if self.time_step > 0.0 { Ok(()) } else { Err(NOT_PREPARED) }
     }
@@ -221,7 +224,7 @@ impl Ground for SpringGround {
         }
     }
 
-    /// The displacement at the end of the last step.
+    /// Returns the displacement at the end of the last step.
     fn save(&self) -> Result<Vec<f64>> {
         Ok(self.displacement.clone())
     }

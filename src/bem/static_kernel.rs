@@ -1,4 +1,4 @@
-//! Static influence coefficients of boundary elements, alone and in patches, on an elastic half-plane.
+//! Static influence coefficients of boundary elements on an elastic half-plane, and its convolution weights.
 
 use super::InfluenceKernel;
 use super::strip::Overlap;
@@ -20,8 +20,9 @@ pub(crate) struct StaticKernel {
 }
 
 impl StaticKernel {
-    /// Kernel of a soil; displacements vanish at the distance `reference` (L₀, m), which is free
-    /// because a half-plane has no static datum.
+    /// Kernel of a soil; displacements vanish at the distance `reference` (L₀, m).
+    ///
+    /// The distance can be chosen freely because a half-plane has no static datum.
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless the reference length is finite and above zero.
@@ -34,15 +35,16 @@ impl StaticKernel {
         })
     }
 
-    /// Kernel for grounds with `elements`, of which there must be some: the logarithm needs a length
-    /// that fixes the datum. One well above the patch keeps the static matrix positive definite, and
-    /// the settlement it stands for cancels in all results.
+    /// Kernel for `elements` (at least one), with a reference length well above the patch.
+    ///
+    /// The logarithm needs a length as datum. A long one keeps the static matrix positive definite, and the settlement
+    /// that it adds cancels in all results.
     pub(super) fn under(soil: Soil, elements: &[ContactElement]) -> Result<Self> {
         let span = elements[elements.len() - 1].right - elements[0].left;
         Self::new(soil, 10.0 * span)
     }
 
-    /// Mean displacement of the receiver per unit traction on the source, m/Pa.
+    /// Mean displacement of the receiver due to a unit traction on the source, m/Pa.
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless both elements have finite ends, the left one first.
@@ -85,7 +87,7 @@ impl StaticKernel {
         let length = high - low;
         let slope = (w1 - w0) / length;
         if low >= 0.5 * length {
-            // Away from the singularity the rule is exact to rounding, the primitives cancel.
+            // Away from the singularity the rule is exact to rounding, while differences of the primitives lose digits.
             let rule = gauss::largest();
             let mut sum = 0.0;
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
@@ -106,11 +108,11 @@ impl StaticKernel {
     }
 }
 
-// Convolution weights of the half-plane under a patch of elements, each kind of pair once.
+// Convolution weights of the half-plane for a patch of elements, one pair of each class.
 
-/// The [`ConvolutionWeights`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
+/// [`ConvolutionWeights`] of the half-plane for a patch of surface elements, in closed form.
 ///
-/// Its coupling ends when the Rayleigh wave has crossed a pair.
+/// The coupling of a pair ends when the Rayleigh wave has crossed it.
 #[derive(Debug, Clone)]
 pub struct PatchKernel {
     pub(super) kernel: InfluenceKernel,

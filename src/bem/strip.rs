@@ -13,9 +13,9 @@ use crate::structure::{FaceNode, Structure, foundation_nodes, from_the_left};
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Grading {
-    /// Equal lengths: cheapest history, first order.
+    /// Equal lengths: fastest history, convergence of first order.
     Uniform,
-    /// x = −cos(πk/Q): short elements at the ends, where tractions are singular. Second order.
+    /// x = −cos(πk/Q): short elements at the ends, where tractions are singular. Convergence of second order.
     #[default]
     Cosine,
 }
@@ -25,7 +25,7 @@ words! { pub(crate) Grading, "grading", {
     Cosine = "cosine",
 } }
 
-/// A foundation strip: an interval of the surface cut into elements.
+/// A foundation strip: an interval of the surface divided into elements.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -47,11 +47,11 @@ validated! {
 }
 
 impl Strip {
-    /// Strip over `range` (m) of `count` elements.
+    /// Strip over `range` (m) divided into `count` elements.
     ///
     /// # Errors
-    /// [`Error::Input`] for an empty or infinite range or no elements, [`Error::Memory`] for so many
-    /// that the matrices between them would not fit.
+    /// [`Error::Input`] for an empty or infinite range or no elements, [`Error::Memory`] for more elements than their
+    /// matrices allow.
     pub fn new(range: Range<f64>, count: usize, grading: Grading) -> Result<Self> {
         finite("left end of the strip", range.start)?;
         finite("right end of the strip", range.end)?;
@@ -62,7 +62,7 @@ impl Strip {
         let half = 0.5 * (range.end - range.start);
         let node = |k: usize| {
             let fraction = k as f64 / count as f64;
-            // sin of the distance from the middle keeps both halves mirror images to rounding.
+            // The sine of the distance from the middle keeps both halves mirror images to rounding.
             let place = match grading {
                 Grading::Uniform => 2.0 * fraction - 1.0,
                 Grading::Cosine => (std::f64::consts::PI * (fraction - 0.5)).sin(),
@@ -92,8 +92,10 @@ impl Strip {
         Self::new(range, count, Grading::Uniform)
     }
 
-    /// Strips of `count` elements under each foundation of `structure`, as wide as that is; of at least one element for
-    /// each segment of a flexible base, as between elements nothing but the structure holds its nodes.
+    /// Strips of `count` elements under each foundation of `structure`, as wide as the foundation.
+    ///
+    /// Under a flexible base a strip has at least one element for each segment, because only the structure holds nodes
+    /// between elements.
     ///
     /// ```
     /// use basemat::bem::{Grading, Strip};
@@ -107,7 +109,7 @@ impl Strip {
     /// ```
     ///
     /// # Errors
-    /// As for [`Strip::new`]; [`Error::Size`] or [`Error::Index`] for a structure without foundations.
+    /// As for [`Strip::new`]; [`Error::Size`] or [`Error::Index`] if the structure has no foundations.
     pub fn under(structure: &dyn Structure, count: usize, grading: Grading) -> Result<Vec<Self>> {
         let nodes = structure.contact_nodes();
         let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
@@ -152,17 +154,17 @@ impl Strip {
     }
 }
 
-/// Allows one strip where several may be given.
+/// Lets a single strip be passed where several are accepted.
 impl AsRef<[Strip]> for Strip {
     fn as_ref(&self) -> &[Strip] {
         std::slice::from_ref(self)
     }
 }
 
-// Geometry of a pair of elements: the length of overlap at every offset, and its integrals over
-// the offsets that a wave of given slowness covers during a step.
+// Geometry of a pair of elements: the length of overlap at every offset, and its integral over the offsets that a wave
+// of given slowness passes during a step.
 
-/// Overlap lengths w(x) of a receiver element and a source element shifted by x, folded to x ≥ 0.
+/// Overlap lengths w(x) of a receiver and a source shifted by x, folded to x ≥ 0.
 ///
 /// Both foldings are linear between `nodes`.
 #[derive(Debug, Clone)]
@@ -179,7 +181,7 @@ pub(crate) struct Overlap {
     pub(crate) one_sided: bool,
 }
 
-/// An element with finite ends, the left one first.
+/// Returns the element if its ends are finite and the left end comes first.
 fn checked(element: ContactElement) -> Result<ContactElement> {
     finite("left end of an element", element.left)?;
     finite("right end of an element", element.right)?;
@@ -201,7 +203,7 @@ impl Overlap {
             nodes.push(0.0);
         }
         nodes.sort_by(f64::total_cmp);
-        // Nodes that differ by rounding of the coordinates are one node.
+        // Nodes that differ only by rounding of the coordinates are one node.
         nodes.dedup_by(|next, kept| *next - *kept <= close);
         let fold = |sign: f64| nodes.iter().map(|&x| width(x) + sign * width(-x)).collect();
         let (even, odd): (Vec<f64>, Vec<f64>) = (fold(1.0), fold(-1.0));
@@ -219,7 +221,7 @@ impl Overlap {
         self.nodes.first().copied().unwrap_or(0.0)
     }
 
-    /// Segment that holds `x`: `Ok` its number, or an error telling whether x lies beyond the end.
+    /// Number of the segment that contains `x`; otherwise whether x lies beyond the end.
     fn segment(&self, x: f64) -> std::result::Result<usize, bool> {
         if x < self.nearest() {
             return Err(false);
@@ -227,7 +229,7 @@ impl Overlap {
         (1..self.nodes.len()).find(|&i| x < self.nodes[i]).map(|i| i - 1).ok_or(true)
     }
 
-    /// The polynomial A(u) on the piece that holds `middle`, for the even or the odd folding.
+    /// The polynomial A(u) on the piece that contains `middle`, for the even or the odd folding.
     pub(crate) fn covered(&self, step: [f64; 2], span: f64, middle: f64, odd: bool) -> Covered {
         let w = if odd { &self.odd } else { &self.even };
         let x = &self.nodes;
@@ -245,7 +247,7 @@ impl Overlap {
         if let (Ok(i), Ok(j)) = (low, high)
             && i == j
         {
-            // From the end where w is smaller, so that w keeps its relative precision there.
+            // Measured from the end where w is smaller, so that w keeps its relative precision there.
             let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
             covered.same = true;
             covered.low = [x[k], w[k], slope(i)];
@@ -285,9 +287,9 @@ pub(crate) struct Covered {
     begin: f64,
     end: f64,
     base: f64,
-    /// Node, width there and slope: of the segment that both limits share, or of the lower limit.
+    /// Node, width there and slope, of the segment that both limits share or of the lower limit's segment.
     low: [f64; 3],
-    /// Node, width there and slope of the upper limit.
+    /// Node, width there and slope, of the upper limit's segment.
     high: [f64; 3],
 }
 

@@ -6,10 +6,10 @@ use crate::error::{Error, Observer, Result};
 use crate::geometry::SPACE;
 
 impl ElasticGround {
-    /// Dynamic stiffness of all strips together as one rigid body, at each of `frequencies` (Hz).
+    /// Dynamic stiffness of all strips as one rigid body, at each of `frequencies` (Hz).
     ///
-    /// Cosine-graded strips converge with second order. The observer's parts are points of the Laplace plane, eight
-    /// per frequency.
+    /// Cosine-graded strips converge with second order. The observer counts points of the Laplace plane, eight per
+    /// frequency.
     ///
     /// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, including hysteretic
     /// damping.

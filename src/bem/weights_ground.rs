@@ -8,15 +8,14 @@ use crate::error::{CheckpointError, Observer, Result};
 use crate::geometry::{ContactElement, PLANE, check_order};
 use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryOptions};
 
-/// Any soil that has convolution weights and a static compliance, as a ground.
+/// Ground for any soil that has convolution weights and a static compliance.
 ///
-/// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
-/// [`WeightsSource`] and its [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels
-/// and checkpoints come with it.
+/// [`ElasticGround`](super::ElasticGround) uses it. For a soil of your own, write a [`WeightsSource`] and its
+/// [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels and checkpoints then work without more
+/// code.
 ///
-/// A bed of independent Kelvin–Voigt springs, exactly integrated: under a pressure held for one step
-/// an element goes down by (1 − z)/k, and comes back by a factor z = exp(−k Δt/c) in each that
-/// follows.
+/// The example is a bed of independent Kelvin–Voigt springs, exactly integrated. Under a pressure held for one step an
+/// element settles by (1 − z)/k; in each later step this settlement is multiplied by z = exp(−k Δt/c).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -104,9 +103,9 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
-    /// Front and back ends of elements in plan, m, and their parts inside the outline.
+    /// Front and back ends of elements in plan, m, and the fractions of their areas inside the outline.
     depths: Option<(Vec<[f64; 2]>, Vec<f64>)>,
-    /// Cells of elements in plan that are more than one.
+    /// Cells of the elements in plan that consist of several cells.
     unions: Option<Unions>,
     options: HistoryOptions,
     own_history: Option<Box<MakeHistory>>,
@@ -133,7 +132,7 @@ struct Prepared {
 type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
 impl WeightsGround {
-    /// The ground of `source` under `elements`, from left to right.
+    /// Ground of `source` under `elements`, from left to right.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for elements that
@@ -143,8 +142,9 @@ impl WeightsGround {
         Ok(Self { depths: None, ..Self::in_plan(source, elements, Default::default(), None) })
     }
 
-    /// Ground of `source` under elements in plan: `depths` are front and back ends along y (m), and parts of their
-    /// areas inside the outline.
+    /// Ground of `source` under elements in plan.
+    ///
+    /// `depths` are front and back ends along y (m), and fractions of the elements' areas inside the outline.
     pub(super) fn in_plan(
         source: impl WeightsSource,
         elements: Vec<ContactElement>,
@@ -163,7 +163,7 @@ impl WeightsGround {
         }
     }
 
-    /// Replaces the options of the ground's history, or its method alone.
+    /// Sets the options of the ground's history, or its method alone.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
@@ -172,8 +172,9 @@ impl WeightsGround {
         Ok(self)
     }
 
-    /// Replaces the history by one of the caller's: `make` is called with the convolution weights once the time step is
-    /// known.
+    /// Sets a history of your own.
+    ///
+    /// `make` is called with the convolution weights once the time step is known.
     #[must_use]
     pub fn with_own_history(
         mut self,
@@ -183,8 +184,9 @@ impl WeightsGround {
         self
     }
 
-    /// Takes convolution weights from a store shared with other grounds: those that are equal in
-    /// the cases of a sweep are then computed once.
+    /// Takes convolution weights from a store shared with other grounds.
+    ///
+    /// Weights that are equal in several cases of a sweep are then computed once.
     #[must_use]
     pub fn with_shared_kernels(mut self, kernels: &SharedKernels) -> Self {
         self.shared = kernels.clone();
@@ -196,7 +198,7 @@ impl WeightsGround {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
-    /// Empty history of `weights` for `steps` steps.
+    /// Makes an empty history of `weights` for `steps` steps.
     fn begin(
         &self,
         weights: &Arc<dyn ConvolutionWeights>,

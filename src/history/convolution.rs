@@ -103,9 +103,9 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Computes the lags up to `lags` of all classes; nothing for a closed form (the default).
     ///
-    /// Histories call this often, so it must be cheap where all lags are ready. The bits of a lag must not depend on
+    /// This is called often, so it must be cheap where all lags are ready. The bits of a lag must not depend on
     /// `lags`: a kernel that computes lags in blocks takes fixed blocks, such as N + 1 … 2N for powers of two.
-    /// Histories request powers of two where the number of steps leaves a choice.
+    /// A history requests powers of two where the number of steps leaves a choice.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped) by the observer; if coefficients cannot be computed.

@@ -64,8 +64,8 @@ const SPECTRA: usize = 8192;
 /// The cost of steps differs: the step that completes a block of b computes the whole block, 4Q transforms of length
 /// 2b.
 ///
-/// Histories of one kernel share its [spectra](ConvolutionWeights::spectra), if it stores them: the first history that
-/// needs them computes them, on any thread.
+/// All histories of one kernel share its [spectra](ConvolutionWeights::spectra), if it stores them: the first history
+/// that needs them makes them, on any thread.
 ///
 /// Memory is allocated by [`prepare`](ConvolutionHistory::prepare). If more steps follow, it doubles, as far as
 /// [`memory_limit`](crate::memory_limit) allows. Results may differ in the last digits between processors, as the
