@@ -37,8 +37,7 @@ pub(crate) const FIRST: usize = 128;
 pub(crate) const BLOCKS: usize = 25;
 /// Number of points of the circle per N, for lags N+1 … 2N; the first block has 2N points.
 const POINTS_PER_LAG: usize = 4;
-/// Tolerance of the integrals over the tolerance of the weights, so that integration errors do not halve
-/// panels.
+/// Tolerance of the integrals relative to the tolerance of the weights: integration errors must not cause halving.
 const FINER: f64 = 0.03;
 /// Multiple of the tolerance to which a panel must be predicted as resolved before it is sampled.
 ///
@@ -111,7 +110,7 @@ impl<'w, 'a> Samples<'w, 'a> {
     }
 }
 
-/// All data on which the weights depend.
+/// Convolution quadrature: all data on which the weights depend.
 #[derive(Debug)]
 pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> {
     pub(crate) profile: SoilProfile,
@@ -197,7 +196,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         node.lambda.scale(1.0 / self.time_step)
     }
 
-    /// The weights of block `number`, computed on `threads` threads.
+    /// Computes the weights of block `number` on `threads` threads.
     pub(crate) fn block(
         &self,
         number: usize,
@@ -237,7 +236,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(Block { values })
     }
 
-    /// The mobility on the upper half of a circle: all points of one class and component, then the next.
+    /// Computes the mobility on the upper half of a circle: all points of one class and component, then the next.
     pub(super) fn spectra(
         &self,
         circle: Circle,
@@ -343,7 +342,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(())
     }
 
-    /// Contribution of an eigenvalue to the mobility at each ln |z| and angle, class by class.
+    /// Computes the contribution of an eigenvalue to the mobility at each ln |z| and angle, class by class.
     fn shares(
         &self,
         node: usize,

@@ -73,7 +73,7 @@ impl Layer {
         turn < THIN
     }
 
-    /// Displacements and stresses at the layer's top from those at its bottom.
+    /// Displacements and stresses at the layer's top, from the values at its bottom.
     ///
     /// With `even` = [U; `σ_zz`/μ] and `odd` = [W; `σ_xz`/μ]: even′ = P odd and odd′ = Q even.
     fn carry(&self, k: f64, (u, t): (Square, Square)) -> (Square, Square) {

@@ -32,10 +32,10 @@ use crate::linalg::Complex;
 pub(crate) const POINTS: usize = 24;
 /// Number of halvings of θ = 0 … π for the first panels.
 const COARSEST: u32 = 2;
-/// −ln |z| of a panel, over its width.
+/// −ln |z| of a panel, divided by its width.
 const ASIDE: f64 = 1.0 / 20.0;
-/// Limit of the last Chebyshev coefficients over the tolerance: their errors grow with the lag, errors of F
-/// do not.
+/// Limit of the last Chebyshev coefficients, relative to the tolerance. Their errors grow with the lag, errors of F do
+/// not.
 const LAST: f64 = 0.3;
 /// Phase change over half a panel of the powers of z by which functions are divided, in the order of trial.
 ///
@@ -119,7 +119,7 @@ impl Polynomials {
     }
 }
 
-/// A panel: the `index`-th of 2^`depth`.
+/// A panel of the half circle: the `index`-th of 2^`depth` equal panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Place {
     depth: u32,
@@ -229,7 +229,7 @@ fn is_resolved<const KINDS: usize>(
 }
 
 impl Circle {
-    /// Panels that cover the upper half, and the remaining points in ascending order.
+    /// Panels that cover the upper half of a circle, and the points not covered, in ascending order.
     ///
     /// `resolved` returns for panels of one width which of them are resolved.
     pub(crate) fn covered(

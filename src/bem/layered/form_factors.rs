@@ -64,7 +64,7 @@ impl PairShape {
         [one * two * cos, one * two * sin]
     }
 
-    /// The four waves whose sum is k² times the form factors.
+    /// Four waves whose sum is k² times the form factors.
     ///
     /// For each wave: the distance y ≥ 0 of cos ky and sin ky, and the factors of both.
     pub(crate) fn waves(&self) -> [(f64, [f64; 2]); 4] {
@@ -96,7 +96,7 @@ impl Panel {
     }
 }
 
-/// The form factors of a patch.
+/// Form factors of the pairs of a patch, with tables of the panels used so far.
 #[derive(Debug)]
 pub(crate) struct FormFactors {
     pub(crate) shapes: Vec<PairShape>,
@@ -320,7 +320,7 @@ const RECURRENCE: [[f64; 2]; DEGREES] = {
     factors
 };
 
-/// Adds Σ coefficient × row to the sums of all pairs; with many pairs, this is nearly the whole cost.
+/// Adds Σ coefficient × row to the sums of all pairs; with many pairs, this takes nearly all the time.
 pub(crate) fn accumulate(rows: &[FormRow], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
     for (rows, sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
         let mut local = *sums;

@@ -47,7 +47,7 @@ pub(crate) fn by_halves<S>(
     Ok(())
 }
 
-/// The median of some samples' sizes: a single sample near a pole does not represent the integral.
+/// Median of the samples' sizes: a single sample near a pole does not represent the integral.
 pub(crate) fn median(mut sizes: [f64; POINTS]) -> f64 {
     *sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp).1
 }

@@ -31,13 +31,13 @@ use crate::soil::{Base, SoilProfile};
 pub struct StripImpedance {
     /// Frequency, Hz.
     pub frequency: f64,
-    /// K_hh: horizontal force by horizontal translation, N/m².
+    /// K_hh: horizontal force per unit horizontal translation, N/m².
     pub horizontal: Complex,
-    /// K_vv: vertical force by vertical translation, N/m².
+    /// K_vv: vertical force per unit vertical translation, N/m².
     pub vertical: Complex,
-    /// K_rr: moment by rotation, N.
+    /// K_rr: moment per unit rotation, N.
     pub rocking: Complex,
-    /// K_hr: horizontal force by rotation, and moment by horizontal translation, N/m.
+    /// K_hr: horizontal force per unit rotation, and moment per unit horizontal translation, N/m.
     pub coupling: Complex,
 }
 
@@ -46,12 +46,12 @@ impl StripImpedance {
         [self.horizontal, self.vertical, self.rocking, self.coupling]
     }
 
-    /// Springs Re K, in the order of the fields.
+    /// Spring stiffnesses Re K, in the order of the fields.
     pub fn stiffnesses(&self) -> [f64; 4] {
         self.all().map(|k| k.re)
     }
 
-    /// Dashpots Im K/ω parallel to these springs, in the same order, N s/m² and so on.
+    /// Dashpot coefficients Im K/ω in the same order; N s/m² for `horizontal`.
     ///
     /// At frequency zero they are not defined (NaN).
     pub fn dashpots(&self) -> [f64; 4] {
@@ -77,7 +77,7 @@ const TOLERANCE: f64 = 1e-9;
 const LOSSLESS: f64 = 1e-6;
 /// Number of points of the extrapolation.
 const PER_FREQUENCY: usize = 8;
-/// Distance of the points over ω, and over the inverse of the wave travel time.
+/// Distance of the points relative to ω, and to the inverse of the wave travel time.
 const SPACING: [f64; 2] = [0.04, 0.1];
 /// Largest relative difference between the extrapolations from 8 and from 7 points.
 const SETTLED: f64 = 1e-3;
@@ -90,7 +90,7 @@ pub(in crate::bem) fn impedance_watch<'a>(
     Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer)
 }
 
-/// Dynamic stiffness of all `elements` on `profile` together, as one rigid body, at each of `frequencies` (Hz).
+/// Dynamic stiffness of all `elements` on `profile` as one rigid body, at each of `frequencies` (Hz).
 pub(in crate::bem) fn strip_impedances(
     profile: &SoilProfile,
     elements: &[ContactElement],
@@ -222,7 +222,7 @@ impl<'a> RigidStrip<'a> {
         Ok(Self { profile, contact, classes, integrals, motions })
     }
 
-    /// hh, vv, rr and hr of Aᵀ F⁻¹ A.
+    /// Entries hh, vv, rr and hr of Aᵀ F⁻¹ A.
     fn stiffness(&self, s: Complex) -> Result<[Complex; 4]> {
         let compliances = if s == Complex::default() {
             static_compliance::pairs(self.profile, &self.classes)?

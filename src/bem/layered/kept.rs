@@ -95,7 +95,7 @@ impl KeptBlocks {
         write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
     }
 
-    /// Content of `place`; computed now if there is none. A computation that is stopped stores nothing.
+    /// Content of `place`; computed now if it is empty. A computation that is stopped stores nothing.
     pub(crate) fn once<'a, T>(
         &self,
         place: &'a OnceLock<Result<T>>,
@@ -178,10 +178,10 @@ pub(crate) fn threads() -> usize {
 // Files.
 
 const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
-/// Versions of the rule for the samples.
+/// Version of the rule by which contours are sampled.
 ///
-/// 1: every point of the circles; 2: panels; 3: panels over powers of z; 4: only panels predicted as
-/// resolved.
+/// 1: every point of the circles; 2: panels; 3: panels divided by powers of z; 4: only panels predicted as resolved; 5:
+/// integrals more accurate than the weights.
 const FORMAT: u64 = 5;
 const HEADER: usize = 5;
 

@@ -22,7 +22,7 @@ use crate::soil::SoilProfile;
 const TOLERANCE: f64 = 1e-11;
 /// Decay exponent ka at the end of the panels.
 const FORGOTTEN: f64 = 40.0;
-/// Datum L₀ over the length of the patch; well above one, so that the matrix is positive definite.
+/// Datum L₀ relative to the length of the patch; well above one, so that the matrix is positive definite.
 const DATUM: f64 = 10.0;
 
 /// Overwrites `matrix` with the mean static displacements of `elements` due to unit tractions.
@@ -50,7 +50,7 @@ pub(in crate::bem) fn static_compliance(
     Ok(())
 }
 
-/// zz, xx, zx of all classes, integrals over receiver and source.
+/// Static compliances zz, xx, zx of all classes, integrals over receiver and source.
 pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; KINDS]>> {
     let mut compliance = Compliance::default();
     compliance.set(profile, Complex::default())?;

@@ -20,7 +20,7 @@ use crate::linalg::Complex;
 
 /// Number of terms: for |x| ≤ 1/16 the last is below rounding.
 pub(crate) const TERMS: usize = 16;
-/// K over |√q₂|.
+/// Smallest K of the tail, relative to |√q₂|.
 pub(crate) const REACH: f64 = 4.0;
 
 /// Coefficients dⱼ of xx, zz and xz for one Poisson's ratio.
@@ -71,7 +71,7 @@ pub(crate) fn on_grid(panels: usize) -> usize {
     panels.div_ceil(step) * step
 }
 
-/// The power 2ᵉ for which `panels` is between 8 and 16 times it.
+/// The power 2ᵉ for which `panels` is between 8 and 16 times this power.
 pub(crate) fn grid(panels: usize) -> usize {
     1 << (panels.max(8).ilog2() - 3)
 }

@@ -28,12 +28,12 @@ const MOST_PANELS: f64 = 65_536.0;
 /// Largest number of panels required by short elements.
 const MOST_FOR_SHORT: f64 = 100.0;
 
-/// Compliances of classes of pairs, with some kinds for each class.
+/// Element compliances F(s) of classes of pairs, with several kinds for each class.
 pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Workspace of one thread.
     type Workspace: Default;
 
-    /// Sum of the errors of late weights over the 2/3 power of the tolerance and the sum of all weights.
+    /// Sum of the errors of late weights, divided by the 2/3 power of the tolerance and the sum of all weights.
     const LATE_ERROR: f64 = 0.0;
 
     /// Computes the data common to all compliances, if they are missing.
@@ -60,7 +60,7 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
 
     /// Appends [`OUTLOOK`] numbers for each of a few wavenumbers, which replace the compliances at `s`.
     ///
-    /// They cost a hundredth of the compliances.
+    /// They take a hundredth of the time of the compliances.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].

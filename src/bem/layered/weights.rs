@@ -81,7 +81,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         })
     }
 
-    /// Fingerprint of the weights, after the passivity gate.
+    /// Runs the passivity gate, and returns the fingerprint of the weights.
     fn admit(&self, watch: &mut Watch) -> Result<u64> {
         self.kept.gate(watch, |watch| {
             self.quadrature.integrals.make_ready(watch)?;
@@ -89,7 +89,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         })
     }
 
-    /// Error unless the blocks up to the last of `missing` fit into memory.
+    /// Returns an error unless the blocks up to the last of `missing` fit into memory.
     fn fits(&self, missing: &Range<usize>) -> Result<()> {
         if missing.is_empty() {
             return Ok(());
