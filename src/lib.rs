@@ -1,11 +1,11 @@
 //! Earthquake response of flexible structures whose base can uplift and slide on elastic ground.
 //!
-//! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
-//! on elastic ground: the flat surface of a homogeneous half-plane or of horizontal layers with
-//! damping, a bed of springs, or your own. The ground shakes. Element by element, the base may stick,
-//! open, close again and slide with friction. Results are displacements, contact tractions, base shear
-//! and moment, uplift, slip and an energy balance, for small displacements: in the plane, per metre of thickness, or
-//! in three dimensions for bodies on mats, whose plan the ground then has ([`bem::plan`]).
+//! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands on elastic ground:
+//! the flat surface of a homogeneous half-plane or of horizontal layers with damping, a bed of springs, or your own.
+//! The ground shakes. Element by element, the base may stick, open, close again and slide with friction. Results are
+//! displacements, contact tractions, base shear and moment, uplift, slip and an energy balance. Displacements are
+//! small. The model is plane, per metre of thickness, or three-dimensional for bodies on mats, with a ground in plan
+//! ([`bem::plan`]).
 //!
 //! # One complete example
 //!
@@ -55,8 +55,8 @@
 //!
 //! # Equations
 //!
-//! The soil responds to the tractions of all steps so far; element means of its surface
-//! displacement at the end of step N are
+//! The soil responds to the tractions of all steps so far. The element means of its surface displacement at the end of
+//! step N are
 //!
 //! ```math
 //! s^N = s_{ff}^N + \sum_{m=1}^{N} G^{\,N-m+1}\, \tau^m
@@ -70,25 +70,24 @@
 //! \qquad u_1 - u_0 = \Delta t\, \bar v
 //! ```
 //!
-//! with B the element means of the base displacement and A the element lengths. Base and soil meet
-//! by gap g, slip w, pressure p and shear τ of each element: hard contact with Coulomb friction,
+//! with B the element means of the base displacement and A the element lengths. In each element base and soil are
+//! related by gap g, slip w, pressure p and shear τ. For hard contact with Coulomb friction,
 //!
 //! ```math
 //! g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
 //! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w ,
 //! ```
 //!
-//! or whatever an [`interface::InterfaceLaw`] says. The discrete equations keep an energy balance,
-//! exactly and for every time step, mesh and Poisson's ratio:
+//! Another [`interface::InterfaceLaw`] has other conditions. The discrete equations satisfy an energy balance exactly,
+//! for every time step, mesh and Poisson's ratio:
 //!
 //! ```text
 //! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
 //! ```
 //!
-//! The soil's term is the energy that the tractions put into a real ground, so it is never
-//! negative, and contact without tensile strength only takes energy away: nothing can blow up.
-//! [`coupled::EnergyBalance`] computes each term from its own definition, and its residual comes with
-//! every run. The [theory] has derivations and sources.
+//! The soil's term is the work of the tractions on a passive ground, so it is never negative. Contact without tensile
+//! strength can only dissipate energy. So a run cannot become unstable. [`coupled::EnergyBalance`] computes each term
+//! from its own definition, and its residual comes with every run. The [theory] has derivations and sources.
 //!
 //! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
 //!
@@ -130,7 +129,7 @@
 //!
 //! # Features
 //!
-//! None is on unless asked for; all are compatible with each other.
+//! All features are off by default, and compatible with each other.
 //!
 //! | feature | what it adds |
 //! |---|---|
@@ -145,13 +144,13 @@
 //!
 //! ## Settings and results in serde's formats
 //!
-//! With the feature `serde` plain data derive `Serialize` and `Deserialize`: soils, profiles, materials, laws that
-//! are numbers, schemes, options, probes, records, spectra, a [`results::Run`] with all in it. What a
-//! constructor checks is checked when it is read. Choices are words, those of their `Display` where they have one
-//! (`"slip_left"`), with their numbers in a map (`{"reduced": {"tolerance": 1e-6}}`).
-//! In formats that people read, a number that is NaN is null and infinities are `"inf"` and `"-inf"`, where
-//! they can occur (peaks, energy balances, conditions, friction); elsewhere numbers are finite. Floating-point
-//! numbers read back as they were, with serde_json if its feature `float_roundtrip` is on.
+//! With the feature `serde` plain data derive `Serialize` and `Deserialize`: soils, profiles, materials, laws given by
+//! numbers, schemes, options, probes, records, spectra, and a [`results::Run`] with all its parts. Data that are read
+//! are checked as by their constructors. Choices are words, as written by `Display` if they implement it
+//! (`"slip_left"`), with their numbers in a map (`{"reduced": {"tolerance": 1e-6}}`). In formats that people read, a
+//! number that is NaN is null and infinities are `"inf"` and `"-inf"`, where they can occur (peaks, energy balances,
+//! conditions, friction); elsewhere numbers are finite. Floating-point numbers are read back exactly; serde_json needs
+//! its feature `float_roundtrip` for this.
 //!
 //! # Bring your own
 //!
@@ -172,8 +171,8 @@
 //! | boundary operator (`full-plane`) | `bem::full_plane::BoundaryKernel` | 2 |
 //! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
 //!
-//! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it; `host_integrator`
-//! takes ground and contact into a time integrator of its own.
+//! The examples `your_own_structure`, `your_own_law` and `your_own_ground` show how; `host_integrator` uses ground and
+//! contact in a time integrator of its own.
 //!
 //! # Examples
 //!
@@ -226,7 +225,7 @@ pub use soil::Soil;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The tutorial's programs are, too; they assert the numbers of its text.
+/// The tutorial's programs are compiled and run; they assert the numbers of its text.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/tutorial.md")]
 struct Tutorial;

@@ -258,9 +258,9 @@ impl Simulation {
     /// further call continues from there. Missing convolution weights are computed before the first step, without
     /// an observer: [`Simulation::prepare`] computes them before, with one.
     ///
-    /// How steps are divided into runs changes no bit, up to 2²⁰ steps or the
-    /// [expected](crate::coupled::SimulationBuilder::expected_steps) ones. Use [`usize::MAX`] steps for a run that only
-    /// `observe` ends: nothing is then prepared.
+    /// The division of steps into runs changes no bit, up to 2²⁰ steps or the
+    /// [expected](crate::coupled::SimulationBuilder::expected_steps) number. Use [`usize::MAX`] steps for a run that
+    /// only `observe` ends: nothing is then prepared.
     ///
     /// # Errors
     /// [`Error::Memory`] before the first step, for more steps than fit into the memory of the ground's history;

@@ -30,7 +30,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SiteWarning {
-    /// Strain above 5·10⁻³: one modulus for the whole shaking is no longer a good approximation.
+    /// Strain above 5·10⁻³: one modulus for the whole shaking becomes a poor approximation.
     LargeStrain {
         /// Layer, from 1 at the surface.
         layer: usize,

@@ -22,8 +22,8 @@ use crate::soil::Soil;
 
 /// Squared vertical slowness of a layer, relative to the value at vertical incidence, that counts as zero.
 ///
-/// Up and down are the same wave there. Results are even in a and b: they lose this fraction, and the rounding
-/// over its root is no larger.
+/// Up-going and down-going waves are the same there. Results are even in a and b, so they change by this fraction;
+/// rounding divided by its root is not larger.
 const GRAZING: f64 = 4e-11;
 /// Fraction of a number that counts as rounding.
 const ROUNDING: f64 = 1e-12;

@@ -177,7 +177,7 @@ pub(crate) fn number(value: f64) -> String {
 
 /// A number with three decimals; no negative zero.
 pub(crate) fn thousandths(value: f64) -> String {
-    // What rounds to zero is zero.
+    // A value that rounds to zero is written as zero.
     format!("{:.3}", if value.abs() < 0.5e-3 { 0.0 } else { value })
 }
 

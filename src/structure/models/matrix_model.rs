@@ -79,7 +79,7 @@ impl MatrixModel {
     /// let node = |k: usize| FaceNode::free(corners[k], [3 * k, 3 * k + 1, 3 * k + 2]);
     /// let mass = Triplets::from_entries(12, (0..12).map(|k| (k, k, 20.0e3)));
     /// let mut stiffness = Triplets::new(12);
-    /// // What resists twisting of the corners out of their plane; this slab has nothing else.
+    /// // Stiffness against twisting of the corners out of their plane; the slab has no other stiffness.
     /// stiffness.add_outer([(2, 1.0), (5, -1.0), (8, 1.0), (11, -1.0)], 5.0e6);
     /// let slab = MatrixModel::in_plan(mass, stiffness, vec![(0..4).map(node).collect()])?;
     /// assert_eq!((slab.dofs(), slab.contact_faces()[0].len()), (12, 4));

@@ -37,7 +37,7 @@ use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplet
 ///
 /// let reduced = CraigBampton::new(12).reduce(model)?;
 /// assert_eq!(reduced.dofs(), 2 * 9 + 12);
-/// // A probe on a degree of freedom that is no longer there:
+/// // A probe on a degree of freedom that the reduction has removed:
 /// let row = reduced.recovery().row(roof)?;
 /// assert_eq!(row.len(), 30);
 /// # Ok::<(), basemat::Error>(())
