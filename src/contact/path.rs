@@ -127,7 +127,7 @@ impl Path {
         }
     }
 
-    /// All elements open without tractions; d widens the gaps only.
+    /// Begins with all elements open and without tractions; d only widens the gaps.
     fn begin_open(
         &mut self,
         input: &ContactInput<'_>,
@@ -149,7 +149,7 @@ impl Path {
         }
     }
 
-    /// All elements in the mode of rest, with pressures well above all pressures of the step.
+    /// Begins with all elements in the mode of rest, with pressures well above all pressures of the step.
     fn begin_shut(
         &mut self,
         input: &ContactInput<'_>,
@@ -206,7 +206,7 @@ impl Path {
         }
     }
 
-    /// States at `lambda` and their rates, for fixed modes; false if the modes are singular.
+    /// Computes states at `lambda` and their rates, for fixed modes; false if the modes are singular.
     fn line(
         &mut self,
         solver: &mut ContactSolver,

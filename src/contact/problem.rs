@@ -32,17 +32,17 @@ pub(crate) enum Bond {
 /// Data of a step for the contact problem.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactInput<'a> {
-    /// W, 2Q × 2Q, row-major.
+    /// W, square, row-major.
     pub(crate) delassus: &'a Delassus,
-    /// j₀, 2Q.
+    /// j₀, one number for each contact component.
     pub(crate) free_jump: &'a [f64],
-    /// Static tractions, 2Q.
+    /// Static tractions, Pa, one for each contact component.
     pub(crate) static_traction: &'a [f64],
-    /// For each element, the end of the previous step.
+    /// Contact of each element at the end of the previous step.
     pub(crate) start: &'a PreviousContacts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
-    /// Largest displacement in j₀; its rounding limits the gaps that can be distinguished.
+    /// Largest displacement in j₀, m; its rounding limits the gaps that can be distinguished.
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
@@ -117,7 +117,7 @@ impl ContactInput<'_> {
         Err(LawError::UnknownMode { element, mode: mode.word(), next: next.word() })
     }
 
-    /// Traction by which a trial exceeds the strength of an element's bond; `None` without one.
+    /// Traction by which a trial exceeds the strength of an element's bond; `None` without a bond.
     pub(super) fn overload(
         &self,
         element: usize,
@@ -133,7 +133,7 @@ impl ContactInput<'_> {
     }
 }
 
-/// Solves for given modes, and keeps the factors while the modes stay the same.
+/// Solves the contact problem for given modes; stores the factors while the modes stay the same.
 pub(crate) struct ContactSolver {
     layout: ContactLayout,
     /// Conditions of the last trial, two per element.
@@ -144,22 +144,23 @@ pub(crate) struct ContactSolver {
     valid: bool,
     matrix: Vec<f64>,
     rhs: Vec<f64>,
-    /// Per row of the reduced system: element, which condition, and the row's scale.
+    /// For each row of the reduced system: element, number of its condition (0 or 1), and the row's scale.
     rows: Vec<(usize, usize, f64)>,
-    /// Contact components to solve for; one condition alone fixes each of the others.
+    /// Contact components of the reduced system; every other component is fixed by one condition alone.
     dofs: Vec<usize>,
-    /// Change of traction of the last trial, 2Q.
+    /// Change of traction of the last trial, Pa, for each contact component.
     pub(crate) traction: Vec<f64>,
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
     jump: Vec<f64>,
-    /// Smallest friction that replaced a larger one of a sliding element; `None` if none was replaced.
+    /// Smallest friction coefficient that replaced the law's larger one on a sliding element; `None` if none was
+    /// replaced.
     pub(crate) stand_in: Option<f64>,
     /// Error of a law that returned a number that is not finite, since the last `take`.
     pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
     pub(crate) factorings: usize,
-    /// Number of operators W before this one.
+    /// Number of times that W has changed.
     pub(super) generation: usize,
 }
 
@@ -356,7 +357,7 @@ impl ContactSolver {
         }
     }
 
-    /// Jumps and states of the present tractions.
+    /// Computes jumps and states from the tractions of the last trial.
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
         self.jump.copy_from_slice(input.free_jump);
         input.delassus.multiply_add(&self.traction, &mut self.jump);

@@ -11,7 +11,7 @@ use crate::error::{
     require_part,
 };
 
-/// Largest distance of a node from the point at which it is sought, over the size of the mesh.
+/// Largest distance of a node from a given point at which it counts as the same point, relative to the mesh's size.
 ///
 /// It is far below the size of any element and far above the rounding of a coordinate.
 const SAME_POINT: f64 = 1e-6;
@@ -93,7 +93,7 @@ impl Mesh {
         Ok(self.elements.len() - 1)
     }
 
-    /// Whether `element` would duplicate the element `other` at the same place.
+    /// Whether `element` is a duplicate of the element `other` at the same nodes.
     fn counts_twice(&self, other: usize, element: &dyn Element) -> bool {
         let other = self.elements[other].as_ref();
         if !element.corners().is_empty() {
@@ -147,7 +147,7 @@ impl Mesh {
         self.elements.iter().map(AsRef::as_ref)
     }
 
-    /// Node at (`x`, `y`), m: the nearest one, which may be a millionth of the mesh's size away.
+    /// Index of the node at (`x`, `y`), m, within a millionth of the mesh's size.
     ///
     /// # Errors
     /// [`Error::Input`] unless both are finite, [`Error::Size`] for an empty mesh, [`Error::NoNode`]
@@ -188,7 +188,7 @@ impl Mesh {
         (0..self.nodes.len()).filter(beside)
     }
 
-    /// Nodes whose height differs from `y` by no more than `tolerance` (m), from left to right.
+    /// Indices of the nodes at height `y` within `tolerance` (m), from left to right.
     ///
     /// # Errors
     /// [`Error::Input`] unless `y` is finite and `tolerance` finite and not negative.
@@ -359,7 +359,7 @@ impl Mesh {
 /// Bytes of a quadrilateral in a mesh, with the node and the map entry that it adds.
 const BYTES: f64 = 500.0;
 
-/// Error if so many quadrilaterals would not fit into memory.
+/// Returns an error if a block's quadrilaterals would not fit into memory.
 fn check_size(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
     let rows: f64 = layers.iter().map(|layer| layer.rows as f64).sum();
     // There is one more row of nodes than rows of elements.

@@ -61,7 +61,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// These limits without friction and cohesion, as they act while the weight comes on.
+    /// These limits without friction, attraction and shear strength, as they act in a frictionless gravity stage.
     pub(crate) fn frictionless(self) -> Self {
         Self { friction: 0.0, attraction: 0.0, shear_strength: 0.0, ..self }
     }

@@ -16,7 +16,7 @@ pub enum Baseline {
     /// No correction, which leaves the record as it is.
     #[default]
     None,
-    /// The time mean of the acceleration, which makes v(T) = 0.
+    /// Constant in acceleration, its mean over time, which makes v(T) = 0.
     RemoveMean,
     /// Parabola in acceleration that minimises ∫ v² dt; nothing is enforced at the end.
     ///
@@ -96,7 +96,7 @@ enum Integral {
 }
 
 impl Baseline {
-    /// Treated samples.
+    /// Returns the treated samples.
     pub(super) fn apply(self, samples: &[f64]) -> Result<Vec<f64>> {
         let newmark =
             Fit { terms: 3, starts_from_zero: false, least: Integral::Velocity, zero_at_end: &[] };
@@ -134,9 +134,9 @@ fn check_degree(degree: usize, least: usize, needed: &'static str) -> Result<()>
 impl Fit {
     /// Samples minus the fitted polynomial.
     ///
-    /// V and U are the exact integrals of the basis functions φ (as of a record), v and u the integrals of the
-    /// samples. The coefficients c minimise ∫ (v − Σ c V)² under the conditions Σ c V(T) = v(T), Σ c U(T) = u(T):
-    /// a symmetric system with Lagrange multipliers. Time runs from 0 to 1, which changes no coefficient.
+    /// V and U are the exact integrals of the basis functions φ, which are linear between samples; v and u are the
+    /// integrals of the samples. The coefficients c minimise ∫ (v − Σ c V)² under the conditions Σ c V(T) = v(T), Σ c
+    /// U(T) = u(T): a symmetric system with Lagrange multipliers. Time runs from 0 to 1, which changes no coefficient.
     fn subtract(&self, samples: &[f64]) -> Result<Vec<f64>> {
         let quantity = "number of samples under a baseline fit";
         let needed = "above the number of coefficients by two at least";
@@ -239,7 +239,7 @@ impl Integrals {
         Self { values, velocity: velocity[last], displacement: displacement[last] }
     }
 
-    /// Quantity at the end.
+    /// Velocity or displacement at the end of the record.
     fn end(&self, quantity: Integral) -> f64 {
         match quantity {
             Integral::Velocity => self.velocity,

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | v | velocity of the given component, zero outside the record |
 //! | V = H\[v\], W = ∫₀ᵗ V | velocity and displacement, every harmonic delayed by a quarter of a period |
-//! | h, y | half of the record's length and places −1 … 1 along it from its middle, in halves |
+//! | h, y | half of the record's length, and position from its middle as a fraction of h, −1 … 1 |
 //! | s, q = h/s | time from the record's middle, in samples, and its inverse relative to h |
 //! | Mₖ | moments Σ vⱼ yⱼᵏ of the record |
 
@@ -40,7 +40,7 @@ impl OutOfPhase {
         Ok(Self { given: given.clone(), given_is_vertical, ratio, late: Late::new(given)? })
     }
 
-    /// Both components from the given one and its delayed W or V.
+    /// Both components, from the given component and the delayed W or V.
     fn both(&self, given: f64, late: f64) -> [f64; 2] {
         let other = self.ratio.re * given + self.ratio.im * late;
         if self.given_is_vertical { [other, given] } else { [given, other] }
@@ -69,7 +69,7 @@ struct Late {
     step: f64,
     /// Number of samples of the record.
     count: usize,
-    /// V at the samples, and at as many times before and after each.
+    /// V at the samples of the record, and at as many times before the record and after it.
     velocity: Vec<f64>,
     /// W at the same times.
     displacement: Vec<f64>,
@@ -129,7 +129,9 @@ impl Late {
     }
 }
 
-/// Moments of a record, which give its transform far from it: sample j is s (1 − q yⱼ) away, hence
+/// Moments of a record, which give its transform far from the record.
+///
+/// The distance to sample j is s (1 − q yⱼ), hence
 ///
 /// V = 1/π Σ vⱼ / (s (1 − q yⱼ)) = 1/(π s) Σ Mₖ qᵏ,
 /// ∫V ds = 1/π Σ vⱼ ln |s (1 − q yⱼ)| = 1/π (M₀ ln |s| − Σ Mₖ qᵏ / k), k > 0.

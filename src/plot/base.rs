@@ -14,7 +14,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// Largest number of columns of the map, about one per pixel.
 const COLUMNS: usize = 1000;
 
-/// Map of the contact mode of every element over time.
+/// Picture of the contact mode of every element over time.
 ///
 /// Where several frames share a column, the rarest mode is shown. Wide gaps between foundations are drawn
 /// short.
@@ -66,10 +66,10 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     })
 }
 
-/// Value of an element to be drawn.
+/// Function that returns the value of an element to be drawn.
 type Value = fn(&ElementEnvelope) -> f64;
 
-/// Largest, static and least pressure along the base, constant in each element.
+/// Picture of the largest, static and smallest pressure along the base, constant in each element.
 ///
 /// Wide gaps between foundations are drawn short. In plan, the largest pressure under each element.
 ///
@@ -115,7 +115,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
 
 // The base as an axis: wide gaps between foundations are drawn short.
 
-/// Widest gap drawn to scale, over the length of all foundations.
+/// Widest gap drawn to scale, relative to the length of all foundations.
 const WIDEST: f64 = 0.1;
 /// Number of marks of the whole axis.
 const MARKS: usize = 11;
@@ -139,7 +139,7 @@ pub(super) struct Break {
     pub(super) width: f64,
 }
 
-/// Foundations next to each other.
+/// Axis along the base, on which wide gaps between foundations are drawn short.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BaseAxis {
     pieces: Vec<Piece>,

@@ -29,11 +29,12 @@ pub struct Comparison {
     pub cases: Vec<(String, Run)>,
 }
 
-/// Value of a run; `None` if the run does not have it.
+/// Function that returns a value of a run; `None` if the run does not have the value.
 type Value = dyn Fn(&Run) -> Option<f64>;
 
-/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run. Results per metre in
-/// the plane have a row for each dimension that occurs.
+/// A row: name and unit, heading in files, factor from SI to the unit, and the value of a run.
+///
+/// If runs in the plane and in plan are compared, a result with other units in plan has a row for each.
 struct Line {
     name: String,
     unit: &'static str,
@@ -76,7 +77,7 @@ const DERIVED: [Derived; 9] = [
     }),
 ];
 
-/// All rows: quantities, some with their times, then derived results.
+/// Makes all rows: quantities, some with their times, then derived results.
 ///
 /// `of`: dimensions of the runs, `true` for in plan.
 fn lines(of: &[bool]) -> Vec<Line> {
@@ -135,12 +136,12 @@ fn lines(of: &[bool]) -> Vec<Line> {
 }
 
 impl Comparison {
-    /// Adds a case.
+    /// Adds a case; names need not be distinct.
     pub fn add(&mut self, name: impl Into<String>, run: Run) {
         self.cases.push((name.into(), run));
     }
 
-    /// The rows of its cases.
+    /// Rows of the comparison, for the kinds of runs among its cases.
     fn lines(&self) -> Vec<Line> {
         let has = |in_plan: &bool| self.cases.iter().any(|(_, run)| run.in_plan == *in_plan);
         let of: Vec<bool> = [false, true].into_iter().filter(has).collect();

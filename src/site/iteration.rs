@@ -14,9 +14,9 @@ use crate::soil::{
     StrainCurves,
 };
 
-/// Effective strain that replaces zero.
+/// Smallest effective strain of the iteration; it replaces zero.
 const LEAST_STRAIN: f64 = 1e-12;
-/// Damping ratio at which the modulus by magnitude reaches about the largest imaginary part of a damping law.
+/// Limit of ξ for [`ComplexModulus::Magnitude`]: there the equivalent ratio ξ' is nearly 1, the limit of damping laws.
 const MOST_DAMPED: f64 = 0.52;
 /// Smallest and largest relaxation factor.
 const FACTORS: [f64; 2] = [0.3, 20.0];
@@ -24,12 +24,13 @@ const FACTORS: [f64; 2] = [0.3, 20.0];
 /// Options of [`SoilColumn::equivalent_linear`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EquivalentLinearOptions {
-    /// Place at which the motion is given.
+    /// Place of the given motion in the column.
     pub control: ControlPoint,
-    /// Effective strain over the largest strain, at most 1.
+    /// Ratio of the effective strain to the largest strain, at most 1.
     pub strain_ratio: f64,
-    /// Estimated relative change of a modulus or damping ratio, by all further iterations, at which the iteration
-    /// ends.
+    /// Largest relative change of a modulus or damping ratio that is left at the end.
+    ///
+    /// It is estimated for all further iterations together.
     pub tolerance: f64,
     /// Largest number of iterations, at least 1.
     pub most_iterations: usize,
@@ -88,7 +89,7 @@ impl Default for EquivalentLinearOptions {
 }
 
 impl EquivalentLinearOptions {
-    /// The default with the strain ratio (M − 1)/10 of a `magnitude` M (Idriss & Sun 1992).
+    /// The default options, with the strain ratio (M − 1)/10 of a `magnitude` M (Idriss & Sun 1992).
     pub fn of_magnitude(magnitude: f64) -> Self {
         Self { strain_ratio: 0.1 * (magnitude - 1.0), ..Self::default() }
     }
@@ -104,7 +105,7 @@ impl EquivalentLinearOptions {
 }
 
 impl SoilColumn {
-    /// The profile with these modulus ratios and damping ratios; `law` makes a damping law from a ratio.
+    /// Profile with the given modulus and damping ratios; `law` makes a damping law from a ratio.
     pub(super) fn compatible<L: Relaxation + 'static>(
         &self,
         properties: &[[f64; 2]],
@@ -286,7 +287,7 @@ fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// Adds the layer, counted from 0, to an error; a damping ratio that no law fits becomes the layer's error.
+/// Adds the layer (`index` from 0) to an error; for a damping ratio that no law represents, also the ratio.
 fn of_layer(index: usize, error: Error) -> Error {
     let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
         return SiteError::of_layer(index, error);

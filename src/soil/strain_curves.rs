@@ -22,7 +22,7 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive,
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum StrainCurves {
-    /// A soil or rock that stays linear, with this damping ratio.
+    /// Soil or rock that stays linear, with a constant damping ratio.
     Linear {
         /// Damping ratio, from 0 to below 1.
         damping: f64,
@@ -58,11 +58,11 @@ pub enum StrainCurves {
         /// Number of cycles; usually 10.
         cycles: f64,
     },
-    /// Rows of strain, G/G_max and damping ratio, strains increasing, G/G_max nowhere.
+    /// Rows of strain, G/G_max and damping ratio. Strains increase from row to row, and G/G_max never increases.
     Table(Vec<[f64; 3]>),
 }
 
-/// Curves with their parameters applied.
+/// Curves of one layer, ready for evaluation.
 #[derive(Debug)]
 pub(crate) enum Resolved {
     Rows(Vec<[f64; 3]>),
@@ -72,7 +72,7 @@ pub(crate) enum Resolved {
 
 /// Curvature a of Darendeli's hyperbola, φ₅.
 const CURVATURE: f64 = 0.919;
-/// Strain over the reference strain above which Darendeli's damping is kept constant: it would decrease.
+/// Multiple of the reference strain above which Darendeli's damping is kept constant, because it would decrease.
 const MOST_DAMPED: f64 = 55.45;
 /// Largest strain of Darendeli's curves.
 const LARGEST: f64 = 0.01;

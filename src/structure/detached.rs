@@ -41,7 +41,7 @@ pub(crate) fn numbers(dofs: &[usize]) -> String {
     format!("{noun} {}", listed(&texts, dofs.len()))
 }
 
-/// The listed texts, and how many of `count` are left out.
+/// Joins the texts, and adds the number of those left out of `count`.
 pub(super) fn listed(texts: &[String], count: usize) -> String {
     let list = texts.join(", ");
     if count > texts.len() { format!("{list} and {} more", count - texts.len()) } else { list }
@@ -98,7 +98,7 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     Ok(found)
 }
 
-/// Submatrix of the degrees of freedom that have a place, in the order of their places.
+/// Submatrix of the degrees of freedom for which `place` returns a row, in the order of these rows.
 pub(super) fn restricted(
     name: &'static str,
     matrix: &SparseMatrix,
@@ -132,7 +132,7 @@ fn holds_itself(stiffness: &Triplets) -> Result<bool> {
 // | N | displacements of the contact nodes |
 // | γ | stiffness of the springs |
 
-/// K + γ NᵀN, and the forces that move such a base.
+/// A structure on springs at its contact nodes: K + γ NᵀN, and forces that move its base.
 pub(crate) struct HeldBase<'a> {
     nodes: &'a [FaceNode],
     pub(crate) spring: f64,
@@ -211,11 +211,12 @@ pub(crate) fn stiffest(stiffness: &SparseMatrix) -> f64 {
 pub(super) const SYMMETRIC: f64 = 1e-9;
 /// Negative masses and dampings up to this fraction of the diagonal are rounding.
 ///
-/// A file with seven digits leaves as much of a singular matrix.
+/// A singular matrix read from a file with seven digits has negative values of this size.
 const SEMI_DEFINITE: f64 = 1e-6;
 /// Masses and dampings up to this fraction of the largest entry are rounding.
 ///
-/// Reductions and sums leave as much of a zero. One bound serves kg and kg m², which differ by far less.
+/// After reductions and sums a zero has values of this size. One bound serves kg and kg m², whose sizes differ by far
+/// less.
 pub(super) const MASSLESS: f64 = 1e-12;
 
 /// Whether each degree of freedom is massless, up to rounding.

@@ -4,7 +4,7 @@ use super::{Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, same_length};
 use crate::linalg::matrix::SparseMatrix;
 
-/// Energy of internal forces, J per metre of thickness.
+/// Stored and dissipated energy of internal forces, J per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InternalEnergy {
     /// Energy that unloading recovers.
@@ -138,7 +138,7 @@ pub trait NonlinearForce {
     }
 }
 
-/// Internal variables of a structure that may be linear, for a checkpoint.
+/// Internal variables of a structure, for a checkpoint; empty for a linear structure.
 pub(crate) fn save_variables(structure: &dyn Structure) -> Result<Vec<f64>> {
     structure.nonlinear().map_or_else(|| Ok(Vec::new()), NonlinearForce::save)
 }

@@ -33,7 +33,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// A row. A NaN loses its sign and payload; an empty error text becomes "failed".
+    /// Makes a row; a NaN loses its sign and payload, and an empty error text becomes "failed".
     pub(super) fn new(case: usize, outcome: std::result::Result<Vec<f64>, String>) -> Self {
         let clean = |value: f64| if value.is_nan() { f64::NAN } else { value };
         let outcome = match outcome {
@@ -124,7 +124,7 @@ pub struct CaseRow<'a> {
 }
 
 impl<'a> CaseRow<'a> {
-    /// A result, or the value of a parameter with numbers.
+    /// Number in a `column`: a result, or the value of a numeric parameter.
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no column of numbers has this name;
@@ -145,7 +145,7 @@ impl<'a> CaseRow<'a> {
         }
     }
 
-    /// Value of a parameter with texts.
+    /// Value of a `parameter` whose values are texts.
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no such parameter has this name.
@@ -194,7 +194,7 @@ pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Prints five figures; whole numbers in full; the smallest numbers with an exponent.
+/// Writes a number with five figures, a whole number in full, the smallest numbers with an exponent.
 fn figures(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 {
         // Adding zero removes a negative sign of zero.

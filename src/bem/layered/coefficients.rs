@@ -39,7 +39,7 @@ pub(crate) const BLOCKS: usize = 25;
 const POINTS_PER_LAG: usize = 4;
 /// Tolerance of the integrals relative to the tolerance of the weights: integration errors must not cause halving.
 const FINER: f64 = 0.03;
-/// Multiple of the tolerance to which a panel must be predicted as resolved before it is sampled.
+/// A panel is sampled only if it is predicted as resolved to this multiple of the tolerance.
 ///
 /// Half of the panels at this limit are resolved.
 pub(super) const DOUBT: f64 = 100.0;
@@ -87,7 +87,7 @@ impl Block {
 /// Progress of a block's samples, reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
     watch: &'w mut Watch<'a>,
-    /// Expected numbers of samples before this block and up to its end.
+    /// Expected numbers of samples up to the beginning of this block, and up to its end.
     expected: Range<usize>,
     /// Number of samples of this block made so far.
     done: usize,
@@ -288,7 +288,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         own * (KINDS * self.classes) as f64
     }
 
-    /// Returns a test whether a panel is predicted as resolved to a multiple of the tolerance.
+    /// Returns a test: whether a panel is predicted as resolved to a given multiple of the tolerance.
     pub(super) fn looks(
         &self,
         node: usize,

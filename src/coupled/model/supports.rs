@@ -32,7 +32,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{Structure, Tangent, UNNOTICED};
 
-/// Largest lag: far above rounding, and the largest error of a weight.
+/// Largest lag that is accepted, far above rounding; also the largest accepted error of contact nodes' weights.
 const LAG: f64 = 1e-6;
 /// Largest ignored work r·K r, relative to the largest stiffness.
 const FORCE: f64 = 3e-10;
@@ -117,10 +117,10 @@ pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Re
     Ok(())
 }
 
-/// Error for a nonlinear force that resists a translation of the whole structure from the static state.
+/// Returns which parts a nonlinear force joins; an error if it resists a translation of the whole structure.
 ///
-/// Such a force is tied to a fixed point. Returns which parts the force joins with others, so that they cannot
-/// translate alone.
+/// A force that resists a translation from the static state is tied to a fixed point. A part that the force joins with
+/// others cannot translate alone.
 pub(crate) fn joined_by_force(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
@@ -170,14 +170,14 @@ pub(crate) fn joined_by_force(
 
 /// Resistance of the stiffness to a translation.
 struct Resistance {
-    /// r·K r over |r|·|K| |r|, and over the largest stiffness.
+    /// r·K r divided by |r|·|K| |r|; in `reaction`, divided by the largest stiffness.
     work: f64,
     reaction: f64,
     /// Largest |r − s|.
     bent: f64,
-    /// Whether every row of K s is free of force.
+    /// Whether the force in every row of K s is only rounding.
     is_free: bool,
-    /// Largest force relative to the stiffness around it, its row, and that ratio.
+    /// Force that is largest relative to the stiffness in its row, the number of this row, and the ratio.
     force: f64,
     dof: usize,
     ratio: f64,
@@ -210,25 +210,25 @@ impl Resistance {
         }
     }
 
-    /// Whether the structure is held.
+    /// Whether a support holds the structure.
     ///
-    /// Its contact nodes stay behind by `lag` under springs `firmer` times as stiff as its largest stiffness.
+    /// The contact nodes stay behind by `lag` when pulled by springs `firmer` times as stiff as the largest stiffness.
     fn holds(&self, lag: f64, firmer: f64) -> bool {
         let is_rounding = self.reaction <= FORCE || firmer * self.bent <= BENT || self.is_free;
         self.work > WORK && (firmer * lag > LAG || !is_rounding)
     }
 }
 
-/// The largest stiffness between two degrees of freedom, to which a support adds nothing.
+/// Largest stiffness between two degrees of freedom; a support adds nothing to it.
 ///
-/// Without such entries, the largest on the diagonal.
+/// Without such entries, the largest stiffness on the diagonal.
 fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
     let between = stiffness.entries().filter(|(row, column, _)| row != column);
     let most = between.fold(0.0_f64, |most, entry| most.max(entry.2.abs()));
     if most > 0.0 { most } else { largest(diagonal) }
 }
 
-/// A x and |A| |x|.
+/// The products A x and |A| |x|.
 fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
     let [mut sums, mut sizes] = [vec![0.0; x.len()], vec![0.0; x.len()]];
     for (row, column, value) in matrix.entries() {

@@ -62,7 +62,8 @@ const RINGING: f64 = 2.0;
 /// Steps per period that a warning recommends, in the two cases.
 const OWN_STEPS: f64 = 30.0;
 const FOLLOWING_STEPS: f64 = 15.0;
-/// Error of the largest base shear over r² of the ground: if the shear varies as the ground does, and otherwise.
+/// Estimated error of the largest base shear, divided by r² of the ground: if the shear varies as the ground does, and
+/// otherwise.
 ///
 /// It varies so if its r is within the two multiples of the ground's r.
 const ERROR_FOLLOWING: f64 = 0.3;
@@ -82,11 +83,11 @@ const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
 const CELLS_PER_WAVELENGTH: [f64; 2] = [12.0, 12.0];
 /// Steps in which waves cross a base in plan: smallest and recommended number.
 const CROSSING_STEPS: [f64; 2] = [4.0, 8.0];
-/// Smallest number of elements under a foundation, by its base moment over base shear times width.
+/// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
 ///
 /// Below the last limit rocking does not matter.
 const ELEMENTS: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
-/// Elements that any foundation needs: a single element resists no moment and does not rock.
+/// Smallest number of elements of any foundation: a single element resists no moment and does not rock.
 const TWO: usize = 2;
 /// Time step and elements that a run's base shear, ground and foundations require.
 #[derive(Debug, Clone)]
@@ -94,10 +95,11 @@ const TWO: usize = 2;
 pub(crate) struct Resolution {
     time_step: f64,
     in_plan: bool,
-    /// Longest element, m; in plan the narrowest along x or along y.
+    /// Length of the longest element, m. In plan the narrowest side along x or the narrowest along y, whichever is
+    /// longer.
     longest: f64,
     shear_wave_speed: Option<f64>,
-    /// The foundation with the fewest elements.
+    /// Number of the foundation with the fewest elements, from 0.
     foundation: usize,
     /// Elements, shear and moment of the foundation along x, and in plan along y.
     axes: [Axis; 2],
@@ -107,7 +109,7 @@ pub(crate) struct Resolution {
     /// Mean free field at the last two steps, and its last second difference.
     free_field: [[f64; SPACE]; 2],
     acceleration: [f64; SPACE],
-    /// Largest component of that difference after the first steps.
+    /// Largest component of the free field's second difference, m, after the first steps.
     peak: f64,
     /// Largest |free field| so far.
     largest: [f64; SPACE],
@@ -144,7 +146,7 @@ impl Axis {
         self.moment = self.moment.max((moment - self.static_moment).abs());
     }
 
-    /// Smallest number of elements that its rocking needs.
+    /// Smallest number of elements that the foundation's rocking needs.
     fn needed(&self) -> usize {
         let arm = self.moment / (self.shear * self.width);
         let rocking = ELEMENTS.iter().find(|(least, _)| self.elements < TWO || arm > *least);
@@ -158,10 +160,10 @@ fn free_field(state: &State) -> [f64; SPACE] {
     [along, up, state.free_field_across]
 }
 
-/// Findings from samples of the ground between the steps.
+/// Properties of the ground motion, from samples between the steps.
 #[derive(Debug, Clone, Copy, Default)]
 struct GroundSamples {
-    /// Frequency of its acceleration, Hz.
+    /// Frequency of the acceleration, Hz.
     frequency: Option<f64>,
     /// Whether waves run along the base.
     running: bool,
@@ -253,7 +255,7 @@ impl Resolution {
         self.peak / self.time_step.powi(2)
     }
 
-    /// Whether the base shear exceeded rounding, over enough steps.
+    /// Whether the base shear is more than rounding, in enough steps.
     fn has_response(&self) -> bool {
         let rounding = ROUNDING * self.normal_force;
         self.steps >= LEAST_STEPS
@@ -305,7 +307,7 @@ impl Resolution {
         self.wavelength().filter(|length| *length < self.per_wavelength()[0] * self.longest)
     }
 
-    /// Adds warnings of motion that steps and elements did not resolve.
+    /// Adds warnings of motion that time step and elements do not resolve.
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
         if !self.has_response() {
             return;
@@ -337,7 +339,7 @@ impl Resolution {
             let needed = crossing / CROSSING_STEPS[1];
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
-        // Springs need two at most.
+        // A foundation on springs needs two elements at most.
         let least = |axis: &Axis| if self.shear_wave_speed.is_some() { axis.needed() } else { TWO };
         if let Some(found) = self.axes.iter().position(|axis| axis.elements < least(axis)) {
             let Axis { elements, .. } = self.axes[found];
@@ -354,7 +356,7 @@ impl Resolution {
 
     /// Samples the ground between the steps in `times` (s) if the steps may have missed a faster motion.
     ///
-    /// In the steps a faster motion is aliased.
+    /// At the steps a faster motion appears as a slower one.
     pub(crate) fn resolve_ground(
         &mut self,
         ground: &dyn Ground,
