@@ -62,7 +62,7 @@ pub(crate) fn refine(
     let found = heard(|| basemat::coupled::refine(elements, time_step, results).or_raise())?;
     match names {
         None => PyRefinement(found).into_py_any(py),
-        Some(names) => PyRefinements(Refinements::of(names, &found).or_raise()?).into_py_any(py),
+        Some(names) => PyRefinements(Refinements::named(names, &found).or_raise()?).into_py_any(py),
     }
 }
 

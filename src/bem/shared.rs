@@ -53,7 +53,7 @@ struct Store {
 
 #[derive(Debug, Default)]
 struct Kernels {
-    kept: Vec<Entry>,
+    entries: Vec<Entry>,
     /// Kernels that threads are computing now; in `waiting`, kernels that other threads wait for.
     being_made: Vec<(Arc<Key>, ThreadId)>,
     waiting: Vec<(Arc<Key>, ThreadId)>,
@@ -109,7 +109,7 @@ impl Drop for Making<'_> {
 impl SharedKernels {
     /// Number of kernels stored.
     pub fn count(&self) -> usize {
-        self.kernels().kept.len()
+        self.kernels().entries.len()
     }
 
     fn kernels(&self) -> MutexGuard<'_, Kernels> {
@@ -138,10 +138,10 @@ impl SharedKernels {
         let making = Making { store: self, key: &key };
         let kernel = source.kernel(elements, time_step)?;
         let mut kernels = self.kernels();
-        if kernels.kept.len() == KEPT {
-            kernels.kept.remove(0);
+        if kernels.entries.len() == KEPT {
+            kernels.entries.remove(0);
         }
-        kernels.kept.push(Entry { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
+        kernels.entries.push(Entry { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
         drop(kernels);
         drop(making);
         Ok(kernel)
@@ -154,11 +154,11 @@ impl SharedKernels {
         let own = thread::current().id();
         let mut kernels = self.kernels();
         loop {
-            if let Some(place) = kernels.kept.iter().position(|entry| entry.key == *key) {
+            if let Some(place) = kernels.entries.iter().position(|entry| entry.key == *key) {
                 // The kernel used last is removed last.
-                let entry = kernels.kept.remove(place);
+                let entry = kernels.entries.remove(place);
                 let kernel = Arc::clone(&entry.kernel);
-                kernels.kept.push(entry);
+                kernels.entries.push(entry);
                 return Ok(Some(kernel));
             }
             let Some(maker) = kernels.maker(key) else {

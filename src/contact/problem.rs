@@ -64,7 +64,7 @@ impl ContactInput<'_> {
     /// Start of the step as an element's law receives it: without a bond that breaks in the step.
     #[inline]
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
-        let mut start = self.start.of(element);
+        let mut start = self.start.element(element);
         start.has_opened |= self.bond(element) == Bond::Broken;
         start
     }

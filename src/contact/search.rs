@@ -132,7 +132,8 @@ impl ModeSearch {
         bonds.fill(Bond::Free);
         if self.search == ContactSearch::Robust {
             for (e, bond) in bonds.iter_mut().enumerate() {
-                let overload = input.law(e).bond_overload(&input.start.of(e), input.start.state(e));
+                let overload =
+                    input.law(e).bond_overload(&input.start.element(e), input.start.state(e));
                 if overload.is_some() {
                     (*bond, modes[e]) = (Bond::Held, input.law(e).modes()[0]);
                 }

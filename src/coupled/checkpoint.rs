@@ -5,7 +5,7 @@ use crate::contact::SearchMethod;
 #[cfg(feature = "serde")]
 use crate::coupled::identity::bits;
 use crate::coupled::identity::{Change, Identity};
-use crate::coupled::model::motion::Translation;
+use crate::coupled::model::kinematics::Translation;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
@@ -245,7 +245,7 @@ impl Simulation {
         state.time = state.step as f64 * scene.time_step;
         (state.trials, state.method) = (0, SearchMethod::ActiveSet);
         state.transitions.clear();
-        state.motion.changed();
+        state.kinematics.changed();
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         state.update_resultants(scene);
@@ -288,12 +288,14 @@ fn numbers<'a>(
     books: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
-    let State { motion, contact, start, free_field, free_field_across, .. } = state;
-    for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
+    let State { kinematics, contact, start, free_field, free_field_across, .. } = state;
+    for values in
+        [&mut kinematics.displacement, &mut kinematics.velocity, &mut kinematics.acceleration]
+    {
         all.extend(values.iter_mut());
     }
     all.extend(free_field);
-    for translation in &mut motion.translations {
+    for translation in &mut kinematics.translations {
         let Translation { displacement, increment, velocity, new_velocity, new_acceleration } =
             translation;
         for values in [displacement, increment, velocity, new_velocity, new_acceleration] {

@@ -59,7 +59,7 @@ pub(crate) struct FixedBaseMode {
 
 impl FixedBaseMode {
     /// The mode of `structure` with the most mass along x (0) or y (1); `None` for a rigid structure.
-    pub(crate) fn of(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
+    pub(crate) fn dominant(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
         let mass = SparseMatrix::assembled("mass matrix", n, &|m| structure.mass(m))?;
         let damping = SparseMatrix::assembled("damping matrix", n, &|m| structure.damping(m))?;

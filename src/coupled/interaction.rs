@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::coupled::free_vibration::{FixedBaseMode, free_vibration};
 use crate::coupled::parts::SimulationBuilder;
-use crate::coupled::run::quantity::Place;
+use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{Extremes, Quantity, Run};
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
@@ -121,7 +121,7 @@ pub fn interaction(
     for &axis in axes {
         let builder = scene()?;
         let Some(structure) = builder.structure.as_deref() else { continue };
-        let Some(fixed) = FixedBaseMode::of(structure, axis)? else { continue };
+        let Some(fixed) = FixedBaseMode::dominant(structure, axis)? else { continue };
         let (fixed_period, fixed_damping) = (fixed.period, fixed.damping);
         let [period, damping] = free_vibration(builder, &fixed)?;
         let axis = axis_name(on_ground.in_plan, axis);
@@ -162,7 +162,7 @@ impl Interaction {
             let ratio = if ratio.is_finite() { format!("{ratio:.3}") } else { "–".to_owned() };
             vec![name.to_owned(), unit.to_owned(), value(pair[0]), value(pair[1]), ratio]
         };
-        let forces = Quantity::shown(Place::ComparisonTime, in_plan).map(|quantity| {
+        let forces = Quantity::shown(ShownIn::ComparisonTime, in_plan).map(|quantity| {
             let [ground, fixed] =
                 [on_ground, on_fixed_base].map(|run| run.whole.extremes(quantity));
             row(quantity.name(), quantity.printed(in_plan), [&ground, &fixed])

@@ -125,7 +125,7 @@ pub fn refine(
     time_step: f64,
     mut scene: impl FnMut(usize, f64) -> Result<Vec<f64>>,
 ) -> Result<Refinement> {
-    settings(elements, time_step, &mut scene).map(Refinement::of)
+    settings(elements, time_step, &mut scene).map(Refinement::from_settings)
 }
 
 /// Runs the scene at the six settings; their errors are not yet set.
@@ -178,7 +178,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl Refinement {
-    pub(crate) fn of(mut settings: Vec<Setting>) -> Self {
+    pub(crate) fn from_settings(mut settings: Vec<Setting>) -> Self {
         let of = |k: usize| &settings[k].results[..];
         let (steps, step_order) = errors([of(0), of(1), of(2)]);
         let (meshes, mesh_order) = errors([of(0), of(3), of(4)]);

@@ -96,7 +96,7 @@ impl Refinements {
     ///
     /// # Errors
     /// [`Error::Size`] unless there are as many names as results.
-    pub fn of(names: Vec<String>, refinement: &Refinement) -> Result<Self> {
+    pub fn named(names: Vec<String>, refinement: &Refinement) -> Result<Self> {
         same_length("list of names", names.len(), refinement.extrapolated.len())?;
         Ok(Self::each(names, &refinement.settings))
     }
@@ -104,7 +104,7 @@ impl Refinements {
     fn each(names: Vec<String>, settings: &[Setting]) -> Self {
         let of = |k: usize| {
             let only = |own: &Setting| Setting { results: vec![own.results[k]], ..own.clone() };
-            Refinement::of(settings.iter().map(only).collect())
+            Refinement::from_settings(settings.iter().map(only).collect())
         };
         Self { peaks: names.into_iter().enumerate().map(|(k, name)| (name, of(k))).collect() }
     }

@@ -6,8 +6,8 @@ use crate::coupled::base::Base;
 use crate::coupled::base::influence::{ConnectedPart, UP};
 use crate::coupled::base::transformation::{Transformation, Weights};
 use crate::coupled::model::Model;
+use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::load::SteppedLoad;
-use crate::coupled::model::motion::Motion;
 use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::serviceability::Serviceability;
@@ -182,7 +182,7 @@ impl Scene {
     }
 
     /// Displacement of a motion as the nonlinear force receives it.
-    pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
+    pub(crate) fn seen_at(&self, motion: &Kinematics) -> Vec<f64> {
         let mut seen = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);
         self.seen_by_force(&mut seen, &mut vec![0.0; self.layout().len()], translations);
@@ -221,7 +221,7 @@ impl Scene {
         mode: Mode,
         start: &PreviousContacts,
     ) -> Result<[f64; 2], LawError> {
-        let compliance = self.law(element).compliance(mode, &start.of(element));
+        let compliance = self.law(element).compliance(mode, &start.element(element));
         let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
         match named.into_iter().find(|(_, value)| !value.is_finite()) {
             None => Ok(compliance),

@@ -48,7 +48,7 @@ impl Criterion {
     }
 
     /// The value furthest from zero among all foundations or elements of a state.
-    pub(crate) fn of(self, state: &State) -> f64 {
+    pub(crate) fn largest_value(self, state: &State) -> f64 {
         let furthest = |far: f64, value: f64| if value.abs() > far.abs() { value } else { far };
         let foundations = state.foundations.iter();
         match self {

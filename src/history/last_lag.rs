@@ -23,7 +23,7 @@ impl LastLag {
     ///
     /// `None` if the lags up to `most` do not reach it. The lag found does not depend on `most`. The observer counts
     /// lags; the search ends early where the last lag is found.
-    pub(super) fn of(
+    pub(super) fn find(
         kernel: &dyn ConvolutionWeights,
         tolerance: f64,
         most: usize,

@@ -141,7 +141,7 @@ impl PreviousContacts {
         for (e, start) in elements.iter().enumerate() {
             let range = starts.state_variable_range(e);
             if start.state_variables.is_empty() && !range.is_empty() {
-                let state_variables = starts.of(e).first_state_variables(law_of(laws, e));
+                let state_variables = starts.element(e).first_state_variables(law_of(laws, e));
                 check_state_variables(e, start.mode, &state_variables)?;
                 starts.state_variables[range].copy_from_slice(&state_variables);
             } else {
@@ -166,7 +166,7 @@ impl PreviousContacts {
     ///
     /// [`ContactProblem::start`](crate::contact::ContactProblem::start) accepts the collected items.
     pub fn iter(&self) -> impl Iterator<Item = PreviousContact<'_>> {
-        (0..self.len()).map(|e| self.of(e))
+        (0..self.len()).map(|e| self.element(e))
     }
 
     /// Length of the coming step, s.
@@ -176,7 +176,7 @@ impl PreviousContacts {
 
     /// The start of an element; the element must exist.
     #[inline]
-    pub(crate) fn of(&self, element: usize) -> PreviousContact<'_> {
+    pub(crate) fn element(&self, element: usize) -> PreviousContact<'_> {
         self.past[element].with_state_variables(self.state_variables_of(element))
     }
 
@@ -245,7 +245,7 @@ impl PreviousContacts {
         for (e, (state, &mode)) in states.iter().zip(modes).enumerate() {
             let own = &mut state_variables[self.state_variable_range(e)];
             if !own.is_empty() {
-                law_of(laws, e).commit(&self.of(e), state, mode, own);
+                law_of(laws, e).commit(&self.element(e), state, mode, own);
                 check_state_variables(e, mode, own)?;
             }
         }

@@ -288,7 +288,7 @@ mod tests {
 
     /// A function of one number, written for lanes and for single ones.
     trait Function {
-        fn of<C: Number>(&self, x: C) -> C;
+        fn value<C: Number>(&self, x: C) -> C;
     }
 
     struct Each<'a, F>(&'a F, &'a [Complex]);
@@ -301,7 +301,7 @@ mod tests {
             let mut found = vec![Complex::default(); self.1.len()];
             let count = Lanes::<S>::COUNT;
             for (numbers, found) in self.1.chunks(count).zip(found.chunks_mut(count)) {
-                self.0.of(Lanes::load(simd, numbers)).store(found);
+                self.0.value(Lanes::load(simd, numbers)).store(found);
             }
             found
         }
@@ -312,14 +312,14 @@ mod tests {
         [
             vectorized(Each(function, numbers)),
             Each(function, numbers).with_simd(pulp::Scalar::new()),
-            numbers.iter().map(|x| function.of(*x)).collect(),
+            numbers.iter().map(|x| function.value(*x)).collect(),
         ]
     }
 
     struct Arithmetic;
 
     impl Function for Arithmetic {
-        fn of<C: Number>(&self, x: C) -> C {
+        fn value<C: Number>(&self, x: C) -> C {
             let other = x.like(Complex::new(0.3, -1.7));
             let root = (x * x + other).sqrt() - x.scale(3.3);
             let floored = root.at_least(x.like_real(2.0)).inverse();
@@ -330,7 +330,7 @@ mod tests {
     struct Exponential;
 
     impl Function for Exponential {
-        fn of<C: Number>(&self, x: C) -> C {
+        fn value<C: Number>(&self, x: C) -> C {
             x.exp()
         }
     }
@@ -338,7 +338,7 @@ mod tests {
     struct Inverse;
 
     impl Function for Inverse {
-        fn of<C: Number>(&self, x: C) -> C {
+        fn value<C: Number>(&self, x: C) -> C {
             x.inverse()
         }
     }

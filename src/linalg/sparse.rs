@@ -18,11 +18,11 @@ use crate::linalg::{SparseMatrix, Triplets};
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub(crate) struct SparseFactor {
     order: usize,
-    kind: Kind,
+    factors: Factors,
     buffer: MemBuffer,
 }
 
-enum Kind {
+enum Factors {
     Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
     Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
 }
@@ -48,7 +48,7 @@ impl SparseFactor {
 
     /// Whether the matrix was found positive definite.
     pub(crate) fn is_positive_definite(&self) -> bool {
-        matches!(self.kind, Kind::Cholesky { .. })
+        matches!(self.factors, Factors::Cholesky { .. })
     }
 
     /// Returns `None` if a solve is not finite: LU may accept a singular matrix with a pivot of rounding
@@ -89,7 +89,7 @@ impl SparseFactor {
                 forward.map_or(index, |rows| rows.get(index).copied().unwrap_or(0))
             })?;
         let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
-        Ok(Self { order: matrix.nrows(), kind: Kind::Cholesky { symbolic, values }, buffer })
+        Ok(Self { order: matrix.nrows(), factors: Factors::Cholesky { symbolic, values }, buffer })
     }
 
     fn lu(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
@@ -108,42 +108,44 @@ impl SparseFactor {
             )
             .ok()?;
         let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
-        Some(Self { order: matrix.nrows(), kind: Kind::Lu { symbolic, numeric }, buffer })
+        Some(Self { order: matrix.nrows(), factors: Factors::Lu { symbolic, numeric }, buffer })
     }
 
     /// Approximate number of values that a solve reads.
     pub(crate) fn stored(&self) -> usize {
-        match &self.kind {
-            Kind::Cholesky { values, .. } => values.len(),
-            Kind::Lu { .. } => self.order * self.order,
+        match &self.factors {
+            Factors::Cholesky { values, .. } => values.len(),
+            Factors::Lu { .. } => self.order * self.order,
         }
     }
 
     /// Overwrites `rhs` with A⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
-        Self::solve_with(&self.kind, self.order, 1, false, rhs, &mut self.buffer);
+        Self::solve_with(&self.factors, self.order, 1, false, rhs, &mut self.buffer);
     }
 
     /// Overwrites `rhs` with A⁻ᵀ rhs.
     pub(crate) fn solve_transposed(&mut self, rhs: &mut [f64]) {
-        Self::solve_with(&self.kind, self.order, 1, true, rhs, &mut self.buffer);
+        Self::solve_with(&self.factors, self.order, 1, true, rhs, &mut self.buffer);
     }
 
     /// Overwrites many right-hand sides, one after the other in `rhs`, with A⁻¹ rhs; allocates its workspace.
     pub(crate) fn solve_many(&self, rhs: &mut [f64]) {
         let columns = rhs.len() / self.order.max(1);
-        let scratch = match &self.kind {
-            Kind::Cholesky { symbolic, .. } => {
+        let scratch = match &self.factors {
+            Factors::Cholesky { symbolic, .. } => {
                 symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
             }
-            Kind::Lu { symbolic, .. } => symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq),
+            Factors::Lu { symbolic, .. } => {
+                symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
+            }
         };
         let mut buffer = MemBuffer::new(scratch);
-        Self::solve_with(&self.kind, self.order, columns, false, rhs, &mut buffer);
+        Self::solve_with(&self.factors, self.order, columns, false, rhs, &mut buffer);
     }
 
     fn solve_with(
-        kind: &Kind,
+        factors: &Factors,
         order: usize,
         columns: usize,
         transposed: bool,
@@ -152,8 +154,8 @@ impl SparseFactor {
     ) {
         let stack = MemStack::new(buffer);
         let rhs = MatMut::from_column_major_slice_mut(rhs, order, columns);
-        match kind {
-            Kind::Cholesky { symbolic, values } => {
+        match factors {
+            Factors::Cholesky { symbolic, values } => {
                 LltRef::new(symbolic, values).solve_in_place_with_conj(
                     Conj::No,
                     rhs,
@@ -161,7 +163,7 @@ impl SparseFactor {
                     stack,
                 );
             }
-            Kind::Lu { symbolic, numeric } => {
+            Factors::Lu { symbolic, numeric } => {
                 let lu = LuRef::new_unchecked(symbolic, numeric);
                 if transposed {
                     lu.solve_transpose_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
@@ -284,7 +286,7 @@ mod tests {
             let mut rhs = vec![0.0; 40];
             matrix.multiply_add(1.0, &x, &mut rhs);
             let mut factor = SparseFactor::new("test", &triplets).unwrap();
-            assert_eq!(matches!(factor.kind, Kind::Cholesky { .. }), skew == 0.0);
+            assert_eq!(matches!(factor.factors, Factors::Cholesky { .. }), skew == 0.0);
             factor.solve(&mut rhs);
             for (a, b) in rhs.iter().zip(&x) {
                 assert!((a - b).abs() < 1e-13);

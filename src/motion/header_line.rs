@@ -35,7 +35,7 @@ impl HeaderLines {
 
     /// The titles in each line. The number of columns may be any of a range, as the last cells of a line may be empty.
     pub(super) fn titles(&self, columns: &RangeInclusive<usize>) -> ColumnTitles {
-        ColumnTitles(self.0.iter().map(|line| LineTitles::of(line, columns)).collect())
+        ColumnTitles(self.0.iter().map(|line| LineTitles::read(line, columns)).collect())
     }
 }
 
@@ -83,7 +83,7 @@ enum LineTitles {
 }
 
 impl LineTitles {
-    fn of(line: &str, columns: &RangeInclusive<usize>) -> Self {
+    fn read(line: &str, columns: &RangeInclusive<usize>) -> Self {
         let sign = [';', ','].into_iter().find(|&sign| line.contains(sign));
         let mut readings: Vec<_> =
             sign.iter().map(|&sign| with_brackets(cells(line, sign))).collect();
@@ -250,7 +250,7 @@ mod tests {
             ("t (s), CH 1 (g)", "t (s)|CH 1 (g)"),
             ("t,a,", "t|a|"),
         ] {
-            let LineTitles::All(found) = LineTitles::of(line, &(2..=2)) else { panic!("{line}") };
+            let LineTitles::All(found) = LineTitles::read(line, &(2..=2)) else { panic!("{line}") };
             assert_eq!(found.join("|"), titles, "{line}");
         }
         for line in [
@@ -261,7 +261,7 @@ mod tests {
             "Station 1000",
             "time (s)",
         ] {
-            assert!(matches!(LineTitles::of(line, &(2..=2)), LineTitles::One(_)), "{line}");
+            assert!(matches!(LineTitles::read(line, &(2..=2)), LineTitles::One(_)), "{line}");
         }
     }
 }

@@ -216,7 +216,7 @@ fn is_gap(sign: char) -> bool {
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn of(line: &'a str) -> Self {
+    pub(super) fn split(line: &'a str) -> Self {
         let separator = if line.contains(';') {
             // Beside semicolons a comma would be a decimal comma: it stays in its field, which is then not a number.
             Some(';')

@@ -84,11 +84,11 @@ impl Late {
         let is_at_rest = end.abs() <= REST * record.peaks().velocity;
         let needed = "at most 1 % of its peak for components out of phase (see Baseline)";
         require("velocity at the end of the record", end, is_at_rest, needed)?;
-        Self::of(record.time_step(), record.velocities())
+        Self::from_velocity(record.time_step(), record.velocities())
     }
 
     /// Transform of two or more samples of the record's velocity.
-    fn of(step: f64, source: &[f64]) -> Result<Self> {
+    fn from_velocity(step: f64, source: &[f64]) -> Result<Self> {
         let count = source.len();
         // Velocity and displacement, not acceleration, are transformed: integrals of a transformed acceleration
         // would miss its part before t = 0.
@@ -246,7 +246,7 @@ mod tests {
         ];
         let step = record.time_step();
         for source in sources {
-            let late = Late::of(step, source).unwrap();
+            let late = Late::from_velocity(step, source).unwrap();
             let peak = |samples: &[f64]| samples.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
             let peaks = [peak(&late.displacement), peak(&late.velocity)];
             let (count, last) = (source.len() as f64, late.velocity.len() - 1);

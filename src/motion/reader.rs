@@ -176,7 +176,7 @@ impl Table {
                 }
                 continue;
             }
-            let fields = Fields::of(&text);
+            let fields = Fields::split(&text);
             let is_header = header_may_come && is_header(&fields);
             header_may_come = false;
             if is_header {

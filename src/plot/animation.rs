@@ -63,11 +63,11 @@ pub fn animation(
     let mut out = head(title);
     let screen;
     if in_plan {
-        let floor = Floor::of(time_series);
-        screen = Screen::of(&moved, &view.all(&floor.corners(floor.margin)));
+        let floor = Floor::new(time_series);
+        screen = Screen::around(&moved, &view.all(&floor.corners(floor.margin)));
         out += &floor.draw(time_series, &screen, frames.len(), &duration);
     } else {
-        screen = Screen::of(&moved, &[[moved[0][0][0], 0.0]]);
+        screen = Screen::around(&moved, &[[moved[0][0][0], 0.0]]);
         out += &screen.ground();
         out += &base(time_series, &screen, frames.len(), &duration);
     }
@@ -95,7 +95,7 @@ struct Screen {
 
 impl Screen {
     /// Screen that contains these places and the `others`.
-    fn of(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
+    fn around(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
         let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
         all.extend(others);
         let bounds = bounds(&all);
@@ -253,7 +253,7 @@ struct Floor {
 const SIDE: [f64; 4] = [ASIDE, 440.0, 915.0, 585.0];
 
 impl Floor {
-    fn of(time_series: &TimeSeries) -> Self {
+    fn new(time_series: &TimeSeries) -> Self {
         let along = far_ends(time_series.elements().iter().map(|own| [own.left, own.right]));
         let across = far_ends(time_series.depths().iter().copied());
         let side = (along[1] - along[0]).max(across[1] - across[0]);
@@ -275,7 +275,7 @@ impl Floor {
         frames: usize,
         duration: &str,
     ) -> String {
-        let seen = |place: [f64; 3]| screen.place(View::Slanted.of(place));
+        let seen = |place: [f64; 3]| screen.place(View::Slanted.project(place));
         let soil = polygon(&self.corners(self.margin).map(seen));
         let mut out =
             format!("<path d=\"{soil}\" fill=\"{}\" stroke=\"{}\"/>\n", hex(SOIL), hex(SURFACE));

@@ -36,8 +36,8 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let every = (frames.len() - 1).div_ceil(COLUMNS).max(1);
     let (shown, key) = shown(&frames, false);
     let key = key.into_iter().map(|what| (what.name(), Sample::Area(what.color())));
-    let base = BaseAxis::of(elements.iter().copied());
-    Sheet::new(title, Key::of(key)).picture(|area| {
+    let base = BaseAxis::new(elements.iter().copied());
+    Sheet::new(title, Key::new(key)).picture(|area| {
         let mut chart = chart(area, &Axis::linear(begin..end, "time, s"), &base.axis(), false)?;
         label_breaks(&mut chart, &base, |place| (0.5 * (begin + end), place))?;
         for (e, element) in elements.iter().enumerate() {
@@ -80,7 +80,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
         return largest_pressures(title, run);
     }
     let envelope = &run.envelope;
-    let base = BaseAxis::of(envelope.iter().map(|e| e.element));
+    let base = BaseAxis::new(envelope.iter().map(|e| e.element));
     let curves: [(&str, Value); 3] = [
         ("largest", |e| 1e-3 * e.pressure.highest.value),
         ("static", |e| 1e-3 * e.static_pressure),
@@ -102,7 +102,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     let range = range_of(values.chain([0.0]));
     let strokes = [COLORS[1], COLORS[5], COLORS[0]].map(Stroke::plain);
     let key = curves.iter().zip(strokes).map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
-    Sheet::new(title, Key::of(key)).picture(|area| {
+    Sheet::new(title, Key::new(key)).picture(|area| {
         let top = range.end - 0.04 * (range.end - range.start);
         let mut chart = chart(area, &base.axis(), &Axis::linear(range, "pressure, kPa"), true)?;
         label_breaks(&mut chart, &base, |place| (place, top))?;
@@ -147,7 +147,7 @@ pub(super) struct BaseAxis {
 }
 
 impl BaseAxis {
-    pub(super) fn of(elements: impl Iterator<Item = ContactElement>) -> Self {
+    pub(super) fn new(elements: impl Iterator<Item = ContactElement>) -> Self {
         let mut elements: Vec<ContactElement> = elements.collect();
         elements.sort_by(|a, b| a.left.total_cmp(&b.left));
         let mut pieces: Vec<Piece> = Vec::new();
@@ -243,7 +243,7 @@ mod tests {
     fn wide_gaps_are_short_and_marks_tell_where_one_is() {
         let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
         let elements = elements.map(|(left, right)| ContactElement { left, right });
-        let base = BaseAxis::of(elements.into_iter());
+        let base = BaseAxis::new(elements.into_iter());
         // 17.5 m of foundations: the gap of 32 m becomes 1.75 m; the gap of 0.5 m keeps its width.
         assert_eq!(base.breaks, [Break { from: 8.0, to: 9.75, width: 32.0 }]);
         for (x, place) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {

@@ -26,7 +26,7 @@ pub(super) enum View {
 
 impl View {
     /// Place in the picture of a point (x, height, y), m.
-    pub(super) fn of(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
+    pub(super) fn project(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
         match self {
             Self::AlongY => [x, up],
             Self::AlongX => [y, up],
@@ -36,7 +36,7 @@ impl View {
 
     /// Places in the picture of all points.
     pub(super) fn all(self, places: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        places.iter().map(|place| self.of(*place)).collect()
+        places.iter().map(|place| self.project(*place)).collect()
     }
 }
 
@@ -136,7 +136,7 @@ pub fn deformed_shapes(
     let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
     let scale = format!("displacements × {}", short(magnification));
     let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
-    let sheet = Sheet::new(title, Key::of(lines.chain(rest)));
+    let sheet = Sheet::new(title, Key::new(lines.chain(rest)));
     let elevation = |view: View, room: [f64; 2]| {
         let seen: Vec<Vec<[f64; 2]>> = drawn.iter().map(|(_, places)| view.all(places)).collect();
         let mut all = seen.concat();

@@ -138,7 +138,7 @@ pub(super) enum Sample {
 pub(super) struct Key(Vec<(Vec<String>, Sample)>);
 
 impl Key {
-    pub(super) fn of<'n>(entries: impl IntoIterator<Item = (&'n str, Sample)>) -> Self {
+    pub(super) fn new<'n>(entries: impl IntoIterator<Item = (&'n str, Sample)>) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();
         // A line "and 1 more" would need as much room as the name itself.
         let shown = if entries.len() > ENTRIES + 1 { ENTRIES } else { entries.len() };
@@ -155,7 +155,7 @@ impl Key {
     /// Curves in their order.
     pub(super) fn of_curves<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
         let names = names.into_iter().enumerate();
-        Self::of(names.map(|(k, name)| (name, Sample::Line(Stroke::nth(k)))))
+        Self::new(names.map(|(k, name)| (name, Sample::Line(Stroke::nth(k)))))
     }
 
     /// Width of the strip, pixels.

@@ -50,7 +50,7 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
     let names = curves.iter().enumerate();
     let entries = names.map(|(k, curve)| (curve.name.as_str(), Sample::Line(Stroke::nth(k))));
     let limits = limit.map(|name| (name, Sample::Line(Stroke::plain(LIMIT))));
-    Sheet::new(title, Key::of(entries.chain(limits))).picture(|area| {
+    Sheet::new(title, Key::new(entries.chain(limits))).picture(|area| {
         let (x, y) = (Axis::linear(x_range.clone(), x), Axis::linear(y_range, y));
         let mut chart = chart(area, &x, &y, true)?;
         if limit.is_some() {
@@ -282,7 +282,7 @@ pub fn site_response(
     let own = names.map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
     let others = spectra.iter().enumerate();
     let others = others.map(|(k, (name, _))| (*name, Sample::Line(Stroke::nth(k))));
-    Sheet::new(title, Key::of(own.chain(others))).picture(|area| {
+    Sheet::new(title, Key::new(own.chain(others))).picture(|area| {
         let width = area.dim_in_pixel().0;
         let (left, rest) = area.split_horizontally(width * 3 / 10);
         let (middle, right) = rest.split_horizontally(width * 3 / 10);

@@ -49,7 +49,7 @@ pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<
     let largest = frame.states.iter().fold(0.0_f64, |most, own| own.pressure.max(most));
     let classes = Classes::to(largest);
     let both = frame.states.iter().zip(frame.modes);
-    let shown: Vec<_> = both.map(|(state, mode)| Shown::of(*mode, state, largest)).collect();
+    let shown: Vec<_> = both.map(|(state, mode)| Shown::new(*mode, state, largest)).collect();
     let slides = |state: &ContactState, shown: Shown| {
         let size = state.shear.hypot(state.shear_across);
         (shown == Shown::Slip && size > 0.0)
@@ -135,7 +135,7 @@ impl Classes {
 
 /// Draws cells with one scale on both axes.
 fn draw(title: &str, cells: &[Cell], key: &[(String, Sample)]) -> Result<Svg> {
-    let sheet = Sheet::new(title, Key::of(key.iter().map(|(name, sample)| (&name[..], *sample))));
+    let sheet = Sheet::new(title, Key::new(key.iter().map(|(name, sample)| (&name[..], *sample))));
     let ends = [0, 1].map(|axis| far_ends(cells.iter().map(|cell| cell.sides[axis])));
     let spans = ends.map(|[low, high]| high - low);
     let margin = MARGIN * spans[0].max(spans[1]);

@@ -23,7 +23,7 @@ impl Shown {
         [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Slip, Self::Open, Self::Weightless];
 
     /// State from mode and tractions of an element; `scale` is the largest pressure of the base.
-    pub(super) fn of(mode: Mode, state: &ContactState, scale: f64) -> Self {
+    pub(super) fn new(mode: Mode, state: &ContactState, scale: f64) -> Self {
         match mode.elastic() {
             Mode::Open => Self::Open,
             _ if state.pressure.abs() <= 1e-9 * scale => Self::Weightless,
@@ -64,7 +64,7 @@ pub(super) fn shown(frames: &[ContactFrame<'_>], in_plan: bool) -> (Vec<Vec<Show
     let scale = pressures.fold(0.0, f64::max);
     let of_frame = |frame: &ContactFrame<'_>| -> Vec<Shown> {
         let both = frame.modes.iter().zip(frame.states);
-        both.map(|(mode, state)| Shown::of(*mode, state, scale)).collect()
+        both.map(|(mode, state)| Shown::new(*mode, state, scale)).collect()
     };
     let all: Vec<Vec<Shown>> = frames.iter().map(of_frame).collect();
     let occurs = |what: Shown| all.iter().flatten().any(|shown| *shown == what);

@@ -5,7 +5,7 @@ use std::fmt;
 use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
-use crate::coupled::run::quantity::Place;
+use crate::coupled::run::quantity::ShownIn;
 use crate::text::column::{Cell, column, distinct, number, of_body, printed};
 use crate::text::csv::Csv;
 use crate::text::table::Table;
@@ -82,10 +82,10 @@ const DERIVED: [Derived; 9] = [
 /// `of`: dimensions of the runs, `true` for in plan.
 fn lines(of: &[bool]) -> Vec<Line> {
     let mut lines = Vec::new();
-    for quantity in Quantity::shown(Place::Comparison, of.contains(&true)) {
+    for quantity in Quantity::shown(ShownIn::Comparison, of.contains(&true)) {
         let peak = move |run: &Run| run.whole.peak(quantity);
         let of_all = quantity.unit(true) == quantity.unit(false);
-        let in_plan_only = quantity.is_shown(Place::Plan);
+        let in_plan_only = quantity.is_shown(ShownIn::Plan);
         let dimensions = of.iter().filter(|in_plan| **in_plan || !in_plan_only);
         for &in_plan in dimensions.take(if of_all { 1 } else { 2 }) {
             let has = move |run: &Run| run.in_plan == in_plan || of_all && !in_plan_only;
@@ -94,7 +94,7 @@ fn lines(of: &[bool]) -> Vec<Line> {
             let (name, column) = (quantity.short_name(), quantity.column(in_plan));
             lines.push(Line { name, unit, column, factor, value: Box::new(known) });
         }
-        if quantity.is_shown(Place::ComparisonTime) {
+        if quantity.is_shown(ShownIn::ComparisonTime) {
             let has = move |run: &Run| run.in_plan || !in_plan_only;
             let time = move |run: &Run| Some(peak(run).time).filter(|_| has(run));
             lines.push(Line {

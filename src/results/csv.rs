@@ -191,7 +191,7 @@ impl TimeSeries {
     pub(super) fn columns(&self) -> Vec<String> {
         let in_plan = self.in_plan();
         let mut columns = vec![column("time", "s")];
-        columns.extend(Quantity::of(in_plan).map(|quantity| quantity.column(in_plan)));
+        columns.extend(Quantity::recorded(in_plan).map(|quantity| quantity.column(in_plan)));
         let others = CONTACT.iter().chain(&MOTION).map(|&name| name.to_owned());
         let ends = self.element_ends().into_iter().map(|(name, _)| format!("element_{name}"));
         let numbers = self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}"));
@@ -204,7 +204,7 @@ impl TimeSeries {
 
     /// Values of the columns.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
-        let scalars = Quantity::of(self.in_plan()).map(|quantity| self.series(quantity));
+        let scalars = Quantity::recorded(self.in_plan()).map(|quantity| self.series(quantity));
         let probes = self.probe_values.iter().map(Vec::as_slice);
         std::iter::once(self.times()).chain(scalars).chain(probes)
     }

@@ -65,7 +65,7 @@ validated! {
         if in_plan {
             crate::error::same_length("list of depths", depths.len(), elements.len())?;
         }
-        crate::error::same_length("list of scalars", scalars.len(), Quantity::of(in_plan).count())?;
+        crate::error::same_length("list of scalars", scalars.len(), Quantity::recorded(in_plan).count())?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
         lengths.into_iter().try_for_each(|length| crate::error::same_length("time series", length, kept))?;
@@ -110,7 +110,7 @@ impl Recorder {
             steps: 0,
             dofs: self.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
-            scalars: vec![Vec::new(); Quantity::of(in_plan).count()],
+            scalars: vec![Vec::new(); Quantity::recorded(in_plan).count()],
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: self.contact.map(ContactFrames::new),

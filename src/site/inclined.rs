@@ -2,11 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::oblique::{InclinedControl, Kind, Surface};
+use super::oblique::{InclinedControl, Surface, WaveKind};
 use super::pace::Pace;
 use super::sampled::{Functions, evaluate};
 use super::site_motion::SiteMotion;
-use super::transform::{Contour, Place};
+use super::transform::{Contour, ContourPoint};
 use crate::error::{LayeredError, Observer, Result, Watch, finite, not_negative, positive};
 use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
@@ -45,7 +45,7 @@ use crate::soil::{Base, Soil, SoilProfile};
 pub struct InclinedWave {
     profile: SoilProfile,
     base: Soil,
-    kind: Kind,
+    kind: WaveKind,
     slowness: f64,
     /// Elastic slowness of the wave, and the cosine of its angle.
     own: [f64; 2],
@@ -62,7 +62,7 @@ impl InclinedWave {
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
     /// [`LayeredError::InclinedOverRigidBase`].
     pub fn sv(profile: SoilProfile, angle: f64) -> Result<Self> {
-        Self::new(profile, angle, Kind::Sv)
+        Self::new(profile, angle, WaveKind::Sv)
     }
 
     /// SH wave, as for [`InclinedWave::sv`], for a ground in plan.
@@ -90,7 +90,7 @@ impl InclinedWave {
     /// As for [`InclinedWave::sv`]; [`InclinedWave::field`] returns an error for
     /// [`InclinedControl::OutcropVertical`].
     pub fn sh(profile: SoilProfile, angle: f64) -> Result<Self> {
-        Self::new(profile, angle, Kind::Sh)
+        Self::new(profile, angle, WaveKind::Sh)
     }
 
     /// P wave, as for [`InclinedWave::sv`].
@@ -98,17 +98,17 @@ impl InclinedWave {
     /// # Errors
     /// As for [`InclinedWave::sv`].
     pub fn p(profile: SoilProfile, angle: f64) -> Result<Self> {
-        Self::new(profile, angle, Kind::P)
+        Self::new(profile, angle, WaveKind::P)
     }
 
-    fn new(profile: SoilProfile, angle: f64, kind: Kind) -> Result<Self> {
+    fn new(profile: SoilProfile, angle: f64, kind: WaveKind) -> Result<Self> {
         let Base::HalfPlane { soil: base, .. } = *profile.base() else {
             return Err(LayeredError::InclinedOverRigidBase.into());
         };
         let (outcrop, speed) = match kind {
-            Kind::Sv => (PlaneWave::sv(base, angle)?, base.shear_wave_speed()),
-            Kind::P => (PlaneWave::p(base, angle)?, base.pressure_wave_speed()),
-            Kind::Sh => (PlaneWave::sh(base, angle)?, base.shear_wave_speed()),
+            WaveKind::Sv => (PlaneWave::sv(base, angle)?, base.shear_wave_speed()),
+            WaveKind::P => (PlaneWave::p(base, angle)?, base.pressure_wave_speed()),
+            WaveKind::Sh => (PlaneWave::sh(base, angle)?, base.shear_wave_speed()),
         };
         let own = [1.0 / speed, angle.cos()];
         Ok(Self { profile, base, kind, slowness: angle.sin() / speed, own, outcrop })
@@ -133,7 +133,7 @@ impl InclinedWave {
         not_negative("frequency of a transfer function", frequency)?;
         self.check(control)?;
         let mut found = [Complex::default(); 2];
-        let place = Place::alone(Complex::new(0.0, TAU * frequency));
+        let place = ContourPoint::alone(Complex::new(0.0, TAU * frequency));
         self.functions(control).at(&place, &mut found)?;
         check_motion(&found)?;
         Ok(found)
@@ -230,7 +230,7 @@ impl InclinedWave {
         horizontal.cut(count);
         vertical.cut(count);
         let horizontal = Some(Record::new(step, horizontal.samples)?);
-        if self.kind == Kind::Sh {
+        if self.kind == WaveKind::Sh {
             return Ok(Triaxial { y: horizontal, ..Triaxial::default() });
         }
         let up = Some(Record::new(step, vertical.samples)?);
@@ -260,7 +260,7 @@ impl InclinedWave {
         let s = Complex::real(finite("highest frequency of a motion", highest)?);
         self.profile.moduli(s, &mut moduli)?;
         for (index, ((soil, _), modulus)) in self.profile.soils().zip(&moduli).enumerate() {
-            let fastest = if self.kind == Kind::Sh { 1.0 } else { soil.speed_ratio_squared() };
+            let fastest = if self.kind == WaveKind::Sh { 1.0 } else { soil.speed_ratio_squared() };
             let limit = (soil.density() * fastest / modulus.re).sqrt();
             let slowness = self.slowness.abs();
             if slowness >= limit {

@@ -25,7 +25,7 @@ pub enum InclinedControl {
 
 /// Kind of the incident wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum WaveKind {
     Sv,
     P,
     Sh,
@@ -35,7 +35,7 @@ pub(super) enum Kind {
 pub(super) struct Surface<'a> {
     profile: &'a SoilProfile,
     base: Soil,
-    kind: Kind,
+    kind: WaveKind,
     control: InclinedControl,
     /// Horizontal slowness of the wave.
     slowness: f64,
@@ -51,7 +51,7 @@ impl<'a> Surface<'a> {
     pub(super) fn exact(
         profile: &'a SoilProfile,
         base: Soil,
-        kind: Kind,
+        kind: WaveKind,
         control: InclinedControl,
         [slowness, elastic, cosine]: [f64; 3],
     ) -> Self {
@@ -77,7 +77,7 @@ impl<'a> Surface<'a> {
 
 impl Functions for Surface<'_> {
     /// A layer and its travels.
-    type Kept<C: Number> = (Medium<C>, [C; 2]);
+    type LayerValues<C: Number> = (Medium<C>, [C; 2]);
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -114,13 +114,13 @@ impl Functions for Surface<'_> {
         // The surface and the outcrop by unit amplitudes, and the amplitude of a unit displacement. The amplitudes
         // of SV and P belong to the vectors (b, p) and (p, a), whose length is 1/c.
         let (none, one) = (s.like_real(0.0), s.like_real(1.0));
-        let (motion, outcrop, unit) = if *kind == Kind::Sh {
+        let (motion, outcrop, unit) = if *kind == WaveKind::Sh {
             ([surface_motion_across(kept, &base), none], [one + one, none], one)
         } else {
             let [px, sx, pz, sz] = surface_motion(kept, &base);
             let [px0, sx0, pz0, sz0] = base.free_surface();
             match kind {
-                Kind::P => ([px, pz], [px0, pz0], base.pressure.sqrt().inverse()),
+                WaveKind::P => ([px, pz], [px0, pz0], base.pressure.sqrt().inverse()),
                 _ => ([sx, sz], [sx0, sz0], base.shear.sqrt().inverse()),
             }
         };

@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use super::transform::Place;
+use super::transform::ContourPoint;
 use crate::error::Result;
 use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
 use crate::soil::SoilProfile;
@@ -44,7 +44,7 @@ fn direction(s: Complex) -> Complex {
 }
 
 impl At<Complex> {
-    fn one(place: &Place) -> Self {
+    fn one(place: &ContourPoint) -> Self {
         let near = [place.nearness, place.ratio].map(Complex::real);
         let direction = direction(place.s);
         let near = (place.nearness > 0.0).then_some(near);
@@ -112,7 +112,7 @@ impl<const WAVES: usize> Highest<WAVES> {
 /// Functions of s, one or several, of a layered ground.
 pub(super) trait Functions {
     /// Intermediate values of a layer, kept between calls.
-    type Kept<C: Number>;
+    type LayerValues<C: Number>;
 
     fn profile(&self) -> &SoilProfile;
 
@@ -126,12 +126,12 @@ pub(super) trait Functions {
         &self,
         at: &At<C>,
         moduli: &[C],
-        kept: &mut Vec<Self::Kept<C>>,
+        kept: &mut Vec<Self::LayerValues<C>>,
         found: &mut [C],
     );
 
     /// The functions at one place.
-    fn at(&self, place: &Place, found: &mut [Complex]) -> Result<()> {
+    fn at(&self, place: &ContourPoint, found: &mut [Complex]) -> Result<()> {
         let mut moduli = vec![];
         self.profile().moduli(place.s, &mut moduli)?;
         self.evaluate(&At::one(place), &moduli, &mut vec![], found);
@@ -142,7 +142,7 @@ pub(super) trait Functions {
 /// Overwrites `found` with the functions at the places: all numbers of the first function, then of the next.
 pub(super) fn evaluate(
     functions: &impl Functions,
-    places: &[Place],
+    places: &[ContourPoint],
     moduli: &mut Vec<Complex>,
     found: &mut [Complex],
 ) -> Result<()> {
@@ -154,7 +154,7 @@ pub(super) fn evaluate(
 
 struct Evaluation<'a, F> {
     functions: &'a F,
-    places: &'a [Place],
+    places: &'a [ContourPoint],
     s: &'a [Complex],
     moduli: &'a [Complex],
     found: &'a mut [Complex],
@@ -178,7 +178,7 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
             let end = length.min(begin + count);
             let own = &places[begin..end];
             let near = own.iter().any(|place| place.nearness > 0.0).then(|| {
-                let load = |of: fn(&Place) -> f64| {
+                let load = |of: fn(&ContourPoint) -> f64| {
                     let mut numbers = vec![zero; own.len()];
                     for (number, place) in numbers.iter_mut().zip(own) {
                         *number = Complex::real(of(place));
@@ -213,7 +213,7 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
 /// Overwrites numbers that left the range of lanes; the first of the places has the number `begin`.
 fn one_by_one<F: Functions>(
     functions: &F,
-    places: &[Place],
+    places: &[ContourPoint],
     begin: usize,
     moduli: &[Complex],
     found: &mut [Complex],

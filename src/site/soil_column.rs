@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::pace::Pace;
 use super::sampled::{Functions, evaluate};
 use super::site_motion::SiteMotion;
-use super::transform::{Contour, Place, Transform};
+use super::transform::{Contour, ContourPoint, Transform};
 use super::vertical::{Column, ControlPoint, Sought, VerticalWave};
 use crate::error::{Observer, Result, Watch, not_negative};
 use crate::linalg::Complex;
@@ -59,7 +59,7 @@ impl SoilColumn {
         not_negative("frequency of a transfer function", frequency)?;
         let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
         let mut found = [Complex::default(); 2];
-        functions.at(&Place::alone(Complex::new(0.0, TAU * frequency)), &mut found)?;
+        functions.at(&ContourPoint::alone(Complex::new(0.0, TAU * frequency)), &mut found)?;
         Ok(upwards(found[0], found[1]))
     }
 
@@ -96,8 +96,8 @@ impl SoilColumn {
             for frequency in block {
                 not_negative("frequency of a transfer function", *frequency)?;
             }
-            let place = |frequency: &f64| Place::alone(Complex::new(0.0, TAU * frequency));
-            let places: Vec<Place> = block.iter().map(place).collect();
+            let place = |frequency: &f64| ContourPoint::alone(Complex::new(0.0, TAU * frequency));
+            let places: Vec<ContourPoint> = block.iter().map(place).collect();
             let mut values = vec![Complex::default(); 2 * block.len()];
             evaluate(&functions, &places, &mut moduli, &mut values)?;
             let (values, travels) = values.split_at(block.len());

@@ -39,7 +39,7 @@ const TRANSITION: usize = 2000;
 
 /// A place on the contour.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct ContourPoint {
     pub(super) s: Complex,
     /// Weight of the modified layers of the highest frequency: 0 below the band, 1 at its end.
     pub(super) nearness: f64,
@@ -47,7 +47,7 @@ pub(super) struct Place {
     pub(super) ratio: f64,
 }
 
-impl Place {
+impl ContourPoint {
     /// A single frequency, without samples.
     pub(super) fn alone(s: Complex) -> Self {
         Self { s, nearness: 0.0, ratio: 0.0 }
@@ -128,7 +128,7 @@ impl Contour {
         self,
         motion: &[f64],
         pace: &mut Pace<'_, '_>,
-        filters: impl FnMut(&[Place], &mut [Complex]) -> Result<()>,
+        filters: impl FnMut(&[ContourPoint], &mut [Complex]) -> Result<()>,
     ) -> Result<[SiteMotion; N]> {
         let mut transform = Transform::new(self, motion)?;
         transform.filter(N, true, pace, filters)?;
@@ -204,7 +204,7 @@ impl Transform {
         count: usize,
         measured: bool,
         pace: &mut Pace<'_, '_>,
-        mut filters: impl FnMut(&[Place], &mut [Complex]) -> Result<()>,
+        mut filters: impl FnMut(&[ContourPoint], &mut [Complex]) -> Result<()>,
     ) -> Result<()> {
         let Contour { length, decay, .. } = self.contour;
         let needed = 12.0 * length as f64 * count as f64;
@@ -225,7 +225,7 @@ impl Transform {
             let nearness = if l < below { 0.0 } else { transition[l - below] };
             // Slightly above s = 0, where strains are 0/0 and some laws have no modulus.
             let beside = if l == 0 && decay == 0.0 { BESIDE_REST / last as f64 } else { ratio };
-            Place { s: Complex::new(decay, end * beside), nearness, ratio }
+            ContourPoint { s: Complex::new(decay, end * beside), nearness, ratio }
         };
         for begin in (0..=last).step_by(BLOCK) {
             let stop = (begin + BLOCK).min(last + 1);

@@ -108,7 +108,7 @@ impl<'a> Column<'a> {
 
 impl Functions for Column<'_> {
     /// For a soil: c and 1/c; for a layer also waves up and down at its top, its travel κh and e^(−κh/2).
-    type Kept<C: Number> = [C; 6];
+    type LayerValues<C: Number> = [C; 6];
 
     fn profile(&self) -> &SoilProfile {
         self.profile

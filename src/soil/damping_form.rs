@@ -22,7 +22,7 @@ enum DampingForm {
 
 impl DampingForm {
     /// The form of a law; `None` for a law of the user's own.
-    fn of(law: &dyn Relaxation) -> Option<Self> {
+    fn from_law(law: &dyn Relaxation) -> Option<Self> {
         let law: &dyn Any = law;
         let elastic = law.downcast_ref().map(|Elastic| Self::Elastic);
         elastic
@@ -48,7 +48,7 @@ pub(super) fn serialize<S: Serializer>(
     to: S,
 ) -> Result<S::Ok, S::Error> {
     let unknown = || format!("damping law '{}' has no form to be written in", law.describe());
-    DampingForm::of(&**law).ok_or_else(|| S::Error::custom(unknown()))?.serialize(to)
+    DampingForm::from_law(&**law).ok_or_else(|| S::Error::custom(unknown()))?.serialize(to)
 }
 
 pub(super) fn deserialize<'a, D: Deserializer<'a>>(

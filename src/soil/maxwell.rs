@@ -1,6 +1,6 @@
 //! Nearly constant damping over a band of frequencies, causal and passive.
 
-use super::relaxation::{Kind, Relaxation, rounded};
+use super::relaxation::{DampingKind, Relaxation, rounded};
 use crate::error::{
     LayeredError, Result, damping_ratio, not_negative, positive, require, same_length,
 };
@@ -155,7 +155,10 @@ impl Relaxation for GeneralizedMaxwell {
 
     fn identity(&self) -> Option<Vec<f64>> {
         let sizes = [self.long_term, self.rates.len() as f64];
-        Some(Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.ratios).chain(&self.rates)))
+        Some(
+            DampingKind::GeneralizedMaxwell
+                .with(sizes.iter().chain(&self.ratios).chain(&self.rates)),
+        )
     }
 }
 

@@ -72,7 +72,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
 
 /// The crate's laws; their numbers come first in [`Relaxation::identity`] and in kernel files.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum DampingKind {
     Elastic,
     KelvinVoigt,
     Kjartansson,
@@ -80,7 +80,7 @@ pub(super) enum Kind {
     GeneralizedMaxwell,
 }
 
-impl Kind {
+impl DampingKind {
     /// Identity of a law of this kind with these parameters.
     pub(super) fn with<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
         std::iter::once(f64::from(self as u8)).chain(numbers.into_iter().copied()).collect()
@@ -102,7 +102,7 @@ impl Relaxation for Elastic {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(Kind::Elastic.with(&[]))
+        Some(DampingKind::Elastic.with(&[]))
     }
 }
 
@@ -161,7 +161,7 @@ impl Relaxation for KelvinVoigt {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(Kind::KelvinVoigt.with(&[self.time]))
+        Some(DampingKind::KelvinVoigt.with(&[self.time]))
     }
 }
 
@@ -215,7 +215,7 @@ impl Relaxation for Kjartansson {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(Kind::Kjartansson.with(&[self.exponent, self.reference]))
+        Some(DampingKind::Kjartansson.with(&[self.exponent, self.reference]))
     }
 }
 
@@ -261,7 +261,7 @@ impl Relaxation for Hysteretic {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(Kind::Hysteretic.with(&[self.ratio]))
+        Some(DampingKind::Hysteretic.with(&[self.ratio]))
     }
 }
 

@@ -125,7 +125,8 @@ fn quantities_by_any_of_their_names() {
             assert_eq!(text.parse(), Ok(quantity), "{text}");
         }
     }
-    let columns: Vec<_> = Quantity::of(false).map(|quantity| quantity.column(false)).collect();
+    let columns: Vec<_> =
+        Quantity::recorded(false).map(|quantity| quantity.column(false)).collect();
     let known = [
         "base_shear_n_per_m",
         "base_moment_n_m_per_m",

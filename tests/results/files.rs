@@ -36,14 +36,14 @@ fn histories_have_a_column_for_every_series() {
     let Recorded { time_series, .. } = recorded(Recorder::new().every(3));
     let (heading, rows) = table(&time_series.csv());
     let mut wanted = vec!["time_s".to_owned()];
-    wanted.extend(Quantity::of(false).map(|quantity| quantity.column(false)));
+    wanted.extend(Quantity::recorded(false).map(|quantity| quantity.column(false)));
     wanted
         .extend(["top_m", "top_acceleration_m_per_s2", "input_energy_j_per_m"].map(str::to_owned));
     assert_eq!(heading, wanted);
     assert_eq!(rows.len(), time_series.times().len());
     for (k, row) in rows.iter().enumerate() {
         same(&row[0], time_series.times()[k]);
-        for (cell, quantity) in row[1..].iter().zip(Quantity::of(false)) {
+        for (cell, quantity) in row[1..].iter().zip(Quantity::recorded(false)) {
             same(cell, time_series.series(quantity)[k]);
         }
         same(&row[12], time_series.probe("top").unwrap()[k]);

@@ -88,7 +88,7 @@ fn arrays_are_what_was_kept() {
     };
     let kept = STEPS / 2 + 1;
     same("time_s", &[kept], time_series.times());
-    for quantity in Quantity::of(false) {
+    for quantity in Quantity::recorded(false) {
         same(&quantity.column(false), &[kept], time_series.series(quantity));
     }
     same("top_m", &[kept], time_series.probe("top").unwrap());

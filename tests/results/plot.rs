@@ -68,7 +68,7 @@ fn shows(svg: &Svg, needed: &[&str]) {
 fn every_picture_has_title_labels_units_and_legend() {
     let (time_series, shape, run) = ran(Recorder::new().contact(1).motion(5));
     let runs = [("one", &time_series), ("two", &time_series)];
-    for quantity in Quantity::of(false) {
+    for quantity in Quantity::recorded(false) {
         let svg = plot::time_series("Title", &runs, quantity).unwrap();
         shows(&svg, &["Title", "time, s", quantity.name(), "one", "two"]);
     }
@@ -341,7 +341,7 @@ fn foundations_far_apart_leave_no_sheet_blank() {
         if distances.len() == 4 {
             shows(&plot::mode_map("T", &time_series).unwrap(), &["1000000", "gap 5 m"]);
         }
-        for quantity in Quantity::of(false) {
+        for quantity in Quantity::recorded(false) {
             let runs = [(title.as_str(), &time_series); 9];
             let svg = plot::time_series(&title, &runs, quantity).unwrap();
             assert_readable(svg.as_str(), quantity.name());

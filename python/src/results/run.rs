@@ -63,7 +63,7 @@ impl PyRun {
 
     /// Peaks of all scalars of the base or of a foundation; None where there is none.
     fn peaks(&self, of: &Summary) -> impl Iterator<Item = (String, Option<f64>)> {
-        Quantity::of(self.run.in_plan).map(|quantity| {
+        Quantity::recorded(self.run.in_plan).map(|quantity| {
             let value = of.peak(quantity).value;
             (quantity.to_string(), (!value.is_nan()).then_some(value))
         })
@@ -142,7 +142,7 @@ members! {
     /// SI units of the time series and of the energies: dict of texts by their names, "" for ratios.
     units: Named<String, &str> = {
         let Run { in_plan, probes, .. } = &own.run;
-        let scalars = Quantity::of(*in_plan).map(|own| (own.to_string(), own.unit(*in_plan)));
+        let scalars = Quantity::recorded(*in_plan).map(|own| (own.to_string(), own.unit(*in_plan)));
         let probes = probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
         let energy = if *in_plan { "J" } else { "J/m" };
         let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));

@@ -18,10 +18,10 @@ pub(super) fn named(time_series: &TimeSeries, name: &str) -> PyResult<Array> {
         return Ok(Array::from(values));
     }
     let in_plan = !time_series.depths().is_empty();
-    if let Some(quantity) = Quantity::of(in_plan).find(|own| own.to_string() == name) {
+    if let Some(quantity) = Quantity::recorded(in_plan).find(|own| own.to_string() == name) {
         return Ok(Array::from(time_series.series(quantity)));
     }
-    let words: Vec<_> = Quantity::of(in_plan).map(|quantity| quantity.to_string()).collect();
+    let words: Vec<_> = Quantity::recorded(in_plan).map(|quantity| quantity.to_string()).collect();
     let (words, names) = (words.join(", "), names(time_series).join(", "));
     let text = format!("'{name}' is neither a time series ({words}) nor a probe ({names})");
     Err(pyo3::exceptions::PyKeyError::new_err(text))
@@ -34,7 +34,7 @@ pub(super) fn names(time_series: &TimeSeries) -> Vec<String> {
 
 /// All scalars and probes by their names.
 pub(super) fn all(time_series: &TimeSeries) -> PyResult<Named<String, Array>> {
-    let scalars = Quantity::of(!time_series.depths().is_empty()).map(|own| own.to_string());
+    let scalars = Quantity::recorded(!time_series.depths().is_empty()).map(|own| own.to_string());
     let all = std::iter::once("time".into()).chain(scalars).chain(names(time_series));
     all.map(|name| named(time_series, &name).map(|values| (name, values))).collect()
 }

@@ -101,11 +101,11 @@ impl Stability {
         smallest_growth: f64,
     ) -> Result<Self> {
         check_growth(smallest_growth)?;
-        Self::of(&Symbol::new(kernel, conditions)?, smallest_growth)
+        Self::from_symbol(&Symbol::new(kernel, conditions)?, smallest_growth)
     }
 
     /// Stability of a given symbol.
-    pub(super) fn of(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
+    pub(super) fn from_symbol(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
         let found = smallest_zero(symbol, smallest_growth)?;
         let passivity = passivity(symbol)?;
         Ok(Self {
@@ -189,12 +189,12 @@ impl GroundStability {
     ) -> Result<Self> {
         let mut conditions = vec![BoundaryCondition::TractionFree; boundary.segments().len()];
         let mut symbol = Symbol::new(kernel, &conditions)?;
-        let uplifted = Stability::of(&symbol, smallest_growth)?;
+        let uplifted = Stability::from_symbol(&symbol, smallest_growth)?;
         for &element in boundary.contact() {
             conditions[element] = BoundaryCondition::PrescribedDisplacement;
         }
         symbol.prescribe(&conditions)?;
-        let bonded = Stability::of(&symbol, smallest_growth)?;
+        let bonded = Stability::from_symbol(&symbol, smallest_growth)?;
         Ok(Self { uplifted, bonded })
     }
 

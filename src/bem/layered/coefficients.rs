@@ -23,7 +23,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use realfft::RealFftPlanner;
 
-use super::contour::{Circle, POINTS, Panels, Place, Polynomials, evaluate, factor, own_classes};
+use super::contour::{Circle, POINTS, Panel, Panels, Polynomials, evaluate, factor, own_classes};
 use super::runge_kutta::{Node, Stages, on_circle};
 use super::wavenumber::{Compliances, OUTLOOK, Wavenumbers};
 use crate::error::{Error, Result, Watch};
@@ -133,7 +133,7 @@ impl Quadrature {
         tolerance: f64,
     ) -> Self {
         let integrals = Wavenumbers::new(classes, FINER * tolerance);
-        Self::of(profile, integrals, own_classes(classes), stages, [time_step, tolerance])
+        Self::over(profile, integrals, own_classes(classes), stages, [time_step, tolerance])
     }
 }
 
@@ -141,7 +141,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     /// Quadrature of the given integrals.
     ///
     /// `own` has, for each class, the classes of the pairs of its two elements with themselves.
-    pub(crate) fn of(
+    pub(crate) fn over(
         profile: SoilProfile,
         integrals: I,
         own: Vec<[usize; 2]>,
@@ -261,7 +261,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
                 Ok(places.iter().map(|place| panels.known(*place) == Some(true)).collect())
             })?;
             for place in covering {
-                let Some(Some(panel)) = panels.kept().get(&place).cloned() else { continue };
+                let Some(Some(panel)) = panels.stored().get(&place).cloned() else { continue };
                 evaluate(node, &panel, place, circle, &mut spectra, || samples.reach(0))?;
             }
             let places = alone.iter().map(|point| [circle.logarithm, circle.angle(*point)]);
@@ -292,7 +292,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     pub(super) fn looks(
         &self,
         node: usize,
-        place: Place,
+        place: Panel,
         work: &mut I::Workspace,
     ) -> Result<impl Fn(f64) -> bool> {
         let mut values = vec![];
@@ -314,7 +314,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         &self,
         node: usize,
         panels: &Panels,
-        places: &[Place],
+        places: &[Panel],
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {
@@ -324,7 +324,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             if self.looks(node, *place, &mut work)?(DOUBT) {
                 missing.push(place);
             } else {
-                panels.kept().insert(*place, None);
+                panels.stored().insert(*place, None);
             }
         }
         let points: Vec<_> = missing.iter().flat_map(|place| place.places()).collect();
@@ -333,11 +333,11 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             let over = factor(node, *point).inverse();
             row.as_flattened_mut().iter_mut().for_each(|value| *value = *value * over);
         }
-        let mut kept = panels.kept();
+        let mut stored = panels.stored();
         for (place, values) in missing.into_iter().zip(values.chunks(POINTS * self.classes)) {
             let found =
                 Polynomials::through::<KINDS>(values.as_flattened(), &panels.own, self.tolerance);
-            kept.insert(*place, found.map(Arc::new));
+            stored.insert(*place, found.map(Arc::new));
         }
         Ok(())
     }

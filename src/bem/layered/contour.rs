@@ -80,7 +80,7 @@ pub(crate) fn factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
 /// Panels tested so far, with polynomials on the resolved ones.
 #[derive(Debug)]
 pub(crate) struct Panels {
-    kept: Mutex<HashMap<Place, Option<Arc<Polynomials>>>>,
+    stored: Mutex<HashMap<Panel, Option<Arc<Polynomials>>>>,
     /// For each class: the classes of the pairs of its two elements with themselves.
     pub(super) own: Arc<[[usize; 2]]>,
 }
@@ -121,12 +121,12 @@ impl Polynomials {
 
 /// A panel of the half circle: the `index`-th of 2^`depth` equal panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Place {
+pub(crate) struct Panel {
     depth: u32,
     index: usize,
 }
 
-impl Place {
+impl Panel {
     fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { depth: self.depth + 1, index: 2 * self.index + half })
     }
@@ -172,16 +172,16 @@ fn transformed(values: &[Complex]) -> Vec<Complex> {
 
 impl Panels {
     pub(crate) fn new(own: &Arc<[[usize; 2]]>) -> Self {
-        Self { kept: Mutex::default(), own: Arc::clone(own) }
+        Self { stored: Mutex::default(), own: Arc::clone(own) }
     }
 
-    pub(super) fn kept(&self) -> MutexGuard<'_, HashMap<Place, Option<Arc<Polynomials>>>> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    pub(super) fn stored(&self) -> MutexGuard<'_, HashMap<Panel, Option<Arc<Polynomials>>>> {
+        self.stored.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether the panel at `place` is resolved; `None` if it has not been tested.
-    pub(crate) fn known(&self, place: Place) -> Option<bool> {
-        self.kept().get(&place).map(Option::is_some)
+    pub(crate) fn known(&self, place: Panel) -> Option<bool> {
+        self.stored().get(&place).map(Option::is_some)
     }
 }
 
@@ -235,12 +235,12 @@ impl Circle {
     pub(crate) fn covered(
         self,
         node: usize,
-        mut resolved: impl FnMut(&[Place]) -> Result<Vec<bool>>,
-    ) -> Result<(Vec<Place>, Vec<usize>)> {
+        mut resolved: impl FnMut(&[Panel]) -> Result<Vec<bool>>,
+    ) -> Result<(Vec<Panel>, Vec<usize>)> {
         let mut covering = vec![];
         let mut panels: Vec<_> =
-            (0..1 << COARSEST).map(|index| Place { depth: COARSEST, index }).collect();
-        let serves = |panel: &Place| {
+            (0..1 << COARSEST).map(|index| Panel { depth: COARSEST, index }).collect();
+        let serves = |panel: &Panel| {
             let beside = -self.logarithm <= 2.0 * ASIDE * panel.width();
             beside && panel.points_of(self).len() > POINTS
         };
@@ -252,7 +252,7 @@ impl Circle {
             for (panel, resolved) in rest.iter().zip(resolved(rest)?) {
                 if resolved { &mut covering } else { &mut halves }.push(*panel);
             }
-            panels = halves.into_iter().flat_map(Place::halves).collect();
+            panels = halves.into_iter().flat_map(Panel::halves).collect();
         }
         let mut alone: Vec<_> =
             panels.into_iter().flat_map(|panel| panel.points_of(self)).collect();
@@ -270,7 +270,7 @@ const HEARD: usize = 1 << 18;
 pub(super) fn evaluate(
     node: usize,
     panel: &Polynomials,
-    place: Place,
+    place: Panel,
     circle: Circle,
     spectra: &mut [Complex],
     mut heard: impl FnMut() -> Result<()>,

@@ -10,13 +10,13 @@
 //! | weights | convolution weights for a history |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
+mod block_store;
 mod coefficients;
 mod compliance;
 mod contour;
 mod form_factors;
 mod halving;
 mod impedance;
-mod kept;
 mod passivity;
 mod runge_kutta;
 mod static_compliance;

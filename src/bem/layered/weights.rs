@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use super::block_store::{BlockStore, copy_lags, last_block, threads};
 use super::coefficients::{Block, Quadrature, Samples};
-use super::kept::{KeptBlocks, copy_lags, last_block, threads};
 use super::passivity;
 use super::runge_kutta::Stages;
 use super::wavenumber::{Compliances, Wavenumbers};
@@ -24,7 +24,7 @@ pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     sample: Option<PairClasses>,
     /// Numbers that distinguish the mesh from others.
     mesh: Vec<f64>,
-    kept: KeptBlocks,
+    blocks: BlockStore,
     spectra: SharedSpectra,
 }
 
@@ -64,9 +64,9 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         mesh: Vec<f64>,
         file: Option<PathBuf>,
     ) -> Self {
-        let kept = KeptBlocks::new([classes.count(), KINDS], file);
+        let blocks = BlockStore::new([classes.count(), KINDS], file);
         let spectra = SharedSpectra::default();
-        Self { quadrature, classes, sample, mesh, kept, spectra }
+        Self { quadrature, classes, sample, mesh, blocks, spectra }
     }
 
     /// Elements for which the passivity gate is evaluated.
@@ -76,14 +76,14 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
 
     /// Block `number`; computed now if it is not stored.
     fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&Block> {
-        self.kept.block(number, watch, |watch| {
+        self.blocks.block(number, watch, |watch| {
             self.quadrature.block(number, threads(), Samples::new(watch, expected))
         })
     }
 
     /// Runs the passivity gate, and returns the fingerprint of the weights.
     fn admit(&self, watch: &mut Watch) -> Result<u64> {
-        self.kept.gate(watch, |watch| {
+        self.blocks.gate(watch, |watch| {
             self.quadrature.integrals.make_ready(watch)?;
             passivity::check(&self.quadrature, self.gate(), &self.mesh, watch)
         })
@@ -101,7 +101,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     /// Computes the blocks of lags up to `lags`.
     fn compute(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let last = last_block(lags.max(1))?;
-        let missing = self.kept.missing(0..last + 1);
+        let missing = self.blocks.missing(0..last + 1);
         self.fits(&missing)?;
         // Upper limits: panels of the contour spare most samples of a long block.
         let most = |number| self.quadrature.most_samples(number);
@@ -110,7 +110,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         let total = passivity::POINTS + expected.iter().sum::<usize>();
         let mut watch = Watch::new("convolution weights of layered ground", total, observer);
         let fingerprint = self.admit(&mut watch)?;
-        let complete = self.kept.missing(0..last + 1).is_empty();
+        let complete = self.blocks.missing(0..last + 1).is_empty();
         let mut done = passivity::POINTS;
         watch.reach(done)?;
         for (number, count) in expected.into_iter().enumerate() {
@@ -118,7 +118,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
             done += count;
         }
         watch.reach(done)?;
-        if complete { Ok(()) } else { self.kept.write(fingerprint) }
+        if complete { Ok(()) } else { self.blocks.write(fingerprint) }
     }
 
     /// Overwrites `values`, one slice for each kind, with the lags of a class from `first_lag` on.
@@ -133,7 +133,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         }
         in_bounds("class of element pairs", class, self.classes.count())?;
         copy_lags(class, first_lag, values, |number| {
-            if !self.kept.has(number) {
+            if !self.blocks.has(number) {
                 self.fits(&(number..number + 1))?;
                 self.admit(&mut Watch::nobody())?;
             }

@@ -71,7 +71,7 @@ impl LatticeKernel {
         let integrals = Integrals::sketch(&plan.lattice, &profile, list, tolerance)?;
         let classes = plan.classes()?;
         let own = vec![[0; 2]; classes.count()];
-        let quadrature = Quadrature::of(profile, integrals, own, stages, [time_step, tolerance]);
+        let quadrature = Quadrature::over(profile, integrals, own, stages, [time_step, tolerance]);
         let some = gate_sample(plan).map(|_| scattered(&plan.cells));
         let sample = some.map(|cells| PairClasses::in_plan(plan.lattice.clone(), cells, 0.0));
         let Lattice { pitch, counts } = &plan.lattice;

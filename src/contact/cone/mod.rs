@@ -137,7 +137,7 @@ impl Cone {
         self.broken.fill(false);
         problem.scale = 0.0;
         for (e, &area) in areas.iter().enumerate() {
-            let start = input.start.of(e);
+            let start = input.start.element(e);
             let limits = limits(input, e)?;
             let bounds = bounds(&limits, area);
             problem.bounds[e] = bounds;
@@ -170,7 +170,7 @@ impl Cone {
         input: &ContactInput<'_>,
     ) -> Result<(), LawError> {
         for e in 0..self.areas.len() {
-            let layer = input.law(e).compliance(Mode::Stick, &input.start.of(e));
+            let layer = input.law(e).compliance(Mode::Stick, &input.start.element(e));
             if layer != self.layers[e] {
                 for (value, quantity) in
                     layer.into_iter().zip(["normal compliance", "shear compliance"])
@@ -298,7 +298,7 @@ fn lasts(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool
 
 /// Limits of an element's law, checked.
 fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
-    let (law, start) = (input.law(element), input.start.of(element));
+    let (law, start) = (input.law(element), input.start.element(element));
     let mode = start.mode.word();
     let refused = |reason| LawError::Refused { element, mode, reason: Box::new(reason) };
     let limits = law.limits(&start).and_then(Limits::checked).map_err(refused)?;

@@ -43,7 +43,7 @@ const GRID: usize = 24;
 
 /// Possible state of an element: open, closed or at its cap; sticking or sliding in a direction.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum NormalState {
     Open,
     Closed,
     Capped,
@@ -76,7 +76,7 @@ fn row_of(problem: &Problem, i: usize) -> &[f64] {
 }
 
 /// Forces for given kinds: a sliding element has its shear at an angle, other elements do not slip.
-fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<Vec<f64>> {
+fn forces(problem: &Problem, kinds: &[(NormalState, bool)], angles: &[f64]) -> Option<Vec<f64>> {
     let size = problem.size();
     let mut rows = Vec::new();
     for i in 0..size {
@@ -88,19 +88,19 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
             row[size] = target - problem.q[i];
         };
         match (component, kinds[e]) {
-            (0, (Kind::Closed, _)) => moves(bounds.offset),
-            (0, (Kind::Capped, _)) => (row[i], row[size]) = (1.0, bounds.interval[1]),
+            (0, (NormalState::Closed, _)) => moves(bounds.offset),
+            (0, (NormalState::Capped, _)) => (row[i], row[size]) = (1.0, bounds.interval[1]),
             (0, _) => row[i] = 1.0,
             (_, (_, false)) => moves(0.0),
             // The limit of infinite friction: shear along the slip without pressure, in a closed gap.
-            (1, (Kind::Closed, true)) if bounds.is_endless() => row[e] = 1.0,
-            (2, (Kind::Closed, true)) if bounds.is_endless() => {
+            (1, (NormalState::Closed, true)) if bounds.is_endless() => row[e] = 1.0,
+            (2, (NormalState::Closed, true)) if bounds.is_endless() => {
                 (row[i - problem.count], row[i]) = (-angles[e].sin(), angles[e].cos());
             }
             (_, (kind, true)) => {
                 let d = if component == 1 { angles[e].cos() } else { angles[e].sin() };
                 // An open element keeps the strength until its bond breaks.
-                let friction = if kind == Kind::Open { 0.0 } else { bounds.taken() };
+                let friction = if kind == NormalState::Open { 0.0 } else { bounds.taken() };
                 row[i] = 1.0;
                 row[e] -= friction * d;
                 row[size] = bounds.strength * d;
@@ -115,8 +115,8 @@ fn forces(problem: &Problem, kinds: &[(Kind, bool)], angles: &[f64]) -> Option<V
 fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
     let count = problem.count;
     let mut found: Vec<Vec<f64>> = Vec::new();
-    let choices =
-        [Kind::Open, Kind::Closed, Kind::Capped].map(|kind| [(kind, false), (kind, true)]);
+    let choices = [NormalState::Open, NormalState::Closed, NormalState::Capped]
+        .map(|kind| [(kind, false), (kind, true)]);
     let choices = choices.concat();
     let respond = |r: &[f64]| -> Vec<f64> {
         let dot = |i: usize| row_of(problem, i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>();
@@ -133,8 +133,8 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
         let sliding: Vec<_> = (0..count).filter(|e| kinds[*e].1).collect();
         let capless = |e: usize| problem.bounds[e].interval[1] == f64::INFINITY;
         let none = |e: usize| match kinds[e] {
-            (Kind::Capped, slides) => capless(e) || slides && problem.bounds[e].is_endless(),
-            (Kind::Open, false) => problem.bounds[e].is_endless(),
+            (NormalState::Capped, slides) => capless(e) || slides && problem.bounds[e].is_endless(),
+            (NormalState::Open, false) => problem.bounds[e].is_endless(),
             _ => false,
         };
         if (0..count).any(none) {
@@ -187,15 +187,15 @@ fn all_solutions(problem: &Problem) -> Vec<Vec<f64>> {
             let admissible = (0..count).all(|e| {
                 let (bounds, [n, i, j]) = (&problem.bounds[e], problem.places(e));
                 let radius = match kinds[e] {
-                    (Kind::Closed, true) if bounds.is_endless() => r[i].hypot(r[j]),
-                    (Kind::Open, _) if bounds.is_endless() => 0.0,
+                    (NormalState::Closed, true) if bounds.is_endless() => r[i].hypot(r[j]),
+                    (NormalState::Open, _) if bounds.is_endless() => 0.0,
                     _ => bounds.radius(r[n]),
                 };
                 let gap = y[n] - bounds.offset;
                 let normal = match kinds[e].0 {
-                    Kind::Open => gap >= -1e-9,
-                    Kind::Closed => r[n] >= -1e-9 && r[n] <= bounds.interval[1] + 1e-9,
-                    Kind::Capped => gap <= 1e-9,
+                    NormalState::Open => gap >= -1e-9,
+                    NormalState::Closed => r[n] >= -1e-9 && r[n] <= bounds.interval[1] + 1e-9,
+                    NormalState::Capped => gap <= 1e-9,
                 };
                 let shear = r[i].hypot(r[j]);
                 let along = r[i] * y[i] + r[j] * y[j];

@@ -80,7 +80,7 @@ impl Problem {
         let length = largest(&jump).max(largest(&self.free_jump));
         let Parameters { friction, activation, .. } = self.parameters;
         let element = |e: usize| {
-            let (start, pressure, shear) = (self.start.of(e), total[e], total[count + e]);
+            let (start, pressure, shear) = (self.start.element(e), total[e], total[count + e]);
             let free = pressure.abs().max(shear.abs()) / force;
             let closed_gap = match activation {
                 UnilateralCondition::Position => 0.0,

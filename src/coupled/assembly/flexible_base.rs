@@ -67,12 +67,13 @@ pub(crate) fn check(
         return Ok(None);
     }
     let own_soil = static_stages::compliance(parts)?;
-    let shape = UnseenShape::of(assembled, base, &own_soil).filter(|shape| shape.ratio < STIFF);
+    let shape =
+        UnseenShape::softest(assembled, base, &own_soil).filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut foundation }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = finer(parts, base) {
         // If twice the elements leave no such shape, they are enough.
-        let next = UnseenShape::of(assembled, &finer, &soil);
+        let next = UnseenShape::softest(assembled, &finer, &soil);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
             // With a law for each element, the first law is used in both states.
@@ -198,7 +199,7 @@ impl UnseenShape {
     /// The shape with the smallest ρ on elements of this static compliance.
     ///
     /// `None` if there is no such shape, or the structure's stiffness is not symmetric.
-    fn of(assembled: &Assembled, base: &Base, soil: &[f64]) -> Option<Self> {
+    fn softest(assembled: &Assembled, base: &Base, soil: &[f64]) -> Option<Self> {
         let stiffness = assembled.stiffness_at_rest();
         let n = assembled.dofs();
         let moduli = moduli(base, soil);

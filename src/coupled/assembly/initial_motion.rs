@@ -27,7 +27,7 @@ pub(crate) fn set_in_motion(
     if given.is_static() && displacement.is_empty() && velocity.is_empty() {
         return Ok(());
     }
-    let motion = &mut state.motion;
+    let motion = &mut state.kinematics;
     for (start, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
     {
         if !start.is_empty() {
@@ -36,16 +36,16 @@ pub(crate) fn set_in_motion(
     }
     set_contact(given, scene, state)?;
     if let Some(force) = structure.nonlinear_mut() {
-        force.commit(&scene.seen_at(&state.motion));
+        force.commit(&scene.seen_at(&state.kinematics));
     }
     let c = &scene.coefficients;
     if [c.displacement, c.velocity, c.acceleration, c.new_velocity, c.new_acceleration]
         .iter()
         .any(|row| row[2] != 0.0)
     {
-        state.motion.acceleration = acceleration(scene, structure, state)?;
+        state.kinematics.acceleration = acceleration(scene, structure, state)?;
     }
-    state.motion.changed();
+    state.kinematics.changed();
     state.update_resultants(scene);
     Ok(())
 }
@@ -54,8 +54,8 @@ pub(crate) fn set_in_motion(
 fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
     let layout = scene.layout();
     let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; layout.len()]);
-    scene.base.means(&state.motion.displacement, &mut moved);
-    scene.base.means(&state.motion.velocity, &mut rate);
+    scene.base.means(&state.kinematics.displacement, &mut moved);
+    scene.base.means(&state.kinematics.velocity, &mut rate);
     let closed = CLOSED * largest(&given.displacement);
     if given.is_static() {
         let needed = "zero where weight holds it on the ground (begin with \
@@ -99,12 +99,12 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     let mut scratch = vec![0.0; model.dofs];
     model.load(structure, 0.0, &at_rest.load, &mut scratch, &mut force)?;
     scene.add_loads(0.0, &mut force);
-    let mut displacement = state.motion.displacement.clone();
+    let mut displacement = state.kinematics.displacement.clone();
     scene.subtract_base(&mut displacement, &mut vec![0.0; scene.layout().len()]);
     model.stiffness.multiply_add(-1.0, &displacement, &mut force);
-    model.damping.multiply_add(-1.0, &state.motion.velocity, &mut force);
+    model.damping.multiply_add(-1.0, &state.kinematics.velocity, &mut force);
     if !model.linear {
-        let (nonlinear, _) = nonlinear_state(structure, &scene.seen_at(&state.motion))?;
+        let (nonlinear, _) = nonlinear_state(structure, &scene.seen_at(&state.kinematics))?;
         for (force, (now, at_rest)) in force.iter_mut().zip(nonlinear.iter().zip(&at_rest.force)) {
             *force -= now - at_rest;
         }

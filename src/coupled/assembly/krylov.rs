@@ -11,7 +11,7 @@
 //! represent modes at lower frequencies, of which few are soon complete; one higher shift represents motion that a
 //! step cannot follow.
 
-use crate::coupled::assembly::step_response::{Rows, StepResponses};
+use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
 use crate::coupled::assembly::subspace::Subspace;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
@@ -55,7 +55,7 @@ pub(crate) struct Reduction<'a> {
     /// Steps of the run.
     steps: usize,
     /// Rows of the probes that are not zero.
-    rows: Rows,
+    rows: ResponseRows,
     /// Displacements that the modes must contain.
     motions: Vec<f64>,
 }
@@ -72,7 +72,7 @@ impl<'a> Reduction<'a> {
     ) -> Result<Self> {
         let (given, base) = (&parts.given, &assembled.base);
         let (n, size) = (assembled.dofs(), base.layout().len());
-        let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
+        let mut rows = ResponseRows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
         for load in &given.loads {
             keep(&mut rows.all, spread(load.row(), n));
         }

@@ -18,7 +18,7 @@ use crate::linalg::{largest, row_products};
 const ROUNDING: f64 = 1e-13;
 
 /// Rows of degrees of freedom with forces, and rows of probes.
-pub(crate) struct Rows {
+pub(crate) struct ResponseRows {
     /// Rows of loads, other forces, displacements and velocities, accelerations: an entry for every degree of
     /// freedom.
     pub(crate) all: Vec<f64>,
@@ -45,7 +45,7 @@ impl StepResponses {
     pub(crate) fn new(
         modes: &Ritz,
         mut shares: Vec<f64>,
-        rows: &Rows,
+        rows: &ResponseRows,
         coefficients: &SchemeCoefficients,
         steps: usize,
     ) -> Self {

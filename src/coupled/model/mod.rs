@@ -1,9 +1,9 @@
 //! A structure in its stepping coordinates.
 
 pub(crate) mod assembled;
+pub(crate) mod kinematics;
 pub(crate) mod load;
 pub(crate) mod mechanism;
-pub(crate) mod motion;
 pub(crate) mod operators;
 pub(crate) mod signs;
 pub(crate) mod supports;

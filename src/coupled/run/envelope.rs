@@ -65,7 +65,7 @@ pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
             element: *element,
             depth: *depth,
             static_pressure: contact.pressure,
-            pressure: Extremes::of(contact.pressure, state.time),
+            pressure: Extremes::single(contact.pressure, state.time),
             shear: peak(contact.shear),
             gap: peak(contact.gap),
             slip: peak(contact.slip),

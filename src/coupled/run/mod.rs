@@ -162,7 +162,7 @@ impl Run {
         let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {
             name: probe.name.clone(),
             unit: probe.unit.clone(),
-            extremes: Extremes::of(value, time),
+            extremes: Extremes::single(value, time),
         };
         let Context { elements, probes, .. } = state.context.as_ref();
         Self {

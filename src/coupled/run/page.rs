@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::coupled::run::ground_motion::seconds;
 use crate::coupled::run::peak::Peak;
-use crate::coupled::run::quantity::Place;
+use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::geometry::resultant;
 use crate::geometry::{middle, span};
@@ -71,7 +71,7 @@ impl Run {
             let [high, high_time] = cell(extremes.highest);
             vec![name.to_owned(), unit.to_owned(), low, low_time, high, high_time]
         };
-        let whole = Quantity::shown(Place::Page, self.in_plan).map(|quantity| {
+        let whole = Quantity::shown(ShownIn::Page, self.in_plan).map(|quantity| {
             let (factor, unit) = quantity.printed(self.in_plan);
             row(quantity.name(), unit, factor, &self.whole.extremes(quantity))
         });
@@ -85,7 +85,7 @@ impl Run {
 
     /// Largest magnitudes, one line for each foundation.
     fn each_foundation(&self) -> Table {
-        let shown: Vec<_> = Quantity::shown(Place::Foundations, self.in_plan).collect();
+        let shown: Vec<_> = Quantity::shown(ShownIn::Foundations, self.in_plan).collect();
         let printed = |quantity: &Quantity| quantity.printed(self.in_plan);
         let heading = |quantity: &Quantity| {
             let unit = if quantity.limit().is_some() { "" } else { printed(quantity).1 };
@@ -115,7 +115,7 @@ impl Run {
 
     fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let known = |own: &Quantity| own.limit().is_some() && !self.whole.peak(*own).value.is_nan();
-        for quantity in Quantity::of(self.in_plan).filter(known) {
+        for quantity in Quantity::recorded(self.in_plan).filter(known) {
             let peak = self.whole.peak(quantity);
             let (name, least) = (quantity.name(), factor(peak.value));
             write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;

@@ -41,7 +41,7 @@ pub struct Extremes {
 
 impl Extremes {
     /// Peak of a single value.
-    pub(crate) fn of(value: f64, time: f64) -> Self {
+    pub(crate) fn single(value: f64, time: f64) -> Self {
         let peak = Peak { value, time };
         Self { lowest: peak, highest: peak }
     }

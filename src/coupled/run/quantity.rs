@@ -20,7 +20,7 @@ struct Row {
     name: &'static str,
     unit: &'static str,
     scale: Scale,
-    places: &'static [Place],
+    places: &'static [ShownIn],
     value: fn(&BaseView) -> f64,
 }
 
@@ -37,7 +37,7 @@ enum Scale {
 
 /// Place where a summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum ShownIn {
     /// Only in plan.
     Plan,
     /// Extremes on the page of a run.
@@ -68,7 +68,7 @@ macro_rules! quantities {
             name: $name,
             unit: $unit,
             scale: $scale,
-            places: &[$(Place::$place),*],
+            places: &[$(ShownIn::$place),*],
             value: $value,
         },)+];
 
@@ -77,7 +77,7 @@ macro_rules! quantities {
         impl Quantity {
             /// All quantities, in the order of columns.
             ///
-            /// Quantities in plan only are the last: [`Quantity::of`] leaves them out in the plane.
+            /// Quantities in plan only are the last: [`Quantity::recorded`] leaves them out in the plane.
             pub const ALL: [Self; WORDS.len()] = [$(Self::$variant),+];
         }
 
@@ -128,7 +128,7 @@ macro_rules! quantities {
             /// Summary at the start of a run, of the whole base or of one foundation.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
-                let extremes = |value: fn(&BaseView) -> f64| Extremes::of(value(&base), state.time);
+                let extremes = |value: fn(&BaseView) -> f64| Extremes::single(value(&base), state.time);
                 let [ends, depth] = base.ends();
                 Self {
                     elements: base.elements(),
@@ -275,8 +275,8 @@ impl Quantity {
     }
 
     /// The quantities of a ground in plan, or of a ground in the plane.
-    pub fn of(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
-        Self::ALL.into_iter().filter(move |own| in_plan || !own.is_shown(Place::Plan))
+    pub fn recorded(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
+        Self::ALL.into_iter().filter(move |own| in_plan || !own.is_shown(ShownIn::Plan))
     }
 
     /// SI unit of its values; empty for a ratio.
@@ -311,12 +311,12 @@ impl Quantity {
     }
 
     /// The quantities that are shown at `place`.
-    pub(crate) fn shown(place: Place, in_plan: bool) -> impl Iterator<Item = Self> {
-        Self::of(in_plan).filter(move |own| own.is_shown(place))
+    pub(crate) fn shown(place: ShownIn, in_plan: bool) -> impl Iterator<Item = Self> {
+        Self::recorded(in_plan).filter(move |own| own.is_shown(place))
     }
 
     /// Whether the quantity is shown at `place`.
-    pub(crate) fn is_shown(self, place: Place) -> bool {
+    pub(crate) fn is_shown(self, place: ShownIn) -> bool {
         self.row().places.contains(&place)
     }
 }

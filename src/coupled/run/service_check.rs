@@ -43,7 +43,7 @@ impl ServiceCheck {
     }
 
     pub(crate) fn see(&mut self, state: &State) {
-        self.take(self.criterion.of(state), state.time);
+        self.take(self.criterion.largest_value(state), state.time);
     }
 
     fn take(&mut self, value: f64, time: f64) {

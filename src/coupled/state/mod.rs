@@ -9,7 +9,7 @@ use origin::Origin;
 use std::sync::Arc;
 
 use crate::contact::SearchMethod;
-use crate::coupled::model::motion::{DofResponse, Motion};
+use crate::coupled::model::kinematics::{DofResponse, Kinematics};
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::state::foundation::Foundation;
 use crate::error::Result;
@@ -122,7 +122,7 @@ pub struct State {
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) context: Arc<Context>,
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) motion: Motion,
+    pub(crate) kinematics: Kinematics,
     /// Start of the next step for the laws, per element.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: PreviousContacts,
@@ -137,22 +137,22 @@ impl State {
     /// for them; without use they cost nothing. Absolute displacements are computed in every step that uses them.
     /// To record a few quantities at every step, a [`Probe`](super::Probe) takes less time.
     pub fn displacement(&self) -> &[f64] {
-        self.motion.dofs(DofResponse::Displacement)
+        self.kinematics.dofs(DofResponse::Displacement)
     }
 
     /// Displacement plus the translation of the free field.
     pub fn absolute_displacement(&self) -> &[f64] {
-        self.motion.dofs(DofResponse::AbsoluteDisplacement)
+        self.kinematics.dofs(DofResponse::AbsoluteDisplacement)
     }
 
     /// Total (not relative) rates of the degrees of freedom at the end of the step.
     pub fn velocity(&self) -> &[f64] {
-        self.motion.dofs(DofResponse::Velocity)
+        self.kinematics.dofs(DofResponse::Velocity)
     }
 
     /// Total accelerations of the degrees of freedom; for the midpoint and θ rules their mean over the step.
     pub fn acceleration(&self) -> &[f64] {
-        self.motion.dofs(DofResponse::Acceleration)
+        self.kinematics.dofs(DofResponse::Acceleration)
     }
 
     /// The value of the probe called `name`.

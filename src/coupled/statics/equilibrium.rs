@@ -108,7 +108,7 @@ impl StaticState {
         let is_plan = self.is_plan();
         for (e, gap) in self.gap.iter_mut().enumerate() {
             let (law, start, mode, pressure) =
-                (law_of(laws, e), start.of(e), self.modes[e], self.traction[e]);
+                (law_of(laws, e), start.element(e), self.modes[e], self.traction[e]);
             let pinned = if !is_plan {
                 law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
             } else if mode.is_closed() && !mode.is_yield() {
@@ -214,7 +214,7 @@ impl Standing<'_> {
             let mut pull = vec![0.0; n];
             assembled.mass.multiply_add(epsilon, &moved, &mut pull);
             let previous = change;
-            change = measure.of(&pull);
+            change = measure.norm(&pull);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
             // The force of the springs has the accuracy of the solution.
@@ -345,7 +345,7 @@ impl Measure {
         Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
     }
 
-    fn of(&self, force: &[f64]) -> f64 {
+    fn norm(&self, force: &[f64]) -> f64 {
         let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
         // Unlike `max`, the sum keeps NaN.
         let sum: f64 = force.iter().sum();

@@ -58,8 +58,9 @@ fn resultants(
         let (ends, across) = (bounds[0], is_plan.then_some(bounds[1]));
         let lengths = || part.elements().iter().map(|&e| base.areas()[e]);
         let pressure = normal / lengths().sum::<f64>();
-        let strength =
-            |&e: &usize| Strength::of(law_of(laws, e), pressure, is_plan, stage.frictionless);
+        let strength = |&e: &usize| {
+            Strength::at_pressure(law_of(laws, e), pressure, is_plan, stage.frictionless)
+        };
         let strengths: Vec<_> = part.elements().iter().map(strength).collect();
         // With a bond, something must have broken it: otherwise the state would have been found.
         let pulls = strengths.iter().any(|own| own.pulls);

@@ -29,7 +29,7 @@ impl Strength {
     /// Strength of an element under this mean pressure (Pa).
     ///
     /// In plan, `frictionless` omits friction and cohesion.
-    pub(crate) fn of(
+    pub(crate) fn at_pressure(
         law: &dyn InterfaceLaw,
         pressure: f64,
         is_plan: bool,

@@ -1,7 +1,7 @@
 //! Advance of the state to the end of an accepted step.
 
 use crate::contact::SearchMethod;
-use crate::coupled::model::motion::Motion;
+use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::state::foundation::{Foundation, Sums};
@@ -39,7 +39,7 @@ impl State {
             time: 0.0,
             origin: Origin::new(),
             context: scene.context.clone(),
-            motion: Motion::new(model),
+            kinematics: Kinematics::new(model),
             contact,
             modes,
             transitions: Vec::with_capacity(count),
@@ -68,12 +68,12 @@ impl State {
     pub(crate) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
         self.step += 1;
         self.time = self.step as f64 * scene.time_step;
-        let motion = &mut self.motion;
-        std::mem::swap(&mut motion.displacement, &mut increment.end);
-        std::mem::swap(&mut motion.velocity, &mut increment.velocity);
-        std::mem::swap(&mut motion.acceleration, &mut increment.acceleration);
-        motion.translations.copy_from_slice(&forcing.translations);
-        motion.changed();
+        let kinematics = &mut self.kinematics;
+        std::mem::swap(&mut kinematics.displacement, &mut increment.end);
+        std::mem::swap(&mut kinematics.velocity, &mut increment.velocity);
+        std::mem::swap(&mut kinematics.acceleration, &mut increment.acceleration);
+        kinematics.translations.copy_from_slice(&forcing.translations);
+        kinematics.changed();
         let [right, up, away] = scene.base.mean(&forcing.free_field);
         (self.free_field, self.free_field_across) = ([right, up], away);
         self.contact.copy_from_slice(&increment.contact);
@@ -93,7 +93,7 @@ impl State {
     /// Computes resultants and probes from the present state.
     pub(crate) fn update_resultants(&mut self, scene: &Scene) {
         let state = self;
-        let Motion { displacement, velocity, acceleration, .. } = &state.motion;
+        let Kinematics { displacement, velocity, acceleration, .. } = &state.kinematics;
         let (mut total, mut sums) = ([0.0; 3], Sums::default());
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
@@ -122,7 +122,7 @@ impl State {
         [state.base_shear, state.normal_force, state.base_moment] = total;
         state.uplifted_fraction = sums.open / sums.area;
         state.mean_slip = sums.slip / sums.area;
-        let translations = &state.motion.translations;
+        let translations = &state.kinematics.translations;
         for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
             let [u, v, a] = &probe.rows;
             let carried = probe.carried.iter().zip(translations);

@@ -9,7 +9,7 @@
 
 use crate::bem::Ground;
 use crate::coupled::base::transformation::Terms;
-use crate::coupled::model::motion::Motion;
+use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
@@ -64,7 +64,7 @@ impl EnergyAccumulator {
         let mut jump = scene.static_state.gap.clone();
         jump.resize(size, 0.0);
         let mut means = vec![0.0; size];
-        scene.base.means(&state.motion.displacement, &mut means);
+        scene.base.means(&state.kinematics.displacement, &mut means);
         jump.iter_mut().zip(&means).for_each(|(jump, moved)| *jump -= moved);
         let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
         let compliant = if compliant { state.modes.as_slice() } else { &[] };
@@ -102,12 +102,12 @@ impl EnergyAccumulator {
 
     /// Adds kinetic and strain energy of the motion at t = 0.
     fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
-        let Motion { displacement, velocity, .. } = &state.motion;
+        let Kinematics { displacement, velocity, .. } = &state.kinematics;
         let at_rest = self.static_energy(scene);
         let (model, energy_balance) = (&scene.model, &mut self.energy_balance);
         energy_balance.kinetic = 0.5 * model.mass.form(velocity, velocity);
         if !model.linear {
-            let seen = scene.seen_at(&state.motion);
+            let seen = scene.seen_at(&state.kinematics);
             if let Some((stored, dissipated)) = energies(scene, structure, &seen) {
                 (self.nonlinear_work, energy_balance.hysteresis) = (stored, dissipated);
             }
@@ -193,7 +193,7 @@ impl EnergyAccumulator {
     fn book_structure(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
         let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
-        let Motion { velocity: v0, acceleration: a0, .. } = &state.motion;
+        let Kinematics { velocity: v0, acceleration: a0, .. } = &state.kinematics;
         let (v1, energy_balance) = (&increment.velocity, &mut self.energy_balance);
         let Scratch { vector, product, means } = &mut self.scratch;
         let du = &increment.total;

@@ -10,7 +10,7 @@
 
 use super::modal_loops::{answer, free};
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
-use crate::coupled::model::motion::Motion;
+use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
@@ -50,7 +50,7 @@ impl LinearStep {
     /// Loads, inertia and damping of a structure that moves with y, and its stiffness forces so far.
     pub(crate) fn predict(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         let (c, model) = (&scene.coefficients, &scene.model);
-        let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
+        let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
         let carried = &forcing.carried;
         let Self { known, vector, means, .. } = self;
         known.copy_from_slice(&forcing.load);
@@ -75,7 +75,7 @@ impl LinearStep {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
-        let (scheme, motion) = (&scene.coefficients, &state.motion);
+        let (scheme, kinematics) = (&scene.coefficients, &state.kinematics);
         let Some(matrices) = scene.model.diagonals() else {
             self.predict(data);
             increment.displacement.copy_from_slice(&self.known);
@@ -83,13 +83,13 @@ impl LinearStep {
             increment.follow(data);
             return Ok(());
         };
-        free(scheme, matrices, self.operators.reciprocals(), motion, forcing, increment);
+        free(scheme, matrices, self.operators.reciprocals(), kinematics, forcing, increment);
         self.solve_tractions(data, increment)?;
         let Self { operators, contact, vector, .. } = self;
         vector.fill(0.0);
         scene.base.add_forces(1.0, &contact.traction, vector);
         let inverse = operators.reciprocals();
-        answer(scheme, inverse, vector, motion, &forcing.carried, increment);
+        answer(scheme, inverse, vector, kinematics, &forcing.carried, increment);
         Ok(())
     }
 

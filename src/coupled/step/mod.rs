@@ -8,7 +8,7 @@ pub(crate) mod newton;
 
 use crate::bem::Ground;
 use crate::contact::SearchMethod;
-use crate::coupled::model::motion::{Motion, Translation};
+use crate::coupled::model::kinematics::{Kinematics, Translation};
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
@@ -87,7 +87,7 @@ impl Forcing {
         }
         self.distortion.copy_from_slice(&self.free_field);
         let influence = &scene.model.influence;
-        let last = &state.motion.translations;
+        let last = &state.kinematics.translations;
         for ((part, now), last) in influence.parts().iter().zip(&mut self.translations).zip(last) {
             let displacement = part.mean(&scene.base, &self.free_field);
             *now = last.next(displacement, &scene.coefficients);
@@ -197,7 +197,7 @@ impl Increment {
 
     /// Computes the displacement at the end of the step from Δu.
     pub(crate) fn reach(&mut self, state: &State) {
-        let increments = state.motion.displacement.iter().zip(&self.displacement);
+        let increments = state.kinematics.displacement.iter().zip(&self.displacement);
         self.end.iter_mut().zip(increments).for_each(|(end, (u, du))| *end = u + du);
     }
 
@@ -206,7 +206,7 @@ impl Increment {
         self.reach(state);
         let increments = self.displacement.iter().zip(&forcing.carried);
         self.total.iter_mut().zip(increments).for_each(|(total, (du, y))| *total = du + y);
-        let Motion { velocity, acceleration, .. } = &state.motion;
+        let Kinematics { velocity, acceleration, .. } = &state.kinematics;
         let (c, total) = (&scene.coefficients, &self.total);
         let [new_velocity, new_acceleration] = [&mut self.velocity, &mut self.acceleration];
         SchemeCoefficients::combine(c.new_velocity, total, velocity, acceleration, new_velocity);

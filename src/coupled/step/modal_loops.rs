@@ -13,7 +13,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::coupled::model::motion::Motion;
+use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step::{Forcing, Increment};
 use crate::linalg::matrix::Diagonals;
@@ -24,12 +24,12 @@ pub(crate) fn free(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
     inverse: &[f64],
-    motion: &Motion,
+    kinematics: &Kinematics,
     forcing: &Forcing,
     increment: &mut Increment,
 ) {
     let [out, end] = [&mut increment.displacement, &mut increment.end].map(Vec::as_mut_slice);
-    vectorized(Free { scheme, matrices, inverse, motion, forcing, out, end });
+    vectorized(Free { scheme, matrices, inverse, kinematics, forcing, out, end });
 }
 
 /// Subtracts the response to the tractions' `force` from Δu, and computes the motion at the end.
@@ -37,18 +37,18 @@ pub(crate) fn answer(
     scheme: &SchemeCoefficients,
     inverse: &[f64],
     force: &[f64],
-    motion: &Motion,
+    kinematics: &Kinematics,
     carried: &[f64],
     increment: &mut Increment,
 ) {
-    vectorized(Answer { scheme, inverse, force, motion, carried, increment });
+    vectorized(Answer { scheme, inverse, force, kinematics, carried, increment });
 }
 
 struct Free<'a> {
     scheme: &'a SchemeCoefficients,
     matrices: Diagonals<'a>,
     inverse: &'a [f64],
-    motion: &'a Motion,
+    kinematics: &'a Kinematics,
     forcing: &'a Forcing,
     out: &'a mut [f64],
     end: &'a mut [f64],
@@ -59,9 +59,9 @@ impl WithSimd for Free<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { scheme, matrices, inverse, motion, forcing, out, end } = self;
-        balance(scheme, matrices, motion, forcing, out);
-        release(inverse, &motion.displacement, out, end);
+        let Self { scheme, matrices, inverse, kinematics, forcing, out, end } = self;
+        balance(scheme, matrices, kinematics, forcing, out);
+        release(inverse, &kinematics.displacement, out, end);
     }
 }
 
@@ -70,14 +70,15 @@ impl WithSimd for Free<'_> {
 fn balance(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
-    motion: &Motion,
+    kinematics: &Kinematics,
     forcing: &Forcing,
     out: &mut [f64],
 ) {
     let n = out.len();
     let Diagonals { mass, damping, stiffness } = matrices;
     let (m, k) = (&mass[..n], &stiffness[..n]);
-    let (u, v, a) = (&motion.displacement[..n], &motion.velocity[..n], &motion.acceleration[..n]);
+    let (u, v, a) =
+        (&kinematics.displacement[..n], &kinematics.velocity[..n], &kinematics.acceleration[..n]);
     let (load, carried) = (&forcing.load[..n], &forcing.carried[..n]);
     for j in 0..n {
         let acceleration = SchemeCoefficients::apply(scheme.acceleration, carried[j], v[j], a[j]);
@@ -108,7 +109,7 @@ struct Answer<'a> {
     scheme: &'a SchemeCoefficients,
     inverse: &'a [f64],
     force: &'a [f64],
-    motion: &'a Motion,
+    kinematics: &'a Kinematics,
     carried: &'a [f64],
     increment: &'a mut Increment,
 }
@@ -118,10 +119,10 @@ impl WithSimd for Answer<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { scheme, inverse, force, motion, carried, increment } = self;
+        let Self { scheme, inverse, force, kinematics, carried, increment } = self;
         let Increment { displacement, end, total, velocity, acceleration, .. } = increment;
         apply_force(inverse, force, displacement, end);
-        follow(scheme, motion, carried, displacement, total, [velocity, acceleration]);
+        follow(scheme, kinematics, carried, displacement, total, [velocity, acceleration]);
     }
 }
 
@@ -141,14 +142,14 @@ fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64])
 #[inline(always)]
 fn follow(
     scheme: &SchemeCoefficients,
-    motion: &Motion,
+    kinematics: &Kinematics,
     carried: &[f64],
     out: &[f64],
     total: &mut [f64],
     [velocity, acceleration]: [&mut [f64]; 2],
 ) {
     let n = out.len();
-    let (v, a, carried) = (&motion.velocity[..n], &motion.acceleration[..n], &carried[..n]);
+    let (v, a, carried) = (&kinematics.velocity[..n], &kinematics.acceleration[..n], &carried[..n]);
     let (total, velocity, acceleration) =
         (&mut total[..n], &mut velocity[..n], &mut acceleration[..n]);
     for j in 0..n {

@@ -1,7 +1,7 @@
 //! Newton's method around the whole step of a nonlinear structure, contact inside.
 
 use crate::contact::{ContactSearch, ContactSolver, SearchMethod};
-use crate::coupled::model::motion::Motion;
+use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
@@ -75,7 +75,7 @@ impl Newton {
         let StepData { scene, state, forcing, .. } = data;
         (self.trials, self.method) = (0, SearchMethod::ActiveSet);
         // The increment by the last velocity, without the ground's translation.
-        let velocity = state.motion.velocity.iter();
+        let velocity = state.kinematics.velocity.iter();
         for ((guess, v), carried) in self.guess.iter_mut().zip(velocity).zip(&forcing.carried) {
             *guess = v * scene.time_step - carried;
         }
@@ -98,7 +98,7 @@ impl Newton {
             self.continuation(linear, data, residual, increment)?;
         }
         (increment.trials, increment.method) = (self.trials, self.method);
-        let u = &state.motion.displacement;
+        let u = &state.kinematics.displacement;
         for (i, seen) in increment.seen.iter_mut().enumerate() {
             *seen = u[i] + increment.displacement[i];
         }
@@ -225,7 +225,7 @@ impl Newton {
     ) -> Result<(), StepError> {
         let StepData { scene, structure, state, forcing } = data;
         let c = scene.coefficients.displacement;
-        let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
+        let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
         for (i, seen) in self.seen.iter_mut().enumerate() {
             *seen = u[i] + SchemeCoefficients::apply(c, self.guess[i], v[i], a[i]);
         }

@@ -1,6 +1,6 @@
 //! Memory of relaxed transforms.
 
-use super::lattice::takes_wavenumbers;
+use super::element_grid::takes_wavenumbers;
 use super::level::LEAF;
 use super::plan_spectra::waves_in_plan;
 use crate::error::Result;

@@ -1,7 +1,7 @@
 //! History by Fourier transforms of blocks: exact to rounding, O(log² N) per step.
 
 mod coefficients;
-mod lattice;
+mod element_grid;
 mod leaf;
 mod level;
 mod memory;
@@ -12,7 +12,7 @@ mod waves;
 
 use std::sync::Arc;
 
-use self::lattice::{Lattice, WAVES_FROM};
+use self::element_grid::{ElementGrid, WAVES_FROM};
 pub(crate) use self::memory::bytes_of_blocks;
 use self::memory::most_steps;
 use self::pairs::Pairs;
@@ -178,7 +178,7 @@ impl RelaxedFftHistory {
         {
             let lags = self.lags(steps)?;
             if let Some(tolerance) = self.forgotten {
-                self.end = LastLag::of(&*self.kernel, tolerance, lags, &mut unobserved)?;
+                self.end = LastLag::find(&*self.kernel, tolerance, lags, &mut unobserved)?;
             }
             if self.end.is_none() && lags < steps {
                 return Err(self.too_many(steps)?);
@@ -190,7 +190,7 @@ impl RelaxedFftHistory {
         } else {
             let classes = kernel.classes();
             let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
-            match Lattice::of(classes).filter(|_| wanted || classes.plan().is_some()) {
+            match ElementGrid::from_pairs(classes).filter(|_| wanted || classes.plan().is_some()) {
                 Some(lattice) => Box::new(Waves::new(lattice, kernel)?),
                 None => Box::new(Pairs::new(kernel)?),
             }
@@ -248,7 +248,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let weights = match self.forgotten.filter(|_| self.end.is_none()) {
             // In plan, up to the last lag that counts.
             Some(tolerance) => {
-                LastLag::of(&*kernel, tolerance, lags, &mut part).map(|end| self.end = end)
+                LastLag::find(&*kernel, tolerance, lags, &mut part).map(|end| self.end = end)
             }
             None => kernel.prepare(lags, &mut part),
         };
@@ -364,7 +364,8 @@ impl ConvolutionHistory for RelaxedFftHistory {
 /// `reach` is a leaf times a power of two.
 pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<Box<dyn Blocks>> {
     let classes = kernel.classes();
-    let lattice = Lattice::of(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
+    let lattice =
+        ElementGrid::from_pairs(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
     let mut blocks: Box<dyn Blocks> = match lattice {
         Some(lattice) => Box::new(Waves::new(lattice, kernel)?),
         None => Box::new(Pairs::bounded(kernel)?),

@@ -14,7 +14,7 @@ pub(crate) fn waves_in_plan(lattice: &Lattice) -> [usize; 2] {
     [across, across / 2 + 1].map(|rows| (along / 2 + 1) * rows)
 }
 
-/// Does [`Lattice::coefficients`](super::lattice::Lattice::coefficients) in plan, by products with cosines and sines
+/// Does [`ElementGrid::coefficients`](super::element_grid::ElementGrid::coefficients) in plan, by products with cosines and sines
 /// along x and y.
 pub(super) fn coefficients_in_plan(
     lattice: &Lattice,

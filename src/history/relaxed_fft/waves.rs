@@ -8,7 +8,7 @@ use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
 use super::coefficients::{Blocks, PARTS};
-use super::lattice::Lattice;
+use super::element_grid::ElementGrid;
 use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::{Components, LEAF, Ring, widened};
 use super::wave_level::{COUPLING, Levels, Near, WaveLevel};
@@ -25,7 +25,7 @@ const PADDING: usize = 4;
 /// Within a leaf, a step's contact vector over B wavenumbers is held as two slices of B for each component: real and
 /// imaginary parts.
 pub(super) struct Waves {
-    lattice: Lattice,
+    lattice: ElementGrid,
     /// Last d at which any coupling is not zero; the largest number if it never ends.
     reach: usize,
     near: Arc<Near>,
@@ -49,7 +49,7 @@ pub(super) struct Waves {
 
 impl Waves {
     /// Makes empty blocks of elements on `lattice`.
-    pub(super) fn new(lattice: Lattice, kernel: &dyn ConvolutionWeights) -> Result<Self> {
+    pub(super) fn new(lattice: ElementGrid, kernel: &dyn ConvolutionWeights) -> Result<Self> {
         let size = width(&lattice);
         Ok(Self {
             reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
@@ -342,7 +342,7 @@ impl Blocks for Waves {
 }
 
 /// Length of a step's contact vector over the wavenumbers of a lattice.
-fn width(lattice: &Lattice) -> usize {
+fn width(lattice: &ElementGrid) -> usize {
     2 * lattice.components() * lattice.waves().all
 }
 

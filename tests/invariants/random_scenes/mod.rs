@@ -166,7 +166,7 @@ const SAME: Twin = Twin { factors: [1.0; 4], mirrored: false };
 /// Largest differences of pressures, shear tractions, slips and rotations of two runs, relative to
 /// the largest traction and length of the first.
 fn apart(one: &[State], other: &[State], twin: Twin) -> [f64; 4] {
-    let Scales { traction, length, .. } = Scales::of(one);
+    let Scales { traction, length, .. } = Scales::largest(one);
     let scales = [traction, traction, length, length / recipe::WIDTH];
     let count = one[0].contact.len();
     let mut apart = [0.0_f64; 4];

@@ -38,7 +38,7 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
-    pub(crate) fn of(states: &[State]) -> Self {
+    pub(crate) fn largest(states: &[State]) -> Self {
         let contact = || states.iter().flat_map(|state| &state.contact);
         let or_one = |value: f64| if value > 0.0 { value } else { 1.0 };
         Self {
@@ -92,7 +92,7 @@ pub(crate) fn energy_is_kept(
     condition: f64,
     tally: &mut Tally,
 ) -> Result<(), TestCaseError> {
-    let scale = Scales::of(states).energy;
+    let scale = Scales::largest(states).energy;
     let exact = !matches!(
         recipe.bed,
         Bed::HalfPlane { history: basemat::history::HistoryMethod::Exponentials, .. }
@@ -138,7 +138,7 @@ pub(crate) fn contact_conditions_hold(
     states: &[State],
     tally: &mut Tally,
 ) -> Result<(), TestCaseError> {
-    let Scales { traction, length, .. } = Scales::of(states);
+    let Scales { traction, length, .. } = Scales::largest(states);
     let friction = recipe.friction();
     for pair in states.windows(2) {
         for (e, (before, now)) in pair[0].contact.iter().zip(&pair[1].contact).enumerate() {

@@ -98,8 +98,8 @@ fn lags_are_those_of_all_points() {
         for number in 0..4 {
             // All panels are marked as unresolved.
             for (node, panels) in points.panels.iter().enumerate() {
-                let unresolved = |places: &[Place]| {
-                    panels.kept().extend(places.iter().map(|place| (*place, None)));
+                let unresolved = |places: &[Panel]| {
+                    panels.stored().extend(places.iter().map(|place| (*place, None)));
                     Ok(vec![false; places.len()])
                 };
                 Block::circle(number, 1e-10).covered(node, unresolved).unwrap();

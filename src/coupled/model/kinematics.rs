@@ -45,7 +45,7 @@ impl Translation {
 ///
 /// It stores the degrees of freedom after their first use.
 #[derive(Clone)]
-pub(crate) struct Motion {
+pub(crate) struct Kinematics {
     pub(crate) displacement: Vec<f64>,
     pub(crate) velocity: Vec<f64>,
     pub(crate) acceleration: Vec<f64>,
@@ -56,7 +56,7 @@ pub(crate) struct Motion {
     dofs: [OnceLock<Vec<f64>>; 4],
 }
 
-/// Quantities of [`Motion`].
+/// Quantities of [`Kinematics`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum DofResponse {
     Displacement,
@@ -65,7 +65,7 @@ pub(crate) enum DofResponse {
     AbsoluteDisplacement,
 }
 
-impl Motion {
+impl Kinematics {
     /// Motion at rest.
     pub(crate) fn new(model: &Model) -> Self {
         let zero = || vec![0.0; model.coordinates];
@@ -114,15 +114,15 @@ const ALL: [(DofResponse, &str); 4] = [
     (DofResponse::AbsoluteDisplacement, "absolute_displacement"),
 ];
 
-impl PartialEq for Motion {
+impl PartialEq for Kinematics {
     fn eq(&self, other: &Self) -> bool {
         ALL.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
     }
 }
 
-impl std::fmt::Debug for Motion {
+impl std::fmt::Debug for Kinematics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut shown = f.debug_struct("Motion");
+        let mut shown = f.debug_struct("Kinematics");
         for (which, name) in ALL {
             shown.field(name, &self.dofs(which));
         }

@@ -21,7 +21,7 @@ use rustfft::{Fft, FftPlanner};
 use super::level::WaveNumbers;
 use super::plan_spectra::{CHUNK, coefficients_in_plan, smooth};
 use crate::error::Result;
-use crate::geometry::{Lattice as Plan, SERIES, SPACE};
+use crate::geometry::{Lattice, SERIES, SPACE};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 
@@ -34,14 +34,14 @@ pub(super) const WAVES_FROM: usize = 8;
 pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
     let classes = kernel.classes();
     let many = classes.elements().len() >= WAVES_FROM;
-    classes.plan().is_some() || many && Lattice::of(classes).is_some()
+    classes.plan().is_some() || many && ElementGrid::from_pairs(classes).is_some()
 }
 
 /// Largest number of lattice cells per element: gaps between strips are transformed too.
 const EMPTY: usize = 2;
 
 /// Cells of the elements, and the transforms along the surface.
-pub(super) struct Lattice {
+pub(super) struct ElementGrid {
     /// Cell of each element; cells are numbered row by row, S along x.
     cells: Vec<usize>,
     offsets: Offsets,
@@ -66,12 +66,12 @@ pub(super) struct Lattice {
 enum Offsets {
     /// Along a strip; `None` for an offset that no pair has.
     Strip(Vec<Option<usize>>),
-    Plan(Plan),
+    Plan(Lattice),
 }
 
-impl Lattice {
+impl ElementGrid {
     /// The lattice of the elements; `None` if they are not on a lattice, or most of its cells are empty.
-    pub(super) fn of(pairs: &PairClasses) -> Option<Self> {
+    pub(super) fn from_pairs(pairs: &PairClasses) -> Option<Self> {
         if let Some((lattice, cells)) = pairs.plan() {
             let lengths = lattice.counts.map(|count| smooth(2 * count - 1));
             let cells = cells.iter().map(|[i, j]| j * lengths[0] + i).collect();
@@ -231,7 +231,7 @@ impl Lattice {
         self.back(component, parts, self.scale, values);
     }
 
-    /// Transforms real and imaginary parts back to the values given to [`Lattice::forward`], times `factor`.
+    /// Transforms real and imaginary parts back to the values given to [`ElementGrid::forward`], times `factor`.
     pub(super) fn back(
         &mut self,
         component: usize,

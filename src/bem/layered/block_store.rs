@@ -32,7 +32,7 @@ const WAIT: Duration = Duration::from_millis(20);
 
 /// Blocks of a kernel computed so far.
 #[derive(Debug)]
-pub(crate) struct KeptBlocks {
+pub(crate) struct BlockStore {
     /// Fingerprint of the weights after the passivity gate.
     checked: OnceLock<Result<u64>>,
     blocks: [OnceLock<Result<Block>>; BLOCKS],
@@ -43,7 +43,7 @@ pub(crate) struct KeptBlocks {
     sizes: [usize; 2],
 }
 
-impl KeptBlocks {
+impl BlockStore {
     /// Empty store for blocks with these numbers of classes and kinds.
     pub(crate) fn new(sizes: [usize; 2], file: Option<PathBuf>) -> Self {
         let blocks = std::array::from_fn(|_| OnceLock::new());
