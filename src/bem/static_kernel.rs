@@ -9,9 +9,10 @@ use crate::history::{ConvolutionWeights, KINDS, LateWeights, PairClasses, Shared
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
-/// Element means of the static surface displacement (Flamant):
-/// `u_zz` = `u_xx` = −(1−ν)/(πμ) ln(|x|/L₀) and `u_zx` = −`u_xz` = (1−2ν)/(4μ) sgn x
-/// (Johnson 1985, § 2.3), x from the load to the receiver, z down.
+/// Element means of the static surface displacement (Flamant).
+///
+/// `u_zz` = `u_xx` = −(1−ν)/(πμ) ln(|x|/L₀) and `u_zx` = −`u_xz` = (1−2ν)/(4μ) sgn x (Johnson 1985, § 2.3), x from the
+/// load to the receiver, z down.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StaticKernel {
     logarithm: f64,

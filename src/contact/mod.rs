@@ -185,9 +185,10 @@ impl ContactSolution<'_> {
 }
 
 impl ContactProblem {
-    /// The problem with this Delassus operator (2Q × 2Q, row-major, m/Pa), and one law for all elements or
-    /// one each. The static tractions are zero at first. The method [`check`](InterfaceLaw::check) of the
-    /// laws is not called.
+    /// Makes a contact problem from a Delassus operator and laws.
+    ///
+    /// The operator is 2Q × 2Q, row-major, m/Pa. There is one law for all elements or one for each. The static
+    /// tractions are zero at first. The method [`check`](InterfaceLaw::check) of the laws is not called.
     ///
     /// # Errors
     /// [`Error::Size`] unless the operator belongs to at least one element and the number of laws fits,

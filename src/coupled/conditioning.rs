@@ -56,7 +56,7 @@ pub struct Conditioning {
     /// One for a structure in modal coordinates, in which it is diagonal.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub effective_stiffness: f64,
-    /// Condition of the ground's step compliance G¹. Without a limit, since no step solves with G¹ alone.
+    /// Condition of the ground's step compliance G¹. It has no limit, since no step solves with G¹ alone.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub ground: f64,
     /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A for the interface at rest.
@@ -108,8 +108,9 @@ pub(crate) fn conditioning(
     Err(Error::IllConditioned { matrix, condition, limit, quantity, ratio })
 }
 
-/// Stiffness over inertia if a translation of the structure has little inertia, otherwise stiffness over
-/// stiffness.
+/// Cause of a large condition of K_eff: little inertia of a translation, or very different stiffnesses.
+///
+/// Returns its name and ratio.
 fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (&'static str, f64) {
     let (c, model) = (&scene.coefficients, &scene.model);
     let inertia = |vector: &[f64]| c.acceleration[0] * model.mass.form(vector, vector);
@@ -128,7 +129,9 @@ fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (
     ("largest over least stiffness within the structure", ratio)
 }
 
-/// The structure's compliance over the ground's, the ground itself, or the elements.
+/// Cause of a large condition of W: a compliant structure, the ground, or very different elements.
+///
+/// Returns its name and ratio.
 fn cause_of_delassus(
     scene: &Scene,
     operators: &Operators,

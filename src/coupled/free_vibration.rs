@@ -23,7 +23,7 @@ use crate::structure::{
     DofCombination, HeldBase, Structure, base_nodes, check_base_nodes, stiffest,
 };
 
-/// Stiffness of the springs that hold the base, over the largest stiffness.
+/// Stiffness of the springs that hold the base, relative to the largest stiffness.
 const HELD: f64 = 1e6;
 /// Number of modes in which the mode with the most mass is sought.
 const MODES: usize = 12;
@@ -31,7 +31,7 @@ const MODES: usize = 12;
 const OF_THE_BASE: f64 = 0.5;
 /// Smallest part of the mass that a mode must move.
 const LEAST_MASS: f64 = 1e-3;
-/// Base shear in the deflected shape, over the weight: small, so that nothing yields.
+/// Base shear in the deflected shape, relative to the weight: small, so that nothing yields.
 const DEFLECTION: f64 = 1e-3;
 /// Smallest number of steps of the free vibration in a period T.
 const STEPS: f64 = 40.0;

@@ -30,7 +30,7 @@ use crate::structure::{Structure, is_nonlinear, probe};
 /// The matrix is scaled to a diagonal of one.
 const ROUNDING: f64 = 1e-9;
 
-/// Number of steps, and more, that stands for a run without a known end.
+/// From this number of steps on, a run counts as a run without a known end.
 pub(crate) const ENDLESS: usize = match 1_usize.checked_shl(40) {
     Some(steps) => steps,
     None => usize::MAX >> 4,

@@ -6,7 +6,7 @@ use crate::coupled::refine_each::Names;
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
-/// Time step of the first twin over the run's time step.
+/// Time step of the first twin, relative to the run's time step.
 const SHORTER: f64 = 0.99;
 /// Largest number of digits that twins may confirm.
 const MOST_DIGITS: u32 = 6;

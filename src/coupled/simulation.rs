@@ -38,7 +38,7 @@ pub struct Simulation {
     pub(crate) conditioning: Conditioning,
     /// Warnings of the scene before its first step, and of the steps since.
     pub(crate) warnings: Vec<Warning>,
-    /// Damping of a rigid translation along the ground over the mass that it moves, 1/s.
+    /// Damping of a rigid translation along the ground, divided by the mass that it moves, 1/s.
     pub(crate) drag: f64,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
@@ -171,7 +171,9 @@ impl Simulation {
         self.ground.as_ref()
     }
 
-    /// Sets the force of load number `index` (from 0, in the order of the builder) for all further steps.
+    /// Sets the force of load number `index` for all further steps.
+    ///
+    /// Loads are numbered from 0, in the order of the builder.
     ///
     /// `value` is the whole force, including the static one; it replaces the load's function of time. `None`
     /// restores that function. A controller computes the force from the last state and sets it before each step:

@@ -21,8 +21,9 @@ pub struct HistoryChoice {
     pub steps: Option<usize>,
     /// Memory used now, bytes.
     pub memory: usize,
-    /// Measured relative error of the coefficients of exponentials, or the fraction of the coefficients' sum that
-    /// transforms may leave out; zero if the method is exact.
+    /// Bound of the relative error of the coefficients; zero if the method is exact.
+    ///
+    /// For exponentials the measured error; for transforms the fraction of the coefficients' sum that may be left out.
     pub error_bound: f64,
     /// Number of Runge–Kutta stages of the convolution quadrature; `None` for closed forms.
     pub stages: Option<usize>,

@@ -35,8 +35,9 @@ pub struct TailProduct {
 }
 
 impl ExponentialSum {
-    /// Sum of exponentials with `rates` (per step, not negative) and `functions` (their means over all elements),
-    /// weighted by `products`.
+    /// Makes a sum of exponentials from its `rates`, `functions` and `products`.
+    ///
+    /// Rates are per step and not negative; functions are given by their means over all elements.
     ///
     /// # Errors
     /// [`Error::Input`] for negative rates or numbers that are not finite, [`Error::Index`] for

@@ -31,8 +31,9 @@ pub struct Pair {
     pub class: usize,
     /// 1/length of the receiver, 1/m: coefficients of a class are integrals over the receiver, not means.
     pub scale: f64,
-    /// Sign of the coupling between normal and tangential components: +1 for a receiver to the
-    /// right of the source, −1 to the left, 0 for an element on itself.
+    /// Sign of the coupling between normal and tangential components.
+    ///
+    /// It is +1 for a receiver to the right of the source, −1 to the left, 0 for an element on itself.
     pub sign: f64,
 }
 
@@ -147,8 +148,9 @@ impl PairClasses {
         }
     }
 
-    /// Representative pair of `class`: its source, and its receiver, which is the source itself or to the
-    /// right of it.
+    /// Source and receiver of a pair that represents `class`.
+    ///
+    /// The receiver is the source itself or to the right of it.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist.

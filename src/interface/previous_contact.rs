@@ -14,10 +14,13 @@ pub struct PreviousContact<'a> {
     pub state: ContactState,
     /// Mode of the previous step.
     pub mode: Mode,
-    /// Whether the element has been open at any time since the start of the run, or its bond
-    /// ([`InterfaceLaw::bond_overload`]) has broken in this step.
+    /// Whether the element has been open at any time since the start of the run.
+    ///
+    /// Also true if its bond ([`InterfaceLaw::bond_overload`]) has broken in this step.
     pub has_opened: bool,
-    /// Slip velocity of the previous step, m/s: its change of slip over its length; in plan the magnitude.
+    /// Slip velocity of the previous step, m/s; in plan its magnitude.
+    ///
+    /// It is the change of slip in the step, divided by the time step.
     pub slip_rate: f64,
     /// Pressure of the static state, Pa.
     pub static_pressure: f64,

@@ -110,8 +110,9 @@ impl Triplets {
         self.entries.push((place(row), place(column), value));
     }
 
-    /// Adds a dense block (row-major, `indices.len()` squared) at rows and columns `indices`.
-    /// Entries missing from a block that is too short are left out.
+    /// Adds a dense block (row-major) at rows and columns `indices`.
+    ///
+    /// The block has `indices.len()` squared entries; entries missing from a shorter block are left out.
     pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
         for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
             for (column, &value) in indices.iter().zip(values) {
@@ -128,7 +129,7 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`: the matrix of a spring or dashpot with the deformation l·u.
+    /// Adds `factor · l lᵀ`, the matrix of a spring or dashpot with the deformation l·u.
     ///
     /// The row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list of (degree of
     /// freedom, weight) terms.

@@ -209,7 +209,9 @@ impl FreeField for Record {
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Triaxial {
-    /// Motion of the surface along x, positive to the right (a record to the east, if x points there).
+    /// Motion of the surface along x, positive to the right.
+    ///
+    /// It is a record to the east, if x points to the east.
     pub x: Option<Record>,
     /// Motion along y, positive away from the reader (to the north).
     pub y: Option<Record>,
@@ -241,7 +243,9 @@ impl FreeField for Triaxial {
     }
 }
 
-/// Ricker pulse u(t) = A (1 − 2a²) e^(−a²), a = (t − center)/sigma, the same at all points.
+/// Ricker pulse of displacement, the same at all points.
+///
+/// u(t) = A (1 − 2a²) e^(−a²), a = (t − center)/sigma.
 ///
 /// Displacement and velocity are exact. The peak A is at t = `center`; the spectrum peaks at 1/(π sigma) Hz (Ricker,
 /// "The form and laws of propagation of seismic wavelets", Geophysics 18 (1953), 10–40). At and before t = 0 the field

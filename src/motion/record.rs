@@ -14,10 +14,11 @@ pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> 
 }
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
-/// The acceleration is linear between samples, so the velocity is piecewise quadratic and the displacement
-/// piecewise cubic. Both are integrated exactly from rest at t = 0; [`Record::at`] returns them at any time.
-/// Before t = 0 all three are zero. After the last sample the acceleration is zero and the velocity keeps its last
-/// value. That value is zero only if a [`Baseline`] made it so.
+///
+/// The acceleration is linear between samples, so the velocity is piecewise quadratic and the displacement piecewise
+/// cubic. Both are integrated exactly from rest at t = 0; [`Record::at`] returns them at any time. Before t = 0 all
+/// three are zero. After the last sample the acceleration is zero and the velocity keeps its last value. That value is
+/// zero only if a [`Baseline`] made it so.
 ///
 /// ```
 /// use basemat::motion::Record;

@@ -96,7 +96,7 @@ fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
     points
 }
 
-/// The structure at rest and at some instants.
+/// Picture of the structure at rest and at some instants.
 ///
 /// The kept frames nearest to `times` (s) are drawn. Displacements are relative to the ground and multiplied
 /// by `magnification`, with one scale in both directions. In plan there are two views, along y on the left

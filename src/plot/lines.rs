@@ -104,7 +104,7 @@ pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity
     with_limit(title, "time, s", &y, &list, limit)
 }
 
-/// A probe of one or more runs over time, in its unit or the unit that engineers use for it.
+/// Chart of a probe of one or more runs over time, in the probe's or the engineer's unit.
 ///
 /// See [`Probe::in_unit`](crate::coupled::Probe::in_unit).
 ///

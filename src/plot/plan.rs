@@ -29,7 +29,7 @@ struct Cell {
     slides: Option<[f64; 2]>,
 }
 
-/// Pressures and sliding directions of a base in plan, in the frame nearest to `time` (s).
+/// Picture of pressures and sliding directions of a base in plan, at the frame nearest to `time` (s).
 ///
 /// Elements are coloured by pressure, open elements are marked, and arrows show how sliding elements move
 /// over the soil.

@@ -20,7 +20,7 @@ pub struct LayerResponse {
     pub depth: f64,
     /// Shear modulus, Pa.
     pub shear_modulus: f64,
-    /// Shear modulus over its value at small strain.
+    /// Ratio of the shear modulus to its value at small strain.
     pub modulus_ratio: f64,
     /// Damping ratio.
     pub damping: f64,
@@ -34,7 +34,7 @@ pub struct LayerResponse {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct EquivalentLinear {
-    /// The soil for a ground: strain-compatible moduli at its first frequency, constant damping over the band.
+    /// Profile for a ground, with strain-compatible moduli at its first frequency and constant damping over the band.
     pub profile: SoilProfile,
     /// Motion of the free surface, the input of a simulation.
     ///
@@ -44,7 +44,9 @@ pub struct EquivalentLinear {
     pub surface: Record,
     /// Properties and strains from the surface down.
     pub layers: Vec<LayerResponse>,
-    /// Acceleration (m/s²) at the tops of all layers and of the base (within), with as many samples as the motion.
+    /// Acceleration (m/s²) at the tops of all layers and of the base (within).
+    ///
+    /// Each has as many samples as the motion.
     pub accelerations: Vec<Vec<f64>>,
     /// Largest absolute acceleration at each of these places, m/s².
     pub peak_accelerations: Vec<f64>,

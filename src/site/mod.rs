@@ -58,7 +58,7 @@ pub enum SiteWarning {
     /// The record needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more
     /// damping.
     CutOff {
-        /// Largest acceleration cut off, over the peak.
+        /// Largest acceleration cut off, relative to the peak.
         share: f64,
     },
     /// Most of a motion's energy is at frequencies that the site amplifies more than a hundredfold.

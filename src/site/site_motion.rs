@@ -5,7 +5,7 @@ use std::fmt;
 use super::SiteWarning;
 use crate::linalg::largest;
 
-/// Ratio of a motion to the given one above which it counts as amplified.
+/// Ratio to the given motion above which a motion counts as amplified.
 pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
 
 /// A motion that has passed through a site, and the size of its lost parts.
@@ -19,9 +19,9 @@ pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
 pub struct SiteMotion {
     /// Samples of the motion.
     pub samples: Vec<f64>,
-    /// Largest sample before the first one, cut off: motion at depth precedes motion of the surface.
+    /// Largest sample cut off before the first: motion at depth precedes motion of the surface.
     pub before: f64,
-    /// Largest sample after the last one, cut off: waves that are still on their way.
+    /// Largest sample cut off after the last: waves that are still on their way.
     pub after: f64,
     /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt.
     ///
@@ -30,7 +30,7 @@ pub struct SiteMotion {
     pub near_nyquist: f64,
     /// Estimated rounding: large if deconvolution through damped layers amplifies high frequencies.
     pub rounding: f64,
-    /// Lowest frequency (Hz) at which the motion is more than a hundred times the given one.
+    /// Lowest frequency (Hz) at which the motion is more than a hundred times the given motion.
     ///
     /// Set if most of the motion's energy is at such frequencies: see [`SiteMotion::warning`].
     pub amplified_from: Option<f64>,

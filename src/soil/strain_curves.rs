@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive, require};
 
-/// Secant shear modulus and damping ratio of a soil over the amplitude of its shear strain.
+/// Secant shear modulus and damping ratio of a soil as functions of the shear strain's amplitude.
 ///
 /// Published curves exist as drawings: their numbers are the digitized values of pystrata 0.5.4. Darendeli's
 /// curves are computed from his equations. Between points both quantities are linear in the logarithm of

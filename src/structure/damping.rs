@@ -135,7 +135,7 @@ const MOST: usize = 3000;
 /// Eigenvalues do not distinguish rigid modes: rounding leaves theirs small but arbitrary, and in fine meshes
 /// the lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
 const RIGID: f64 = 0.5;
-/// Stiffness of the springs that hold a base, over the largest stiffness: within a millionth of a fixed base.
+/// Stiffness of the springs that hold a base, relative to the largest stiffness: within a millionth of a fixed base.
 const HELD: f64 = 1e6;
 /// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
 const MASSLESS: f64 = 1e-13;

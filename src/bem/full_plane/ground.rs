@@ -210,8 +210,9 @@ impl FullPlaneGround {
         Ok(&self.stability.insert((time_step, found)).1)
     }
 
-    /// Adds waves from below, which the boundary scatters (eq. 21). They replace the scene's ground motion,
-    /// which must then be at rest.
+    /// Adds waves from below, which the boundary scatters (eq. 21).
+    ///
+    /// They replace the scene's ground motion, which must then be at rest.
     #[must_use]
     pub fn with_incident_field(mut self, field: impl IncidentField + 'static) -> Self {
         self.incident = Some(Box::new(field));

@@ -175,8 +175,9 @@ impl fmt::Display for Stability {
 pub struct GroundStability {
     /// All elements free of traction, as under an uplifted base.
     pub uplifted: Stability,
-    /// Displacements of the contact elements prescribed, as under a base that sticks. This state has the
-    /// passivity figures.
+    /// State with prescribed displacements of the contact elements, as under a base that sticks.
+    ///
+    /// This state has the passivity figures.
     pub bonded: Stability,
 }
 

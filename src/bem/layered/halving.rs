@@ -9,8 +9,9 @@ use crate::linalg::gauss::Rule;
 
 /// Rounding error of C relative to its largest value on a panel.
 pub(crate) const FLOOR: f64 = 3e-14;
-/// Exponent of the tolerance for Legendre coefficients that may be neglected on the narrowest panels and
-/// their halves. 16 points integrate products up to degree 31, so the error is about their power 3/2 to 5/3.
+/// Exponent of the tolerance for Legendre coefficients neglected on the narrowest panels and their halves.
+///
+/// 16 points integrate products up to degree 31, so the error is about the coefficients' power 3/2 to 5/3.
 pub(crate) const SHARE: f64 = 2.0 / 3.0;
 /// Largest number of successive halvings of a panel.
 const DEEPEST: u32 = 44;

@@ -133,7 +133,7 @@ impl Assembled {
         self.mass.form(&up, &up) / self.base.areas().iter().sum::<f64>()
     }
 
-    /// Largest damping of a translation along the ground over the mass that it moves, r·C r / r·M r, 1/s.
+    /// Largest damping of a translation along the ground, divided by the mass that it moves, r·C r / r·M r, 1/s.
     ///
     /// Of all parts and directions.
     pub(crate) fn drag(&self) -> f64 {

@@ -23,12 +23,12 @@ pub struct Uplift {
 }
 
 impl Uplift {
-    /// A step that began at `begin`.
+    /// Records a step that began at `begin`.
     pub(crate) fn see(&mut self, uplifted: f64, modes: &[Mode], step: f64) {
         self.advance(uplifted, step, modes.iter().any(|mode| mode.is_closed()));
     }
 
-    /// A step of duration `step`, and whether any element is closed at its end.
+    /// Records a step of duration `step`, and whether any element is closed at its end.
     fn advance(&mut self, fraction: f64, step: f64, closed: bool) {
         if fraction <= 0.0 {
             self.current = 0.0;

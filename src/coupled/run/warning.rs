@@ -177,7 +177,8 @@ pub enum Warning {
         /// Density, kg/m³.
         density: f64,
     },
-    /// A structure slower than almost any: probably a stiffness in another unit, unless the model is not to scale.
+    /// A structure with an unusually long period: probably a stiffness in another unit, unless the model is not to
+    /// scale.
     LongPeriod {
         /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
         period: f64,
@@ -244,7 +245,7 @@ pub enum Warning {
     ///
     /// Mass-proportional damping does so.
     DampedSliding {
-        /// Damping of the translation over the mass that it moves, 1/s.
+        /// Damping of the translation, divided by the mass that it moves, 1/s.
         rate: f64,
         /// Estimated relative reduction of the longest slip event, for a block that slides to rest.
         loss: f64,
@@ -254,7 +255,7 @@ pub enum Warning {
     /// Longer than a quarter of the soil's shear wavelength at the frequency of the base shear; in plan, cells
     /// longer than a twelfth.
     LongElements {
-        /// Longest element, m; in plan the narrowest along x or along y.
+        /// Length of the longest element, m; in plan the narrowest side along x or along y, whichever is longer.
         element_length: f64,
         /// Wavelength at the root-mean-square frequency of the base shear, m.
         wavelength: f64,

@@ -25,9 +25,10 @@ use crate::geometry::{Lattice, SERIES, SPACE};
 use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 
-/// Smallest number of elements for which the transform along the surface is used. Measured, µs per step by pairs and by
-/// wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9. For fewer elements
-/// wavenumbers gain little time, and their rows take twice the memory.
+/// Smallest number of elements for which the transform along the surface is used.
+///
+/// Measured, µs per step by pairs and by wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0
+/// and 3.9. For fewer elements wavenumbers gain little time, and their rows take twice the memory.
 pub(super) const WAVES_FROM: usize = 8;
 
 /// Whether a history transforms along the surface, unless given otherwise.

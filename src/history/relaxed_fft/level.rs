@@ -8,8 +8,9 @@ use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Number of steps summed directly; the smallest block has this size. Measured with 10 and 14 elements: 16 takes as
-/// long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
+/// Number of steps summed directly; the smallest block has this size.
+///
+/// Measured with 10 and 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
 pub(crate) const LEAF: usize = 32;
 /// Number of frequencies multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;

@@ -7,7 +7,7 @@ use crate::fem::{Direction, Mesh, Numbering};
 use crate::structure::Triplets;
 use crate::structure::detached::{NAMED, listed};
 
-/// Every degree of freedom of the mesh as a weighted sum of those that remain.
+/// Rigid links: every degree of freedom of the mesh as a weighted sum of the remaining ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
     /// Leader of each follower.

@@ -13,7 +13,7 @@ use crate::structure::{DofCombination, FemModel, SectionRows, Triplets};
 pub struct Section {
     /// Height of the cut, m.
     pub height: f64,
-    /// Horizontal force on the part below, N, positive to the right: at the base the base shear.
+    /// Horizontal force on the part below, N, positive to the right; at the base, the base shear.
     pub shear: SectionRows,
     /// Vertical force on the part below, N, positive downwards (compression).
     pub compression: SectionRows,

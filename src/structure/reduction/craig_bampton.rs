@@ -84,7 +84,7 @@ impl CraigBampton {
         Self { modes, kept: Vec::new() }
     }
 
-    /// Keeps these `dofs` as they are, too.
+    /// Also keeps these `dofs` unreduced.
     ///
     /// Springs on the reduced model need them, for example ([`WithSprings`](crate::structure::WithSprings)).
     #[must_use]
