@@ -70,7 +70,7 @@ words! { pub(crate) SearchMethod, "search method", {
 } }
 
 words_with_numbers! {
-    /// One of its words, or an [`Error::Word`].
+    /// Parses one of its words, or returns [`Error::Word`].
     ///
     /// ```
     /// use basemat::contact::ContactSearch;

@@ -11,7 +11,7 @@ use crate::text::column::finite;
 /// Description of a block of numbers by its title.
 pub(super) struct Block {
     pub(super) points: usize,
-    /// s.
+    /// Time step, s.
     pub(super) step: f64,
     pub(super) unit: AccelerationUnit,
     pub(super) columns: Option<FixedColumns>,

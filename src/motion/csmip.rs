@@ -38,7 +38,7 @@ fn volume_1(title: &str) -> Option<&str> {
 #[derive(Default)]
 pub(super) struct Notes {
     points: Option<f64>,
-    /// s.
+    /// Time step, s.
     interval: Option<f64>,
     /// Peak acceleration, and the name of its unit.
     peak: Option<(f64, String)>,

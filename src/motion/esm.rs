@@ -48,7 +48,7 @@ struct Header {
     points: Option<usize>,
     duration: Option<f64>,
     unit: Option<AccelerationUnit>,
-    /// m/s².
+    /// Peak acceleration, m/s².
     peak: f64,
     stream: String,
 }

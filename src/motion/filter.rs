@@ -10,7 +10,7 @@ use realfft::num_complex::Complex;
 
 /// Highest order of a filter.
 const HIGHEST_ORDER: u32 = 8;
-/// Quiet time on either side of a filtered record: this times order over corner frequency.
+/// Quiet time on either side of a filtered record, in units of the order divided by the corner frequency.
 const PADS: f64 = 1.5;
 
 impl Record {

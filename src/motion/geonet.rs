@@ -64,13 +64,13 @@ const REALS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 1, sc
 struct Header {
     name: String,
     points: Option<f64>,
-    /// s.
+    /// Duration, s.
     duration: Option<f64>,
-    /// s.
+    /// Time step, s.
     interval: Option<f64>,
     /// Unit of the numbers, mm/s².
     unit: Option<f64>,
-    /// mm/s².
+    /// Peak acceleration, mm/s².
     peak: f64,
 }
 

@@ -167,7 +167,7 @@ pub(super) struct Series {
     pub(super) name: String,
     /// Time step, s.
     pub(super) step: f64,
-    /// m/s².
+    /// Acceleration, m/s².
     pub(super) samples: Vec<f64>,
 }
 

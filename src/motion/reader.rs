@@ -149,13 +149,13 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Serie
 /// Lines of numbers, column by column.
 #[derive(Default)]
 struct Table {
-    /// Line numbers.
+    /// Number of each line in the file.
     lines: Vec<usize>,
-    /// s.
+    /// Times of the lines, s.
     times: Vec<f64>,
     clock: Clock,
     names: Vec<String>,
-    /// m/s².
+    /// Accelerations, m/s².
     columns: Vec<Vec<f64>>,
 }
 

@@ -18,7 +18,7 @@ use crate::linalg::{Complex, largest};
 
 /// ηT: wrap-around is reduced to e^(−24).
 const WINDOW: f64 = 24.0;
-/// Length of the transform over the number of samples of the motion.
+/// Length of the transform, relative to the number of samples of the motion.
 const PADDING: usize = 4;
 /// Largest number of samples of a motion, and of time steps of waves through a site.
 const MOST_SAMPLES: usize = 1 << 24;
