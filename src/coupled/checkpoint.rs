@@ -151,7 +151,7 @@ impl Simulation {
     ///
     /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the
     /// initial motion, the numbers that the interface laws return for sample states, and samples of ground motion and
-    /// loads in the steps so far. Numbers of a nonlinear force, what a law does with other state variables than the
+    /// loads in the steps so far. Numbers of a nonlinear force, the response of a law to other state variables than the
     /// first, and internal variables that a structure does not [save][`save`] are not compared. Forces that were
     /// [set](Simulation::set_load) are restored. The transitions, trials and method of the step before the checkpoint
     /// are not kept.

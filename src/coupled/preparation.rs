@@ -40,7 +40,7 @@ impl Simulation {
             Ok(()) => {}
         }
         if let Err(error) = self.ground.restore(made, &saved) {
-            // Back to the ground as it was.
+            // Restores the ground's earlier state.
             let before = Some(self.prepared).filter(|steps| *steps > 0);
             self.ground.prepare(time_step, before, &mut unobserved)?;
             self.ground.restore(made, &saved)?;

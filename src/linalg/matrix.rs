@@ -179,7 +179,8 @@ impl SparseMatrix {
         if largest > 0.0 { difference / largest } else { 0.0 }
     }
 
-    /// Row, column, a_ij and a_ji of the pair that differs most beyond what is `allowed` of its row and column.
+    /// Row, column, a_ij and a_ji of the pair whose difference most exceeds the difference `allowed` in its row and
+    /// column.
     pub(crate) fn unsymmetric_pair(
         &self,
         allowed: impl Fn(usize, usize) -> f64,

@@ -27,7 +27,7 @@ use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// Smallest ratio of a prescribed component to the other one.
+/// Smallest ratio of a prescribed component to the other component.
 ///
 /// Near the angles at which the prescribed component vanishes, the other grows without bound.
 const SMALLEST: f64 = 0.1;

@@ -321,7 +321,7 @@ impl Structure for WithModalDamping {
 
 /// A part counts as at rest if it has less than this fraction of a motion's norm.
 const NOTHING: f64 = 1e-8;
-/// A motion depends on the others if what is left after removing them is below this fraction.
+/// A motion depends on the others if the rest after removing them is below this fraction.
 const DEPENDENT: f64 = 1e-6;
 
 /// Error for contact nodes with degrees of freedom at `n` or beyond.

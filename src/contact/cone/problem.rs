@@ -18,7 +18,7 @@ use crate::linalg::dense_multiply_add;
 
 /// Residual at which a solution is accepted, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
-/// Friction coefficient that replaces an infinite one beside a bond, and in methods that need a disc.
+/// Friction coefficient that replaces infinite friction on an element with a bond, and in methods that need a disc.
 pub(super) const STAND_IN: f64 = 1e4;
 
 /// Bounds of an element's force.

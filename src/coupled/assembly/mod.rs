@@ -182,7 +182,8 @@ impl SimulationBuilder {
 
     /// Sets the observer of [`build`](SimulationBuilder::build); default [`unobserved`](crate::unobserved).
     ///
-    /// The observer hears of the ground's convolution weights: of the expected steps, or those that the build needs.
+    /// The observer follows the computation of the ground's convolution weights: of the expected steps, or those that
+    /// the build needs.
     #[must_use]
     pub fn observer(
         mut self,

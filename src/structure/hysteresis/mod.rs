@@ -81,7 +81,7 @@ fn corrupt() -> crate::Error {
 
 // An elastic slider parallel to a spring, and laws made of it: bilinear columns and friction pendulums.
 
-/// Spring `parallel` beside a spring `series` with a slider that yields at the force `limit`.
+/// Spring `parallel` to a spring `series` with a slider that yields at the force `limit`.
 ///
 /// The return mapping is exact for straight paths: the force is kinematically hardening bilinear.
 #[derive(Debug, Clone, PartialEq)]
