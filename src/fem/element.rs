@@ -59,8 +59,9 @@ pub trait Element: Send + Sync {
     /// Directions of the element's degrees of freedom, the same at each of its nodes.
     fn directions(&self) -> &[Direction];
 
-    /// Adds the stiffness matrix (N/m per metre) to `matrix`. Symmetric; a rigid motion of all
-    /// nodes must give no force.
+    /// Adds the stiffness matrix (N/m per metre) to `matrix`.
+    ///
+    /// It is symmetric; a rigid motion of all nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
 
     /// Adds the geometric stiffness (P–Δ) of the axial force in the static state, N/m per metre.
@@ -91,7 +92,9 @@ pub trait Element: Send + Sync {
         None
     }
 
-    /// Adds the mass matrix (kg/m) to `matrix`. Symmetric, positive semi-definite.
+    /// Adds the mass matrix (kg/m) to `matrix`.
+    ///
+    /// It is symmetric and positive semi-definite.
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
 
     /// Adds the viscous damping matrix to `matrix`, without Rayleigh damping. Default: none.

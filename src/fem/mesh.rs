@@ -19,7 +19,9 @@ const SAME_POINT: f64 = 1e-6;
 /// Relative difference below which matrix entries count as equal: rounding.
 const ALIKE: f64 = 1e-12;
 
-/// Nodes and elements. Clones share their elements, which never change.
+/// Nodes and elements.
+///
+/// Clones share their elements, which never change.
 ///
 /// ```
 /// use basemat::fem::{Beam, LumpedMass, Mesh};

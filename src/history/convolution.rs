@@ -246,7 +246,9 @@ pub(crate) const OTHER_KINDS: Error = Error::Scene {
 /// single lags up to the horizon, and checks that window and exponentials together are passive. So
 /// [`ConvolutionWeights::coefficients`] should be quick at any lag here.
 pub trait LateWeights: Send + Sync {
-    /// Last lag that exponentials cannot represent. The coupling must have ended by then.
+    /// Last lag that exponentials cannot represent.
+    ///
+    /// The coupling must have ended by then.
     fn window(&self) -> usize;
 
     /// Exponentials for the lags from `window` + 1 to `horizon`.

@@ -139,8 +139,9 @@ impl InterfaceLaw for Cohesive {
         }
     }
 
-    /// Limits in plan. An element whose strength is exceeded keeps it to the end of the step, unless it
-    /// opens.
+    /// Limits in plan.
+    ///
+    /// An element whose strength is exceeded keeps the strength to the end of the step, unless it opens.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let broken = self.broken.limits(start)?;
         if is_glued(start) {

@@ -350,7 +350,9 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// Limits in plan. An open element carries no traction; slip excludes the elastic deformation.
+    /// Limits in plan.
+    ///
+    /// An open element carries no traction; slip excludes the elastic deformation.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let refuse = |needed| Err(Error::Scene { quantity: "thin layer in plan", needed });
         if self.debonded > 0.0 {

@@ -76,8 +76,10 @@ impl<S: Simd> Lanes<S> {
         Self { simd: self.simd, re, im }
     }
 
-    /// `x` where the mask is set, `y` elsewhere. It selects bits, because pulp's function for bits is compiled for its
-    /// caller, and its function for numbers is not.
+    /// `x` where the mask is set, `y` elsewhere.
+    ///
+    /// It selects bits, because pulp's function for bits is compiled for its caller, and its function for numbers is
+    /// not.
     #[inline(always)]
     fn select(simd: S, mask: S::m64s, x: S::f64s, y: S::f64s) -> S::f64s {
         let [x, y] = [simd.transmute_u64s_f64s(x), simd.transmute_u64s_f64s(y)];

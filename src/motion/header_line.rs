@@ -33,7 +33,9 @@ impl HeaderLines {
         }
     }
 
-    /// The titles in each line. The number of columns may be any of a range, as the last cells of a line may be empty.
+    /// The titles in each line.
+    ///
+    /// The number of columns may be any of a range, as the last cells of a line may be empty.
     pub(super) fn titles(&self, columns: &RangeInclusive<usize>) -> ColumnTitles {
         ColumnTitles(self.0.iter().map(|line| LineTitles::read(line, columns)).collect())
     }
@@ -123,7 +125,9 @@ pub(super) fn titles_of_words(line: &str) -> Vec<String> {
     with_brackets(words(line, char::is_whitespace, 1))
 }
 
-/// The cells between the `separator`s of a line, empty ones included. Brackets keep a cell together.
+/// The cells between the `separator`s of a line, empty ones included.
+///
+/// Brackets keep a cell together.
 fn cells(line: &str, separator: char) -> Vec<String> {
     let mut depth = 0;
     let apart = line.split(|sign| {
@@ -133,7 +137,9 @@ fn cells(line: &str, separator: char) -> Vec<String> {
     apart.map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// The words of a line, with at least `least` separators between them. Brackets keep a word together.
+/// The words of a line, with at least `least` separators between them.
+///
+/// Brackets keep a word together.
 fn words(line: &str, separates: fn(char) -> bool, least: usize) -> Vec<String> {
     let (mut words, mut depth, mut gap) = (vec![String::new()], 0, String::new());
     for sign in line.chars() {

@@ -33,7 +33,9 @@ const OTHERS: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|millis
     minutes|h|hr|hrs|hour|hours|day|days|sample|samples|hz|m|cm|mm|km|in|inch|inches|ft|feet|mg|milli-g|millig|\
     milli g|mgal|mgals|milligal|%|%g|count|counts|cnt|cnts|v|volt|volts|mv|mvolts|kine|kines";
 
-/// Longest name of a unit, bytes. Longer texts are not compared with the names.
+/// Longest name of a unit, bytes.
+///
+/// Longer texts are not compared with the names.
 pub(super) const LONGEST: usize = 48;
 
 impl AccelerationUnit {

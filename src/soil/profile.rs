@@ -13,7 +13,9 @@ use crate::linalg::Complex;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SoilLayer {
-    /// Elastic constants. Its moduli apply at the frequency where the damping law is 1.
+    /// Elastic constants.
+    ///
+    /// The moduli apply at the frequency where the damping law is 1.
     pub soil: Soil,
     /// Thickness, m.
     pub thickness: f64,
@@ -102,8 +104,9 @@ impl SoilProfile {
         Ok(profile)
     }
 
-    /// Adds a layer below all others. It is elastic until [`with_damping`](SoilProfile::with_damping) is
-    /// called.
+    /// Adds a layer below all others.
+    ///
+    /// It is elastic until [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
     /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
@@ -239,8 +242,9 @@ impl SoilProfile {
         Ok(())
     }
 
-    /// Overwrites `moduli` with the complex shear moduli μ(s) at each of `s`, Pa: all moduli of the first soil, then all
-    /// of the next one down.
+    /// Overwrites `moduli` with the complex shear moduli μ(s) at each of `s`, Pa.
+    ///
+    /// All moduli of the first soil come first, then all moduli of the next soil down.
     pub(crate) fn moduli_at(&self, s: &[Complex], moduli: &mut Vec<Complex>) -> Result<()> {
         moduli.clear();
         // Neighbours of the same damping law share μ(s)/μ.

@@ -120,7 +120,9 @@ pub trait Structure: Any + Send {
         Vec::new()
     }
 
-    /// Adds the mass matrix (n × n, kg/m) to `matrix`. Symmetric, positive semi-definite.
+    /// Adds the mass matrix (n × n, kg/m) to `matrix`.
+    ///
+    /// It is symmetric and positive semi-definite.
     ///
     /// Degrees of freedom without mass are allowed. Rounding is accepted: entries on the diagonal down to
     /// −10⁻¹² of the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a

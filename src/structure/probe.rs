@@ -36,7 +36,9 @@ use crate::text::column::column;
 pub struct Probe {
     /// Name, for tables; different for each probe of a simulation.
     pub name: String,
-    /// Unit, for tables; may be empty. It is a label: values are weighted sums in SI units.
+    /// Unit, for tables; may be empty.
+    ///
+    /// It is a label: values are weighted sums in SI units.
     pub unit: String,
     /// Sum of displacements (changes against the static state).
     pub displacement: DofCombination,

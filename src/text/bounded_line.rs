@@ -35,7 +35,9 @@ impl<R: Read> Lines<R> {
         Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
     }
 
-    /// Goes to the next line; `false` at the end of the source. An error includes the line's number.
+    /// Goes to the next line; `false` at the end of the source.
+    ///
+    /// An error includes the line's number.
     pub(crate) fn advance<E: From<Unread>>(&mut self) -> Result<bool, (usize, E)> {
         let there = self.read().map_err(|unread| (self.number + 1, unread.into()))?;
         self.number += usize::from(there);
@@ -76,8 +78,9 @@ impl<R: Read> Lines<R> {
         (self.number, reason)
     }
 
-    /// The present line with its line end. Bytes that are not UTF-8 become characters that no number
-    /// contains; in comments they do not matter.
+    /// The present line with its line end.
+    ///
+    /// Bytes that are not UTF-8 become characters that no number contains; in comments they do not matter.
     pub(crate) fn text(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(&self.bytes)
     }

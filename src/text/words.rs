@@ -163,8 +163,9 @@ macro_rules! validated {
     };
 }
 
-/// A number that need not be finite. In human-readable formats NaN is null, and infinities are the texts
-/// "inf" and "-inf".
+/// A number that need not be finite.
+///
+/// In human-readable formats NaN is null, and infinities are the texts "inf" and "-inf".
 #[cfg(feature = "serde")]
 pub(crate) mod number {
     use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};

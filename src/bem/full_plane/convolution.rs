@@ -98,7 +98,7 @@ impl BoundaryHistory {
         Ok(series)
     }
 
-    /// Allocates and computes all that `steps` steps need. Nothing is changed on an error.
+    /// Allocates and computes all data for `steps` steps; changes nothing on an error.
     fn grow(&mut self, steps: usize) -> Result<()> {
         if steps <= self.capacity {
             return Ok(());

@@ -95,7 +95,9 @@ impl BlockStore {
         write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
     }
 
-    /// Content of `place`; computed now if it is empty. A computation that is stopped stores nothing.
+    /// Content of `place`; computed now if it is empty.
+    ///
+    /// A computation that is stopped stores nothing.
     pub(crate) fn once<'a, T>(
         &self,
         place: &'a OnceLock<Result<T>>,

@@ -33,7 +33,9 @@ impl Newton {
         }
     }
 
-    /// Discards the factors; call it when W has changed. `lasts`: whether W will stay constant.
+    /// Discards the factors; call it when W has changed.
+    ///
+    /// `lasts`: whether W will stay constant.
     pub(super) fn forget(&mut self, lasts: bool) {
         self.system.forget(lasts);
     }

@@ -44,7 +44,9 @@ const LONGEST: usize = 10_000;
 /// Number of times at which the structure's own load is sampled.
 const SAMPLES: u32 = 16;
 
-/// Input of a reduction. Rows have an entry for every degree of freedom.
+/// Input of a reduction.
+///
+/// Rows have an entry for every degree of freedom.
 pub(crate) struct Reduction<'a> {
     assembled: &'a Assembled,
     coefficients: &'a SchemeCoefficients,

@@ -52,7 +52,9 @@ pub struct Load {
 }
 
 impl Load {
-    /// `value(t)`, t in seconds, on `row`. A value that is not finite ends the step with an error.
+    /// Load of `value(t)`, t in seconds, on `row`.
+    ///
+    /// A value that is not finite ends the step with an error.
     pub fn new(
         row: impl Into<DofCombination>,
         value: impl Fn(f64) -> f64 + Send + 'static,

@@ -55,7 +55,9 @@ impl<'a> BaseView<'a> {
         self.own().map_or(0..self.state.contact.len(), |own| own.elements.clone())
     }
 
-    /// Contact states of its elements. The lists of a state are public and may have been shortened.
+    /// Contact states of its elements.
+    ///
+    /// The lists of a state are public and may have been shortened.
     pub(crate) fn contact(&self) -> &'a [ContactState] {
         self.state.contact.get(self.elements()).unwrap_or_default()
     }

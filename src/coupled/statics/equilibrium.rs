@@ -255,9 +255,10 @@ impl Standing<'_> {
         Err(failure(condition, iterations, change))
     }
 
-    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground,
-    /// and their stiffness. Each iteration then finds the smallest energy; with softer springs it may find a
-    /// structure on the verge of a fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or
+    /// Compliance with springs that hold a structure that leans without the ground, and their stiffness.
+    ///
+    /// The stiffness is `most` at most. Each iteration then finds the smallest energy; with softer springs it may find
+    /// a structure on the verge of a fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or
     /// rounding is the cause, they stay unchanged.
     fn held(
         &self,
