@@ -36,8 +36,9 @@ pub struct Beam {
     /// ρ I, kg m.
     section_inertia: f64,
     has_rotary_inertia: bool,
-    /// Mean axial force for P–Δ, N; the amount by which it is larger at the first node than at the second, N;
-    /// and whether the user gave it, so that no static state changes it.
+    /// Mean axial force for P–Δ, N; its excess at the first node over the second node, N; and whether the user gave it.
+    ///
+    /// A static state does not change a force that the user gave.
     compression: f64,
     taper: f64,
     is_given: bool,
