@@ -84,7 +84,7 @@ impl Glued {
     }
 }
 
-/// What a number of scenes has shown.
+/// Results of a number of scenes.
 #[derive(Debug, Default)]
 struct Tally {
     scenes: usize,
@@ -105,7 +105,7 @@ fn glued(simulation: &Simulation, element: usize) -> bool {
     simulation.state().state_variables(element) == [1.0]
 }
 
-/// How far the end of a step is from what glue, or friction where it has broken, allows.
+/// Violation of the conditions of the bond, or of friction where it has broken, at the end of a step.
 fn violation(scene: &Glued, before: &State, now: &State, held: &[bool], scales: [f64; 2]) -> f64 {
     let [tension, cohesion, friction] = scene.strengths;
     let [force, length] = scales;

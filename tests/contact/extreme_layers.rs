@@ -85,8 +85,7 @@ struct Tally {
     scenes: usize,
     refused: usize,
     steps: usize,
-    /// Steps that were not solved, those of them that have no solution, and those of too many elements
-    /// to tell.
+    /// Steps that were not solved; of these, steps without solution, and steps with too many elements to decide.
     unsolved: usize,
     without_solution: usize,
     untold: usize,
@@ -130,7 +129,7 @@ fn layers_in_extreme_scenes_fail_only_without_a_solution() {
     for reading in READINGS {
         let tally = tally(reading, scenes.unwrap_or(40));
         println!("{reading:?}: {tally:?}");
-        // What an open layer carries along the base is gone when it lands, in one case excepted.
+        // The shear traction of an open layer is lost when it lands, in all readings except `Released`.
         assert_eq!(tally.unsolved > 0, reading != Reading::Released, "{tally:?}");
         assert!(tally.refused == 0 && 4 * tally.unsolved < tally.scenes, "{tally:?}");
     }

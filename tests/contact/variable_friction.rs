@@ -73,7 +73,7 @@ fn what_slides_has_the_coefficient_of_its_speed() {
     assert!(seen > 100 && range[1] > range[0] + 0.05);
 }
 
-/// GOAL: a coefficient that is none ends the step with an error, not as a base that sticks.
+/// GOAL: an invalid coefficient ends the step with an error, not as a base that sticks.
 #[test]
 fn a_coefficient_that_is_none_is_an_error() {
     for bad in [f64::NAN, -0.1, f64::NEG_INFINITY] {

@@ -86,8 +86,8 @@ fn modes_and_dofs_agree() {
     }
 }
 
-/// K u of a rigid motion of decimetres cancels to rounding of K times that motion, which in a stiff structure
-/// is no longer small. K u is taken without the translation, and in modes without any rigid motion.
+/// K u of a rigid motion of decimetres cancels to rounding of K times that motion, which in a stiff structure is large.
+/// K u is computed without the translation, and in modes without any rigid motion.
 #[test]
 fn stiffness_does_not_open_the_energy_balance() {
     for coordinates in [Coordinates::Modes, Coordinates::Physical] {
@@ -126,7 +126,7 @@ fn modes_of_a_large_structure_agree() {
     assert!(modes[0].absolute_displacement().len() == 286 && difference < 1e-9, "{difference:e}");
 }
 
-/// What modes cannot decouple keeps its degrees of freedom, and says so if modes are insisted on.
+/// A structure that modes cannot decouple keeps its degrees of freedom; a request for modes is an error.
 #[test]
 fn modes_are_refused_where_they_do_not_decouple() {
     struct Dashpot(FemModel);

@@ -96,7 +96,7 @@ fn kinds() -> Vec<(&'static str, Run)> {
     ]
 }
 
-/// The terms of a energy balance, those of its left-hand side first.
+/// The terms of an energy balance, its left-hand side first.
 fn terms(energy_balance: &mut EnergyBalance) -> [(&'static str, &mut f64); 10] {
     [
         ("kinetic", &mut energy_balance.kinetic),
@@ -137,9 +137,9 @@ fn energy_balance_closes_and_every_term_counts() {
     assert_eq!(seen, [true; 10], "a term was never put to the test");
 }
 
-/// A stiff structure that moves far with the ground: K u and ½ u·K u are those of a deformation of
-/// micrometres on a displacement of decimetres. Rounding of that displacement opens the energy balance in
-/// proportion to the stiffness, most while the motion is still weak, and no more than that.
+/// A stiff structure that moves far with the ground: K u and ½ u·K u belong to a deformation of micrometres on a
+/// displacement of decimetres. Rounding of that displacement opens the energy balance in proportion to the stiffness,
+/// most while the motion is still weak, and no more than that.
 #[test]
 fn large_displacements_of_the_ground_open_the_energy_balance_by_rounding_only() {
     for (modulus, strength) in [(2e8, 1.0), (2e10, 1.0), (2e10, 10.0), (2e12, 10.0)] {
@@ -155,7 +155,7 @@ fn large_displacements_of_the_ground_open_the_energy_balance_by_rounding_only() 
     }
 }
 
-/// What is at rest has nothing to book but rounding, and an interface that yields holds its weight.
+/// At rest only rounding is booked, and an interface that yields holds its weight.
 #[test]
 fn rest_closes_the_energy_balance() {
     let layer = ThinLayer::new(soil(SI), 1.0, 0.3).unwrap();
@@ -215,7 +215,7 @@ fn a_energy_balance_that_is_left_out_changes_nothing_else() {
     let (a, b) = (with.state(), without.state());
     assert_eq!((&a.contact, &a.probes), (&b.contact, &b.probes));
     assert_eq!(a.displacement(), b.displacement());
-    // A checkpoint knows whether there is one.
+    // A checkpoint contains whether there is an energy balance.
     assert!(with.resume(&without.checkpoint().unwrap()).is_err());
     let saved = without.checkpoint().unwrap();
     let mut other = builder().without_energy_balance().build().unwrap();
@@ -236,10 +236,10 @@ fn relative_input_meets_the_absolute_one_when_the_ground_rests() {
     assert!((at_rest.relative_input / at_rest.input - 1.0).abs() < 2e-3);
 }
 
-/// GOAL: Newmark's method takes a step's tractions for those at its end; on springs whose traction is
-/// that of mid-step it feeds the structure as a dashpot of ratio −ωΔt/4 would, on springs that act
-/// at the end it keeps the energy. SCENE: a block that bounces on springs without dashpots.
-/// REFERENCE: the oscillator's energy e^(ω²Δt t/2), and the midpoint rule's.
+/// GOAL: Newmark's method treats a step's tractions as tractions at its end; on springs with tractions at mid-step it
+/// feeds the structure as a dashpot of ratio −ωΔt/4 would, on springs that act at the end it keeps the energy. SCENE: a
+/// block that bounces on springs without dashpots. REFERENCE: the oscillator's energy e^(ω²Δt t/2), and the midpoint
+/// rule's.
 #[test]
 fn newmark_on_springs_needs_theta_one() {
     let (width, height, density, stiffness, time_step) = (4.0, 4.0, 2000.0, 5.0e7, 5.0e-4);

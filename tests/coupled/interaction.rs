@@ -1,7 +1,7 @@
-//! GOAL: the fixed-base run, T̃/T and the damping of the soil–structure system are those of mechanics.
-//! SCENE: shear buildings and a flexible base on springs and dashpots and on the half-plane, held and free.
-//! REFERENCE: exact response to a piecewise linear acceleration (Nigam and Jennings), Runge–Kutta's method on the held
-//! storeys, springs in series, roots of the characteristic equation.
+//! GOAL: the fixed-base run, T̃/T and the damping of the soil–structure system follow mechanics. SCENE: shear buildings
+//! and a flexible base on springs and dashpots and on the half-plane, held and free. REFERENCE: exact response to a
+//! piecewise linear acceleration (Nigam and Jennings), Runge–Kutta's method on the held storeys, springs in series,
+//! roots of the characteristic equation.
 
 use std::f64::consts::TAU;
 
@@ -57,7 +57,7 @@ fn exact(record: &Record, period: f64, ratio: f64) -> Vec<f64> {
     found
 }
 
-/// Errors fall to a quarter with the step, as those of the midpoint rule do.
+/// Errors fall to a quarter with half the step, as in the midpoint rule.
 #[test]
 fn a_held_oscillator_is_nigams_and_jennings() {
     let record = el_centro_1940().trimmed(0.0, 8.0).unwrap();

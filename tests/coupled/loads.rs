@@ -72,7 +72,7 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
     );
 }
 
-/// Any horizontal load at t = 0, however small, is carried; its resultants are those of statics.
+/// Any horizontal load at t = 0, however small, is carried; its resultants follow statics.
 #[test]
 fn static_loads_are_carried_by_statics() {
     for (law, force) in [
@@ -243,7 +243,7 @@ fn a_beam_hinged_on_solids_is_a_mechanism() {
     }
 }
 
-/// However slender it is, what stands is no mechanism.
+/// However slender it is, a structure that stands is not a mechanism.
 #[test]
 fn a_slender_column_of_many_beams_stands() {
     for (beams, length) in [(200, 0.25), (1000, 0.05), (5000, 0.01)] {
@@ -580,7 +580,7 @@ fn a_weight_that_acts_from_the_start_accelerates_at_once() {
     assert!(scene().interface(layer).build().is_err());
 }
 
-/// Glue is no friction: where it breaks, what follows without it is told apart.
+/// A bond is not friction: the error of a bonded base that overturns does not mention sliding.
 #[test]
 fn glued_bases_are_not_said_to_slide() {
     let glued = |height: f64, share: f64| {

@@ -111,7 +111,7 @@ fn energy_of_a_forced_step_is_as_the_theory_says() {
     }
 }
 
-/// What a step makes of (u, Δt v, Δt² a) for u'' = −(Ω/Δt)² u, with Δt = 1.
+/// Matrix of a step on (u, Δt v, Δt² a) for u'' = −(Ω/Δt)² u, with Δt = 1.
 fn amplification(scheme: &dyn TimeScheme, omega: f64) -> [[f64; 3]; 3] {
     let SchemeCoefficients { displacement, acceleration, new_velocity, new_acceleration, .. } =
         scheme.coefficients(1.0);
@@ -227,7 +227,7 @@ fn without_dissipation_it_is_the_midpoint_rule_to_the_bit() {
     assert!(shaken(Midpoint, 100) == shaken(dissipative(0.5), 100));
 }
 
-/// What the energy balance books for the scheme, from the accelerations that the states show.
+/// The algorithmic energy of the balance, computed from the accelerations of the states.
 #[test]
 fn algorithmic_energy_is_what_the_scheme_holds_and_takes() {
     let mut mass = Triplets::new(tower(SI, None).dofs());

@@ -181,7 +181,7 @@ impl Pounding {
         Self { blocks: blocks.with(block(), 3.0).unwrap(), rows: [0, 3] }
     }
 
-    /// How far the left block has run into the right one.
+    /// Overlap of the left block with the right block.
     fn overlap(&self, u: &[f64]) -> f64 {
         (u[self.rows[0]] - u[self.rows[1]] - GAP).max(0.0)
     }

@@ -279,7 +279,7 @@ fn a_mode_that_the_law_does_not_have_is_named() {
     assert!(error.to_string().contains("the next mode is yield"), "{error}");
 }
 
-/// A spring between base and ground level that knows its energy, or not.
+/// A spring between base and ground level, with known energy or without.
 struct Told(f64);
 
 impl Structure for Told {

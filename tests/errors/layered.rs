@@ -39,7 +39,7 @@ fn hysteretic_damping_is_refused_in_time() {
         found.to_string().contains("hysteretic") && found.to_string().contains("constant_q"),
         "{found}"
     );
-    // A ground of it has impedances, those of its profile, and does not march.
+    // A ground of this profile has the profile's impedances, but no time steps.
     let profile = SoilProfile::on_half_plane(soil())
         .with_layer(soil(), 3.0)
         .unwrap()
@@ -86,7 +86,7 @@ fn profiles_are_validated() {
     }
 }
 
-/// Numbers beyond those of a computer are named, with their layer.
+/// Numbers beyond the range of the computer are named, with their layer.
 #[test]
 fn motions_through_extreme_sites_are_named() {
     let column = |modulus: f64, thickness: f64| {
@@ -179,8 +179,8 @@ fn long_work_is_heard_of_and_can_be_stopped() {
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
 
-/// Two thousand million lags, by themselves and for a ground whose history may have all of them. Exponentials need
-/// none of that, and a run of nobody knows how many steps only what its history holds.
+/// Two thousand million lags, by themselves and for a ground whose history may have all of them. Exponentials need no
+/// such memory, and a run without a known end needs only the memory of its history.
 #[test]
 fn what_takes_too_much_memory_is_refused_beforehand() {
     let begin = std::time::Instant::now();
@@ -226,7 +226,7 @@ fn what_takes_too_much_memory_is_refused_beforehand() {
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
 
-/// A slab on clay and clay on rock, thin and thick: contrasts of 1e4 are ordinary, those of 2.5e7 possible.
+/// A slab on clay and clay on rock, thin and thick: contrasts of 1e4 are ordinary, contrasts of 2.5e7 possible.
 #[test]
 fn strong_contrasts_are_resolved() {
     let stiff = Soil::new(1e10, 0.2, 2400.0).unwrap();
@@ -335,8 +335,8 @@ fn two_kernels_have_the_same_bits() {
     }
 }
 
-/// 100 · 0.07 is 7.000000000000001.
-/// Damping before the first layer would be that of the base, and the layer elastic.
+/// 100 · 0.07 is 7.000000000000001. Damping before the first layer would apply to the base, and leave the layer
+/// elastic.
 #[test]
 fn damping_comes_after_its_layer() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();

@@ -87,7 +87,7 @@ fn absurd_counts_do_not_panic() {
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     ground.prepare(0.01, Some(usize::MAX), &mut unobserved).unwrap();
 
-    // Steps beside which the fronts' passage is no time at all must not split pieces without end.
+    // Steps far longer than the passage of the fronts must not split pieces without end.
     for step in [1e200, 1e300] {
         ground.prepare(step, None, &mut unobserved).unwrap();
         assert!(ground.step_compliance(&mut [0.0; 4]).is_ok());
@@ -125,7 +125,7 @@ fn kernels() {
     error_with("left end", PatchKernel::new(soil(), overlapping, 1e-3));
 }
 
-/// 5 is no damping ratio, 0.05 is: one rule, wherever a ratio is given.
+/// 5 is not a damping ratio, 0.05 is: one rule, wherever a ratio is given.
 #[test]
 fn damping_ratios_in_per_cent() {
     type Make<'a> = &'a dyn Fn(f64) -> basemat::Result<()>;
@@ -152,7 +152,7 @@ fn damping_ratios_in_per_cent() {
     }
 }
 
-/// What overflows is named with what it comes from.
+/// A product that overflows is named with its factors.
 #[test]
 fn products_that_overflow() {
     error_with("by its size and density", RigidBlock::new(1e200, 1e200, 1.0));

@@ -69,7 +69,7 @@ fn a_force_that_breaks_leaves_the_last_accepted_step() {
     let structure = Spoilt { commits: 7, tangent: Some((0, 0, 0.0)), ..Spoilt::sound() };
     let (error, accepted, _) = failing_step(structure.scene().build().unwrap());
     assert_not_finite(&error, accepted, "nonlinear force of the structure");
-    // The first commit is that of the static state.
+    // The first commit belongs to the static state.
     assert_eq!(accepted, 6);
 }
 

@@ -1,6 +1,6 @@
-//! GOAL: choices are read as they are shown, and what is no choice is refused with those there are.
-//! SCENE: every choice; capitals, blanks, hyphens, numbers that do not fit.
-//! REFERENCE: the choice itself.
+//! GOAL: choices are read as they are printed, and the error for any other word lists the choices.
+//! SCENE: every choice; capitals, blanks, hyphens, numbers that do not fit. REFERENCE: the choice
+//! itself.
 
 use std::fmt::{Debug, Display};
 use std::str::FromStr;

@@ -1,7 +1,6 @@
-//! GOAL: the full-plane ground assesses its march before it is prepared.
-//! SCENE: four unit elements with three free ones on either side, steps that grow and steps that do
-//! not.
-//! REFERENCE: growth of the march itself; the number of coefficients asked for.
+//! GOAL: the full-plane ground assesses its march before it is prepared. SCENE: four unit elements
+//! with three free ones on either side, steps that grow and steps that do not. REFERENCE: growth of
+//! the march itself; the number of coefficients requested.
 
 use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, GroundStability, Segment,
@@ -23,7 +22,7 @@ fn ground() -> FullPlaneGround {
     FullPlaneGround::strip(unit_soil(), -2.0..2.0, 4, 3).unwrap()
 }
 
-/// The time kernel; counts how often it is asked for coefficients.
+/// The time kernel; counts the calls for coefficients.
 struct Counting {
     inner: TimeKernel,
     calls: Arc<AtomicUsize>,

@@ -95,8 +95,8 @@ fn rigid_motion_of_closed_polygons() {
                 }
             }
         }
-        // x-components of all elements move: the x rows see it, the z rows do not. What is left
-        // after a time t falls like (r/ct)².
+        // x-components of all elements move: the x rows see it, the z rows do not. The rest after a
+        // time t falls like (r/ct)².
         for (k, sum) in sum.iter().enumerate() {
             close("row sum", *sum, if k < 9 { wanted } else { 0.0 }, 3e-5, 0.0);
         }

@@ -1,7 +1,6 @@
-//! GOAL: coefficients by convolution quadrature are those of the transformed equation, at the order
-//! of the method.
-//! SCENE: flat surfaces and a trench of unequal elements, BDF1 and BDF2.
-//! REFERENCE: mpmath, the symbol's power series, and the solution in time.
+//! GOAL: coefficients by convolution quadrature solve the transformed equation, at the order of the
+//! method. SCENE: flat surfaces and a trench of unequal elements, BDF1 and BDF2. REFERENCE: mpmath,
+//! the symbol's power series, and the solution in time.
 
 use basemat::Error;
 use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment};
@@ -66,7 +65,7 @@ fn laplace_integrals_agree_with_the_table() {
                     (name, value, wanted)
                 })
                 .into();
-            // Relative to the largest component at this s: 1e-11 was asked for.
+            // Relative to the largest component at this s; the tolerance was 1e-11.
             let scale = entries.iter().fold(1e-12_f64, |m, (_, _, w)| m.max(w[0].hypot(w[1])));
             for (name, value, wanted) in entries {
                 let error = (value[0] - wanted[0]).hypot(value[1] - wanted[1]) / scale;
@@ -81,8 +80,8 @@ fn laplace_integrals_agree_with_the_table() {
     }
 }
 
-/// GOAL: the coefficients are those of the symbol's power series, tail included.
-/// Σ over 4000 lags at |ζ| = 0.99 leaves 3e-18.
+/// GOAL: the coefficients sum to the symbol's power series, tail included. Σ over 4000 lags at |ζ|
+/// = 0.99 leaves 3e-18.
 #[test]
 fn coefficients_sum_to_the_symbol() {
     for (segments, step) in [(flat(5), 0.25), (trench(), 0.6)] {

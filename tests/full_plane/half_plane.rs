@@ -29,11 +29,10 @@ fn impedances_of_the_bonded_strip() {
     }
 }
 
-/// GOAL: what the truncated free surface leaves. The direct impedances are those of the mesh with or
-/// without free elements; the coupling, which comes from the free surface and from H alone, tends
-/// to the half-plane's with the root of the surface's length.
-/// SCENE: as before by convolution quadrature (BDF2), which is bounded with any of these surfaces.
-/// REFERENCE: impedances by a spectral method.
+/// GOAL: the error of the truncated free surface. The direct impedances have the mesh's error with or without free
+/// elements; the coupling, which comes from the free surface and from H alone, tends to the half-plane's with the root
+/// of the surface's length. SCENE: as before by convolution quadrature (BDF2), which is bounded with any of these
+/// surfaces. REFERENCE: impedances by a spectral method.
 #[test]
 fn coupling_settles_with_the_length_of_the_free_surface() {
     let mesh = |free| Mesh { elements: 8, free, beta: 1.15, quadrature: Some(CqMethod::Bdf2) };

@@ -57,7 +57,7 @@ fn incident_waves_satisfy_the_boundary_equation() {
                 let n = s.normal();
                 [t[e], t[count + e]] = [xx * n[0] + xz * n[1], xz * n[0] + zz * n[1]];
                 if lag == 0 {
-                    // The free term asks for the displacement at the end.
+                    // The free term needs the displacement at the end.
                     let end = waves.displacement(s.center(), time);
                     difference[e] += 0.5 * (end[0] - u[e]);
                     difference[count + e] += 0.5 * (end[1] - u[count + e]);

@@ -1,7 +1,7 @@
-//! GOAL: strain-compatible properties are those that another program finds, and the strains those of theory.
-//! SCENE: clay, sand and alternate layers on damped rock under El Centro; one layer in closed form.
-//! REFERENCE: pystrata's `EquivalentLinearCalculator` (`equivalent_linear.csv`, from `equivalent_linear.py` beside
-//! it); sin and cos of complex numbers.
+//! GOAL: strain-compatible properties agree with another program, and the strains with theory. SCENE: clay, sand and
+//! alternate layers on damped rock under El Centro; one layer in closed form. REFERENCE: pystrata's
+//! `EquivalentLinearCalculator` (`equivalent_linear.csv`, from `equivalent_linear.py` beside it); sin and cos of
+//! complex numbers.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -271,8 +271,8 @@ fn strains_of_a_harmonic(complex_modulus: ComplexModulus, damping: f64, root: Co
     }
 }
 
-/// At small strain properties are those of the curves' beginning, and the surface moves as the linear column says:
-/// each frequency of the record by its transfer function, summed without a fast transform.
+/// At small strain properties equal the curves' beginning, and the surface moves as in the linear column: each
+/// frequency of the record by its transfer function, summed without a fast transform.
 #[test]
 fn small_motions_pass_a_linear_column() {
     let curves = vec![StrainCurves::Epri { depth: 4.0 }; 4];

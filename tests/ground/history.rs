@@ -12,7 +12,7 @@ use basemat::{Soil, unobserved};
 
 use basemat_problems::random::Random;
 
-/// h = Σ G^{N−m+1} τ^m, every coefficient asked for by itself.
+/// h = Σ G^{N−m+1} τ^m, every coefficient requested separately.
 fn plain_sum(
     kernel: &InfluenceKernel,
     elements: &[ContactElement],

@@ -32,7 +32,7 @@ fn two_strips() -> Vec<ContactElement> {
     elements
 }
 
-/// What a march in step with the direct sum finds.
+/// Results of a march in parallel with the direct sum.
 struct March {
     /// Largest difference over the largest displacement.
     difference: f64,

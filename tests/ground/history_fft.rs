@@ -27,7 +27,7 @@ fn noise(step: usize, traction: &mut [f64]) {
     }
 }
 
-/// How a relaxed history may be made: by pairs, by wavenumbers, as it chooses.
+/// The three kinds of relaxed history: by pairs, by wavenumbers, and by its own choice.
 fn makes(kernel: &Arc<dyn ConvolutionWeights>) -> [RelaxedFftHistory; 3] {
     let new = || RelaxedFftHistory::new(Arc::clone(kernel));
     [new(), new().with_surface_transform(false), new().with_surface_transform(true)]

@@ -426,7 +426,7 @@ fn bad_waves_are_refused() {
             .unwrap_err();
         assert!(matches!(found, Error::Layered(LayeredError::NotCausal { layer: 1, .. })));
     }
-    // What the outcrop hardly has cannot be given.
+    // A component that the outcrop hardly has cannot be prescribed.
     for (wave, control) in [
         (InclinedWave::sv(elastic.clone(), 0.0).unwrap(), InclinedControl::OutcropVertical),
         (InclinedWave::p(elastic.clone(), 0.0).unwrap(), InclinedControl::OutcropHorizontal),

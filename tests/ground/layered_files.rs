@@ -109,7 +109,7 @@ fn reason(found: Result<Vec<u64>, Error>) -> KernelFileError {
     }
 }
 
-/// The words of a file after a change, and a checksum that fits if asked for.
+/// The words of a file after a change; with `checksum`, the check sum is corrected.
 fn rewritten(original: &[u8], checksum: bool, change: impl Fn(&mut [u64])) -> Vec<u8> {
     let mut words: Vec<u64> =
         original.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();

@@ -79,7 +79,7 @@ fn step_coefficients_are_watched_and_stopped() {
     let kernel = make();
     watched(|observer| kernel.prepare(500, observer), None);
     assert_eq!(bits(&*kernel, 500), wanted);
-    // Stopped while it had to begin, then asked for without an observer.
+    // Stopped at the beginning, then repeated without an observer.
     let kernel = make();
     for stop in [1, 30, 60, 200] {
         let mut count = 0;

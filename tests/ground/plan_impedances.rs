@@ -20,7 +20,7 @@ fn at(profile: &SoilProfile, plan: &Plan, a0: f64, contact: StripContact) -> Pla
     impedances_in_plan(profile, plan, &[a0 / TAU], contact, &mut unobserved).unwrap()[0]
 }
 
-/// The component of a table. Its w = x Ry is down, so ry is that of the crate; for Rx and Hy alike.
+/// The component of a table. Its w = x Ry is down, so ry equals the crate's; Rx and Hy alike.
 fn component(found: &PlanImpedance, name: &str) -> Complex {
     let [row, column] = match name {
         "V" => [2, 2],
@@ -47,8 +47,8 @@ fn number(text: &str) -> f64 {
     text.parse().unwrap()
 }
 
-/// Largest errors of static rectangles against the table: of translations and torsion, of rocking with ν = 0, of rocking of
-/// squares and of others, of all with sides 1 : 4, whose values in the table are those of coarser cells.
+/// Largest errors of static rectangles against the table: of translations and torsion, of rocking with ν = 0, of
+/// rocking of squares and of others, of all with sides 1 : 4, whose values in the table are of coarser cells.
 fn worst_of_static_rectangles(longest: f64, plan: impl Fn(f64) -> Plan) -> [f64; 5] {
     let rows = rows(include_str!("../data/plan/static_rectangle.csv"));
     let mut worst = [0.0_f64; 5];
@@ -206,7 +206,7 @@ fn discs_match_a_spectral_solution() {
     }
 }
 
-/// What a rectangle of 20b × 2b has more than one of 16b × 2b is 4b of a strip, and its coupling has the strip's sign.
+/// The difference of rectangles of 20b × 2b and 16b × 2b is 4b of a strip, and the coupling has the strip's sign.
 #[test]
 fn long_mats_are_strips() {
     let frequencies = [0.5 / TAU, 1.0 / TAU];

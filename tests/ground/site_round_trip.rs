@@ -150,8 +150,8 @@ fn there_and_back() {
     println!("error {worst:e}; cut off: error up to {most:.2} of what is said");
 }
 
-/// What arrives is what the transfer function says, but for the highest frequencies, by what is said
-/// of them to a factor of four.
+/// The arriving motion follows the transfer function, except at the highest frequencies, where the reported size is
+/// right to a factor of four.
 #[test]
 fn the_surface_moves_by_the_transfer_function() {
     let column = SoilColumn::new(profile(), VerticalWave::Shear).unwrap();

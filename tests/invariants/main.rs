@@ -1,4 +1,4 @@
-//! What holds for every run: properties of given scenes and of random ones.
+//! Statements that hold for every run: properties of given and of random scenes.
 
 mod properties;
 mod random_scenes;

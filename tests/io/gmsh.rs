@@ -178,7 +178,7 @@ fn bad_files_are_refused_with_their_line() {
     assert!(matches!(GmshMesh::read("no such file"), Err(Error::MeshFile { line: 0, .. })));
 }
 
-/// Editors may write a byte-order mark before the first line; anywhere else it is no number.
+/// Editors may write a byte-order mark before the first line; anywhere else it is not a number.
 #[test]
 fn a_byte_order_mark_is_passed_over() {
     let marked = format!("\u{feff}{MANUAL}");

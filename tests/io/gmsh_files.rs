@@ -63,8 +63,8 @@ fn elements_groups_and_lines_are_those_of_the_file() {
     }
 }
 
-/// The mass is that of the areas, and uniform strain has the energy of both materials; its forces
-/// hold the edge and the seam alone, whatever the shape of the elements.
+/// The mass follows the areas, and uniform strain has the energy of both materials; its forces hold the edge and the
+/// seam alone, whatever the shape of the elements.
 #[test]
 fn areas_materials_and_the_order_of_nodes_are_right() {
     for (name, _) in FILES {
@@ -148,7 +148,7 @@ fn a_static_solution_is_that_of_the_layered_block() {
     }
 }
 
-/// The left third of the base is in a group of its own, too, which Gmsh writes before that of the base.
+/// The left third of the base is in a group of its own, too, which Gmsh writes before the group of the base.
 #[test]
 fn a_curve_belongs_to_all_of_its_groups() {
     let path = basemat_problems::data_path("gmsh/base_line_in_two_groups.msh");

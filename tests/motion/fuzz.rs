@@ -1,7 +1,6 @@
-//! GOAL: everything that reads the bytes of a record takes wrong ones without a panic.
-//! SCENE: any bytes, valid files damaged in every way, sources that fail midway, and a corpus of
-//! files that are hard to read (`tests/data/fuzz`).
-//! REFERENCE: a record that can be asked for anything, or a typed error with its line.
+//! GOAL: everything that reads the bytes of a record takes wrong ones without a panic. SCENE: any bytes, valid files
+//! damaged in every way, sources that fail midway, and a corpus of files that are hard to read (`tests/data/fuzz`).
+//! REFERENCE: a record on which every method works, or a typed error with its line.
 //!
 //! `PROPTEST_CASES=100000 cargo test --release --test motion fuzz` looks longer. Checkpoints are read
 //! by serde: `tests/coupled/checkpoint/text.rs` damages those.
@@ -61,7 +60,7 @@ fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
     ]
 }
 
-/// What is read is a record that can be asked for anything; what is not, names its line.
+/// A file that is read gives a record on which every method works; an error names its line.
 fn check(result: Result<Record>) {
     match result {
         Ok(record) => {

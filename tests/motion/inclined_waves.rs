@@ -179,9 +179,9 @@ fn rayleigh_waves_are_retrograde_ellipses() {
     assert!(field.displacement(0.0, highest)[0].abs() < 0.05 / (omega * omega));
 }
 
-/// Speed over that of shear waves and axes of the ellipse, from the root of Rayleigh's function
-/// (2 − q)² = 4 √(1−q) √(1−q c₂²/c₁²), q = c²/c₂², found with 30 digits by mpmath; the last is the
-/// limit ν = 1/2.
+/// Ratio of the speed to the speed of shear waves, and axes of the ellipse, from the root of
+/// Rayleigh's function (2 − q)² = 4 √(1−q) √(1−q c₂²/c₁²), q = c²/c₂², found with 30 digits by
+/// mpmath; the last is the limit ν = 1/2.
 #[test]
 fn rayleigh_waves_have_the_roots_of_other_precision() {
     for (poisson, speed, ratio, tolerance) in [
@@ -211,7 +211,7 @@ fn rayleigh() -> (PlaneWave, f64) {
 
 /// Pulses of displacement whose transforms are known: a Gaussian, of which most is long-period and
 /// whose transform fades as 1/t, and Ricker's. Nothing is left to the record's ends: it is cut a
-/// short while after the pulse, and the transform asked for long after and before.
+/// short while after the pulse, and the transform evaluated long after and before.
 #[test]
 fn the_late_component_of_a_pulse_has_its_closed_form() {
     let table = table("hilbert_pulses.csv");
@@ -291,7 +291,7 @@ fn either_component_may_be_given() {
     }
 }
 
-/// What goes on moving has no transform.
+/// A record that does not end at rest has no transform.
 #[test]
 fn records_that_do_not_end_at_rest_are_refused() {
     let drifting = Record::new(0.1, vec![0.0, 1.0, 0.0, -0.9, 0.0]).unwrap();

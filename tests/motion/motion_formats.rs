@@ -174,7 +174,7 @@ fn numbers_beyond_the_announced_count_are_refused() {
     assert_eq!(refusal(&cosmos, &format), (24, counted(11, 10)));
 }
 
-/// Ten samples with the interval of the data (ms), −999 for unknown; that of the recorder is 20 ms.
+/// Ten samples with the interval of the data (ms), −999 for unknown; the recorder's interval is 20 ms.
 fn cosmos_text(interval: f64) -> String {
     let mut header = vec![-999.0; 100];
     (header[33], header[61]) = (0.02, interval);
@@ -200,7 +200,7 @@ fn cosmos_takes_the_interval_from_its_real_header() {
     let mut wanted = [-4e-7; 10];
     (wanted[0], wanted[9]) = (-3e-7, 0.0999_999);
     same(&read(&text, &format).unwrap(), 0.005, &wanted);
-    // Only that of the recorder is known.
+    // Only the recorder's interval is known.
     let recorder = cosmos_text(-999.0);
     same(&read(&recorder, &format).unwrap(), 0.02, &wanted);
     let (_, reason) = refusal(&recorder.replace("     0.020000", "  -999.000000"), &format);
@@ -217,7 +217,7 @@ fn cosmos_takes_the_interval_from_its_real_header() {
     }
 }
 
-/// What Fortran prints without a space between.
+/// Numbers that Fortran prints without a space between.
 #[test]
 fn full_columns_may_touch() {
     let csmip = |format: &str, body: &str| {
@@ -249,7 +249,7 @@ fn full_columns_may_touch() {
     }
 }
 
-/// A thousandth of a gal is no gal, and a gallery no unit.
+/// A thousandth of a gal is not a gal, and a gallery is not a unit.
 #[test]
 fn units_of_cosmos_files_are_words() {
     let with = |units: &str| {
@@ -337,7 +337,7 @@ fn el_centro_survives_all_formats() {
     assert_eq!(AccelerationUnit::Gal.in_metres_per_second_squared(), 0.01);
 }
 
-/// Text much like that of records, so that inner parts are reached.
+/// Text much like a record's, so that inner parts are reached.
 fn nearly_a_record() -> impl Strategy<Value = Vec<u8>> {
     let pieces = [
         "NPTS= 3, DT= .01 SEC\n",

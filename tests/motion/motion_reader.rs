@@ -205,7 +205,7 @@ fn files_that_cannot_be_read_are_named() {
     assert_eq!(Record::read(file, &format).unwrap(), el_centro_1940());
 }
 
-/// Lines much like those of records, so that the reader's inner parts are reached.
+/// Lines much like a record's, so that the reader's inner parts are reached.
 fn nearly_a_record() -> impl Strategy<Value = Vec<u8>> {
     let piece = prop_oneof![
         Just(" ".to_owned()),

@@ -1,4 +1,4 @@
-//! Columns of numbers that are not written as the reader wants them.
+//! Columns of numbers in unusual forms.
 
 use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
 use basemat::{Error, RecordError};
@@ -63,14 +63,14 @@ fn decimal_commas_are_refused() {
     // Commas that group thousands change the number of columns.
     let (line, reason) = refusal("0,999.5\n1,1,000.5\n", &pairs());
     assert_eq!((line, reason), (2, RecordError::UnequalColumns { found: 3, expected: 2 }));
-    // What looks alike and is none.
+    // Text that looks alike and is something else.
     is_read("0,1\n0.02,15\n", &pairs(), &[1.0, 15.0]);
     is_read("0.00, 1, at rest\n0.02, 2, hit by it\n", &pairs(), &[1.0, 2.0]);
     is_read("00.00,01.50\n00.02,02.50\n", &pairs(), &[1.5, 2.5]);
     is_read("0 ,1\n0.02 ,2\n", &pairs(), &[1.0, 2.0]);
 }
 
-/// A header is made of words: a first sample that is no number would shift the record.
+/// A header is made of words: a first sample that is not a number would shift the record.
 #[test]
 fn a_bad_first_sample_is_no_header() {
     for bad in [
@@ -180,7 +180,7 @@ fn lines_of_header_are_passed_over() {
     for lines in [0, 1] {
         assert!(Record::from_reader("text", text.as_bytes(), &after(lines)).is_err(), "{lines}");
     }
-    // A number of the header in the column of the accelerations is no sample.
+    // A number of the header in the column of the accelerations is not a sample.
     let second = ColumnFormat { acceleration_column: Some(2), ..alone() };
     let text_alone = "Station 7\nPGA 0.3\n9 1\n9 2\n";
     assert_eq!(

@@ -134,7 +134,7 @@ fn empty_cells_at_the_end_of_lines_are_no_columns() {
         let padded = format!("{padded}\n{cells}\n");
         assert_eq!(format.parse_all("", &mut padded.as_bytes()).unwrap(), wanted);
     }
-    // A sample that is missing is no empty cell.
+    // A missing sample is not an empty cell.
     let lost = text.replacen(",18.357", ",", 1);
     let (line, reason) = refusal(&lost, &format);
     assert_eq!((line, reason), (16, RecordError::UnequalColumns { found: 3, expected: 4 }));

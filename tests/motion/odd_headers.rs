@@ -332,7 +332,7 @@ fn fields_without_a_point_out_of_their_columns_are_refused() {
         let typed = matches!(reason, RecordError::OffColumns { .. });
         assert!(line == 3 && typed, "{body}: {reason}");
     }
-    // The scale factor holds for fields of the format; these are none.
+    // The scale factor holds for fields of the format; these are not such fields.
     let (line, reason) = refusal(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
     assert!(line == 2 && matches!(reason, RecordError::OffColumns { .. }), "{reason}");
     // A column that ends in the midst of a number.

@@ -34,7 +34,7 @@ fn bad_samples_and_steps_are_refused() {
 }
 
 /// A constant acceleration gathers its intensity evenly, a ramp as the cube of time; El Centro's
-/// values are those of an independent sum.
+/// values come from an independent sum.
 #[test]
 fn significant_times_are_where_the_intensity_is_reached() {
     let even = Record::new(0.5, vec![-3e-200; 41]).unwrap();
@@ -130,7 +130,8 @@ fn samples() -> impl Strategy<Value = Vec<f64>> {
 }
 
 proptest! {
-    /// The slope of the displacement is the velocity, and that of the velocity the acceleration.
+    /// The slope of the displacement is the velocity, and the slope of the velocity the
+    /// acceleration.
     #[test]
     fn integrals_are_consistent(
         step in 0.01..1.0_f64,

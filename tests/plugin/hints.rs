@@ -1,6 +1,6 @@
-//! GOAL: a known number of steps makes no more convolution weights than the steps need.
-//! SCENE: four elements on the half-plane, with late weights as exponentials and without (as with damping).
-//! REFERENCE: the lags that the march asks for without a known end.
+//! GOAL: a known number of steps makes no more convolution weights than the steps need. SCENE: four elements on the
+//! half-plane, with late weights as exponentials and without (as with damping). REFERENCE: the lags that the march
+//! requests without a known end.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -13,7 +13,7 @@ use basemat::{Observer, Result, unobserved};
 
 use super::scene::soil;
 
-/// The closed form, and what it was asked for.
+/// The closed form, and the lags requested from it.
 #[derive(Clone)]
 struct Counted {
     late: bool,
@@ -74,7 +74,7 @@ impl WeightsSource for Counted {
     }
 }
 
-/// What a march has asked for.
+/// Requests of a march.
 struct March {
     /// Coefficients before the first step and in all.
     made: [usize; 2],

@@ -179,7 +179,7 @@ fn spectra_of_another_patch_are_not_taken() {
     }
 }
 
-/// How lags are asked for must not show in them.
+/// Lags must not depend on the order or size of requests.
 #[test]
 fn coefficients_do_not_depend_on_the_cut() {
     const LAGS: usize = 700;

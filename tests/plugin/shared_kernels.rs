@@ -62,7 +62,7 @@ impl WeightsSource for Asking {
     }
 }
 
-/// What `works` return, each on a thread of its own.
+/// Results of `works`, each run on a thread of its own.
 fn in_time<T: Send + 'static>(works: Vec<Box<dyn FnOnce() -> T + Send>>) -> Vec<T> {
     let receivers: Vec<_> = works
         .into_iter()

@@ -22,7 +22,7 @@ pub(crate) struct Hardening {
 
 pub(crate) const SPRING: f64 = 4.0e6;
 
-/// Drift: sway of the mass, minus that of the base, plus height × rotation.
+/// Drift: displacement of the mass, minus the displacement of the base, plus height × rotation.
 const DRIFT: [(usize, f64); 3] = [(3, 1.0), (0, -1.0), (2, 3.0)];
 
 impl Hardening {

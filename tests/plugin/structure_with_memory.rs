@@ -191,7 +191,7 @@ fn an_isolator_of_ones_own_resumes_to_the_last_bit() {
     assert_eq!(isolator(&other), isolator(&whole));
 }
 
-/// What its last step refused is nowhere: on a longer plate, the run goes on as if never stopped.
+/// The refused step leaves no trace: on a longer plate, the run goes on as if never stopped.
 #[test]
 fn an_isolator_off_its_plate_ends_the_step_with_its_own_reason() {
     let mut short = on_rock(0.03, 0.005);

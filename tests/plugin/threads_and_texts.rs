@@ -28,7 +28,7 @@ fn all_parts_can_be_shown() {
     }
     let builder = || shaken().structure(block()).interface(Bonded);
     shown(&builder(), &["time_step: 0.002", "structure: true", "ground: false", "gravity: 9.81"]);
-    // What is refused can be unwrapped.
+    // The error of a refused scene can be unwrapped.
     assert!(matches!(builder().build().unwrap_err(), Error::Scene { quantity: "ground", .. }));
     let mut simulation = builder().ground(bed(4)).build().unwrap();
     simulation.step().unwrap();

@@ -128,9 +128,9 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
 /// SCENE: low block (4 m × 0.4 m) on ever stiffer soil under El Centro, friction 0.1 and 0.2.
 /// REFERENCE: Newmark 1965 on rigid ground, event by event, and `sliding_rigid_block.csv`.
 ///
-/// On soft soil block and ground do not move alike. What remains on stiff soil is the time step:
-/// starts, stops and reversals fall on steps, which leaves the speed after one of them off by up
-/// to friction·g·Δt. First order, and not smooth in Δt.
+/// On soft soil block and ground do not move alike. On stiff soil the error of the time step remains: starts, stops and
+/// reversals fall on steps, which leaves the speed after one of them off by up to friction·g·Δt. First order, and not
+/// smooth in Δt.
 #[test]
 fn newmark_1965_sliding_on_stiff_soil() {
     let table = table("sliding_rigid_block.csv");

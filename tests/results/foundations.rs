@@ -14,7 +14,7 @@ fn block() -> RigidBlock {
     RigidBlock::new(3.0, 3.0, 1800.0).unwrap()
 }
 
-/// On springs, where what stands on one foundation knows nothing of the other.
+/// On springs, where structures on different foundations do not interact.
 fn march(structure: impl Structure + 'static) -> Run {
     march_on(structure, &[0.35; 2])
 }

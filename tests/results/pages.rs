@@ -11,8 +11,8 @@ use basemat::structure::RigidBlock;
 use super::{FRICTION, Recorded, STEPS, recorded};
 use basemat_problems::scenes::{SI, block, friction, scene};
 
-/// Values stay SI in files and turn into what engineers read where they are printed, a label that
-/// nobody knows stays.
+/// Values stay SI in files and are converted to the engineers' units where they are printed; an
+/// unknown label stays.
 #[test]
 fn probes_come_with_their_unit() {
     let build = || {

@@ -261,7 +261,7 @@ fn every_text_can_be_read_whatever_is_drawn() {
     }
     let svg = plot::curves("T", "x", "y", &many(44, 0.0, 1.0)).unwrap();
     shows(&svg, &["41 run", "… and 2 more"]);
-    // More curves than colours: those of one colour have other signs.
+    // More curves than colours: curves of one colour have different signs.
     let svg = plot::curves("T", "x", "y", &many(15, 0.0, 1.0)).unwrap();
     let signs = |color: &str| {
         let polygons = svg.as_str().split("<polygon").skip(1);
@@ -368,7 +368,7 @@ fn nothing_slides_with_infinite_friction() {
     simulation.run(400, |state| time_series.record(state)).unwrap();
     let slips = |mode: &Mode| matches!(mode, Mode::SlipLeft | Mode::SlipRight);
     let svg = plot::mode_map("T", &time_series).unwrap();
-    // What the key shows only.
+    // Colours that occur only in the key.
     for color in ["#FFA62B", "#D62728"] {
         assert_eq!(svg.as_str().matches(color).count(), 1, "{color}");
     }

@@ -10,7 +10,7 @@ use super::simulation;
 
 #[test]
 fn bad_requests_are_errors() {
-    // A loop of one's own that forgets steps has no spectrum.
+    // The series of a loop that leaves steps out has no spectrum.
     let mut forgetful = simulation();
     let mut time_series = Recorder::new().start(&forgetful).unwrap();
     for step in 0..200 {
@@ -37,7 +37,7 @@ fn bad_requests_are_errors() {
     );
     assert!(time_series.floor_spectrum("nobody", &[1.0], 0.05).is_err());
     assert!(time_series.floor_spectrum("top", &[1.0], 0.05).is_err());
-    // Nothing recorded yet: one sample is no record.
+    // Nothing recorded yet: one sample is not a record.
     assert!(time_series.floor_spectrum("top acceleration", &[1.0], 0.05).is_err());
     for bad in [[0.0, 1.0], [1.0, f64::NAN], [f64::INFINITY, 1.0]] {
         assert!(log_spaced(bad[0], bad[1], 5).is_err());

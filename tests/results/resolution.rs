@@ -60,8 +60,7 @@ fn ricker(frequency: f64) -> RickerDisplacement {
     RickerDisplacement::new(0.05, 1.0 / (PI * frequency), 2.0).unwrap()
 }
 
-/// The frequency is that of the record, though none of these steps sees it; a run with the step that
-/// is asked for is right.
+/// The frequency is the record's, though none of these steps resolves it; a run with the recommended step is right.
 #[test]
 fn steps_that_miss_the_record() {
     let shake = |step| run(storeys(), el_centro_1940(), soil(250.0), 12, step);
@@ -190,7 +189,7 @@ fn stiff_structures_need_no_fine_steps() {
     assert_eq!(coarse.warnings, []);
 }
 
-/// What is recorded step by step is judged by what the steps saw.
+/// A run recorded by single steps is judged by the motion at these steps.
 #[test]
 fn recorded_by_hand() {
     let structure = storeys();

@@ -77,7 +77,7 @@ fn verdicts_are_those_of_the_states() {
     }
 }
 
-/// GOAL: limits that are none are refused by name.
+/// GOAL: invalid limits are refused by name.
 #[test]
 fn bad_limits() {
     let none = Serviceability::default();

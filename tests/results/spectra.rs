@@ -61,7 +61,7 @@ fn broadened_peaks_are_plateaus() {
         let known = if (0.85..=1.15).contains(&frequency) {
             3.0
         } else if frequency < 0.85 {
-            // What stood at the frequency f stands at 0.85 f now.
+            // The peak at the frequency f has moved to 0.85 f.
             shape(0.85 / frequency)
         } else {
             shape(1.15 / frequency)

@@ -18,8 +18,7 @@ const MASS: f64 = 64.0e3;
 /// Mean pressure under the weight, Pa: 39 kPa.
 const PRESSURE: f64 = MASS * STANDARD_GRAVITY / (SIDE * SIDE);
 
-/// A law by its limits, which knows nothing of the plane. With a memory the surface that a base meets again is the sunken
-/// one.
+/// A law by its limits, without modes of the plane. If it `remembers`, a base that lands meets the sunken surface.
 #[derive(Clone, Copy)]
 struct Own {
     limits: Limits,
@@ -112,8 +111,8 @@ fn caps_below_the_weight_are_bearing_failure() {
     assert_eq!(own, of(Box::new(Yielding::new(1e3, 0.3).unwrap())));
 }
 
-/// The edge yields under a weight beside the middle: the static state and the indentation are those of the law of the
-/// package, and the run, too.
+/// The edge yields under a weight beside the middle: the static state, the indentation and the run equal the results of
+/// the crate's own law.
 #[test]
 fn caps_are_kept_while_the_weight_comes_on() {
     let limits = Limits { friction: 0.3, pressure_cap: 1.5 * PRESSURE, ..Limits::default() };

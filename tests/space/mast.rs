@@ -127,7 +127,7 @@ fn all_coordinates_and_wrappers_march_alike() {
     }
 }
 
-/// The matrices of a body, and those of a building that was reduced before or after, are the structure itself.
+/// The matrices of a body, and of a building that was reduced before or after, give the structure's own results.
 #[test]
 fn given_matrices_are_the_structure_that_has_them() {
     let model = |own: &dyn Structure| {

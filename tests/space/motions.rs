@@ -163,7 +163,8 @@ fn a_light_mat_twists_with_the_ground_that_an_sh_wave_passes() {
     assert!(exact.abs() > 1e-5 && (u[5] / exact - 1.0).abs() < 1e-4, "{} {exact}", u[5]);
 }
 
-/// Each component is that of the plane's column, with what rings after it; on a rigid base, a transfer function by hand.
+/// Each component equals the plane's column, with the motion after the record; on a rigid base, a transfer function by
+/// hand.
 #[test]
 fn a_column_carries_three_components_each_by_its_wave() {
     let damping = GeneralizedMaxwell::constant_q(0.03, [0.1, 30.0], 1.0).unwrap();

@@ -130,7 +130,7 @@ fn energies_of_random_scenes_close() {
         }
         let mut simulation = match scene(&mut Random(29 + number as u64)) {
             Ok(simulation) => simulation,
-            // What cannot stand under its load at t = 0.
+            // A structure that cannot stand under its load at t = 0.
             Err(error @ (Error::Preload { .. } | Error::Stability(_))) => {
                 println!("{number}: {error}");
                 unsolved += 1;

@@ -1,4 +1,4 @@
-//! Scenes in plan that are none, each with an error that says what is wrong.
+//! Invalid scenes in plan, each with an error that names the fault.
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{Ground, SpringGround};

@@ -273,7 +273,7 @@ fn the_area_of_a_body_is_that_of_its_outline() {
     assert!((state.value(Quantity::NormalForce) / weight - 1.0).abs() < 1e-9);
 }
 
-/// One rectangle for each open element, and one line for each arrow, beside those of the key.
+/// One rectangle for each open element, and one line for each arrow, in addition to the lines of the key.
 #[test]
 fn pictures_show_open_and_sliding_cells() {
     let (_, time_series, run, states) = rocking();
@@ -291,7 +291,7 @@ fn pictures_show_open_and_sliding_cells() {
     let bare = plot::contact_plan("Contact", &time_series, 0.0).unwrap();
     assert_eq!(count(picture.as_str(), "fill=\"#164878\""), open + 1);
     assert_eq!(count(bare.as_str(), "fill=\"#164878\""), 0);
-    // Axes are lines too: those of both pictures, and the sample of the key.
+    // Axes are lines too: the axes of both pictures, and the sample of the key.
     let lines = |svg: &plot::Svg| count(svg.as_str(), "<polyline");
     let ticks = lines(&bare);
     assert!(lines(&picture) > slides && lines(&picture) <= slides + 2 + ticks);

@@ -309,7 +309,8 @@ fn shaken(direction: usize) -> Triaxial {
     }
 }
 
-/// What one cube does to the other falls with their distance; mirrored at the plane between them, they are the same.
+/// The effect of one cube on the other falls with their distance; mirrored at the plane between them, they are the
+/// same.
 #[test]
 fn two_cubes_couple_through_the_soil() {
     for direction in 0..2 {

@@ -282,7 +282,7 @@ fn laws_without_limits_are_named() {
     let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
     let error = scene(layer, 4e-3, 1.0).unwrap_err();
     assert!(error.to_string().contains("with_debonded_ratio"), "{error}");
-    // Friction that is none at some step says so.
+    // Friction that becomes NaN at some step is an error.
     let law = VariableFriction::new(|start| if start.slip_rate > 0.05 { f64::NAN } else { 0.2 });
     let mut simulation = scene(law, 4e-3, 2.0).unwrap();
     let error = simulation.run(1000, |_| {}).unwrap_err();

@@ -41,7 +41,8 @@ fn at_rest(ground: SpringGround, forces: [f64; 6]) -> [f64; 6] {
     simulation.static_displacement().try_into().unwrap()
 }
 
-/// k A, and k times second moments of area less those of each cell about its own middle.
+/// k A, and k times the second moments of area, minus the moments of each cell about its own
+/// middle.
 #[test]
 fn springs_add_up_to_winklers_stiffness() {
     let ([l, b, _], [z, x, y]) = (CUBOID.sides, BED.stiffness);

@@ -122,7 +122,7 @@ fn rigid_motions_strain_nothing_and_move_all_masses() {
             u
         })
         .collect();
-    // Any motion: the total drift is the sum of those of the storeys.
+    // Any motion: the total drift is the sum of the storeys' drifts.
     let u: Vec<f64> = (0..n).map(|k| (1.3 * k as f64).cos()).collect();
     let total = without.total_drift(2, [1.5, -2.5]).unwrap();
     for (k, row) in total.iter().enumerate() {

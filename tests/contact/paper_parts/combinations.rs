@@ -153,7 +153,7 @@ fn combinations_without_sense_are_refused() {
     assert!(ThinLayer::new(soil(SI), 1.0, f64::INFINITY).is_ok());
 }
 
-/// What is left of the shear stiffness in slip means nothing where nothing slips.
+/// The shear stiffness that remains in slip has no effect where nothing slips.
 #[test]
 fn slip_stiffness_without_slip_changes_nothing() {
     let run = |share| {

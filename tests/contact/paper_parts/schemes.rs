@@ -10,7 +10,7 @@ use basemat_problems::scenes::{SI, block, friction, scene};
 
 type Matrix = [[f64; 3]; 3];
 
-/// What a step makes of (u, Δt v, Δt² a) for u'' = −(Ω/Δt)² u.
+/// Matrix of a step on (u, Δt v, Δt² a) for u'' = −(Ω/Δt)² u.
 fn amplification(scheme: &dyn TimeScheme, omega: f64) -> Matrix {
     let h = 0.01;
     let c = scheme.coefficients(h);

@@ -159,9 +159,8 @@ fn a_used_simulation_resumes_the_same_scene() {
 }
 
 /// GOAL: steps that need more memory than is allowed are refused: by a build and a run that know their number before
-/// the first of them, by a step of one's own loop when it comes; a checkpoint goes on with more.
-/// SCENE: histories that were asked for and chosen; layers.
-/// REFERENCE: the run with memory enough, to the bit.
+/// the first of them, by a step of one's own loop when it comes; a checkpoint goes on with more. SCENE: histories that
+/// were requested and chosen; layers. REFERENCE: the run with memory enough, to the bit.
 #[test]
 fn steps_beyond_the_memory_are_refused() {
     // Modes would be taken for some numbers of steps and not for others.

@@ -86,7 +86,7 @@ fn differences_that_rest_does_not_show_are_found() {
     }
 }
 
-/// What a run is moved by, and the law that it slides by, are those of the checkpoint, unless a change is wanted.
+/// Motion, loads and law of a resumed run equal the checkpoint's, unless a change is declared.
 #[test]
 fn what_decides_a_run_is_compared() {
     type Changed = (&'static str, Change, SimulationBuilder);

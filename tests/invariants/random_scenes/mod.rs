@@ -4,8 +4,8 @@
 //! REFERENCE: balances and contact conditions in every step; repeated, mirrored, rescaled and
 //! delayed runs.
 //!
-//! `PROPTEST_CASES=2000 cargo test --release --test invariants random_scenes` asks for more scenes,
-//! other ones each time.
+//! `PROPTEST_CASES=2000 cargo test --release --test invariants random_scenes` runs more scenes, different ones each
+//! time.
 
 mod recipe;
 mod run_checks;
@@ -153,10 +153,10 @@ fn runs_repeat_to_the_bit() {
     });
 }
 
-/// How a run is compared with another: in other units, as a mirror image.
+/// Relation of a run to another: in other units, as a mirror image.
 #[derive(Debug, Clone, Copy)]
 struct Twin {
-    /// What takes the other run's pressure, shear, slip and rotation to the first one's.
+    /// Factors from the other run's pressure, shear, slip and rotation to the first run's.
     factors: [f64; 4],
     mirrored: bool,
 }
@@ -188,9 +188,8 @@ fn apart(one: &[State], other: &[State], twin: Twin) -> [f64; 4] {
     apart
 }
 
-/// Two runs that should be the same are as near as the static state is known, which is to 1e-10:
-/// 1e-9, unless landings amplify it. How much they do is told by runs whose shaking and soil differ
-/// by 1e-10.
+/// Two runs that should be the same are as near as the static state is known, which is to 1e-10: 1e-9, unless landings
+/// amplify it. Runs whose shaking and soil differ by 1e-10 show the amplification.
 fn same_run(
     recipe: &Recipe,
     one: &[State],

@@ -162,8 +162,8 @@ impl Recipe {
         mass * GRAVITY
     }
 
-    /// Rounding of the static state, relative to the weight: that of the stiffness forces of a tower, of
-    /// more or less flat elements, on a settlement of soft soil.
+    /// Rounding of the static state, relative to the weight: rounding of the stiffness forces of a tower, of more or
+    /// less flat elements, on a settlement of soft soil.
     pub(crate) fn static_rounding(&self) -> f64 {
         let Building::Tower(Tower { height, rows, columns, young, poisson, .. }) = self.building
         else {

@@ -31,7 +31,7 @@ pub(crate) fn terms(energy_balance: &EnergyBalance) -> [f64; 10] {
 /// Largest energy, traction and length of a run: what counts as rounding is relative to them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scales {
-    /// That of the ground's motion included.
+    /// Includes the energy of the ground's motion.
     pub(crate) energy: f64,
     pub(crate) traction: f64,
     pub(crate) length: f64,

@@ -11,7 +11,7 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use super::recipe::Recipe;
 
-/// What the scenes of a property have shown.
+/// Results of the scenes of a property.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     worst: BTreeMap<&'static str, f64>,

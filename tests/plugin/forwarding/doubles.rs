@@ -15,7 +15,7 @@ use basemat::{Error, Observer, Result, Soil};
 
 use super::log::Log;
 
-/// A number that no default knows.
+/// A number that no default returns.
 pub(crate) const CORRECT: f64 = 0.625;
 
 /// An error of the double's own.

@@ -1,9 +1,9 @@
-//! What a double was asked, and what its trait has to ask.
+//! Calls that a double received, and calls that its trait must make.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
-/// What a double was asked.
+/// Calls that a double received.
 #[derive(Clone, Default)]
 pub(crate) struct Log(Arc<Mutex<BTreeSet<String>>>);
 

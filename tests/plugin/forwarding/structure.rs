@@ -13,7 +13,7 @@ use basemat::{Error, Result};
 use super::doubles::CORRECT;
 use super::log::{Log, methods, source};
 
-/// Four degrees of freedom, two of them those of the base.
+/// Four degrees of freedom, two of them of the base.
 struct Double {
     log: Log,
     linear: bool,
@@ -51,7 +51,7 @@ impl Structure for Double {
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.log.asked("mass");
         add_diagonal(matrix, CORRECT);
-        // What is to be reduced must have something to do with the base.
+        // A structure to be reduced must be coupled with the base.
         for (i, j) in [(0, 2), (2, 0), (0, 3), (3, 0)].into_iter().filter(|_| self.linear) {
             matrix.add(i, j, 1e-20);
         }
@@ -214,8 +214,8 @@ fn structures_with_something_around_them() {
 
     let damped = ModalDamping::new(&[0.5]).unwrap().on(double(&log)).unwrap();
     log.take();
-    // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at a degree of freedom that is none
-    // of the base's, for a motion of the base alone counts as rigid.
+    // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at a degree of freedom outside the base, since
+    // a motion of the base alone counts as rigid.
     ask(damped, 2, CORRECT * (3.0 + 6.0_f64.sqrt()));
     assert_eq!(log.take(), all());
 
@@ -223,7 +223,7 @@ fn structures_with_something_around_them() {
     assert_eq!(log.take(), all());
 }
 
-/// What a reduction keeps of a linear structure, the only kind that it takes.
+/// Properties that a reduction keeps of a linear structure, the only kind that it accepts.
 #[test]
 fn reduced_structures() {
     let log = Log::default();

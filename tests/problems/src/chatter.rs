@@ -35,7 +35,7 @@ pub struct Scene {
     pub young: Option<f64>,
 }
 
-/// What a run shows; forces relative to the weight, energies to the input's peak.
+/// Results of a run; forces relative to the weight, energies to the input's peak.
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome {
     pub rms_above: f64,

@@ -16,7 +16,7 @@ use super::random::Random;
 pub const STEPS: usize = 20;
 /// Differences of solutions below this, relative to the largest traction, are rounding.
 const DISTINCT: f64 = 1e-6;
-/// What brute force admits: of the largest traction, and of the largest jump.
+/// Tolerance of brute force, relative to the largest traction and to the largest jump.
 const SLACK: f64 = 1e-10;
 
 /// A ground without memory, whose answer to tractions is `matrix` and whose motion in the next step
@@ -121,8 +121,8 @@ impl Problem<'_> {
             .collect()
     }
 
-    /// How far tractions are from Signorini's and Coulomb's conditions, in whichever mode of each
-    /// element suits best: relative to the largest traction and the largest jump.
+    /// Violation of Signorini's and Coulomb's conditions by tractions, in the best mode of each
+    /// element: relative to the largest traction and the largest jump.
     fn violation(&self, traction: &[f64]) -> f64 {
         let count = traction.len() / 2;
         let jump = self.jump(traction);
@@ -234,7 +234,7 @@ fn solve(mut matrix: Vec<f64>, mut rhs: Vec<f64>) -> Option<Vec<f64>> {
     rhs.iter().all(|x| x.is_finite()).then_some(rhs)
 }
 
-/// What a number of problems has shown.
+/// Results of a number of problems.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tally {
     pub problems: usize,

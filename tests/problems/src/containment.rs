@@ -30,7 +30,7 @@ pub const ROWS: [(&str, Option<f64>); 5] = [
 /// Their peak base shears, printed in lb, taken as lb/ft.
 pub const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 
-/// What is to be chosen; the defaults are given in the paper, calibrated, or assumed.
+/// Choices of the model; the defaults are given in the paper, calibrated, or assumed.
 #[derive(Debug, Clone, Copy)]
 pub struct Containment {
     /// Contact length, ft; calibrated.

@@ -23,7 +23,7 @@ pub fn product(matrix: &Triplets, vector: &[f64]) -> Vec<f64> {
     sum
 }
 
-/// What a structure adds to an empty matrix.
+/// Entries that a structure adds to an empty matrix.
 pub fn collect(
     structure: &dyn Structure,
     fill: impl FnOnce(&mut Triplets) -> basemat::Result<()>,

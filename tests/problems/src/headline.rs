@@ -60,10 +60,10 @@ pub fn without_end(duration: f64) -> Result<Record> {
 /// A scene of the table.
 pub struct Row {
     pub name: &'static str,
-    /// What its steps do without.
+    /// Feature that its steps leave out.
     pub left_out: &'static str,
     pub make: fn(SimulationBuilder) -> Result<SimulationBuilder>,
-    /// What an observer looks at after each step.
+    /// Quantity that an observer reads after each step.
     pub observe: fn(&State) -> f64,
 }
 

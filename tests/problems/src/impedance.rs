@@ -25,7 +25,7 @@ fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [(a * c + b * d) / square, (b * c - a * d) / square]
 }
 
-/// What a force is to the ground.
+/// Value of a force that the ground receives in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Force {
     /// Its mean over the step.
@@ -82,8 +82,8 @@ pub fn impedances(
         .collect()
 }
 
-/// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error over that
-/// of the modulus.
+/// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error, relative
+/// to the root mean square of the modulus.
 pub fn impedance_errors(
     file: &str,
     poisson: f64,

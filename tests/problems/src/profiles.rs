@@ -23,7 +23,7 @@ pub fn gmb(percent: u32) -> GeneralizedMaxwell {
     GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()
 }
 
-/// A ground whose convolution weights are those of two stages.
+/// A ground with convolution weights of two stages.
 pub fn two_stages(profile: SoilProfile, strip: &Strip) -> ElasticGround {
     ElasticGround::new(profile, strip).unwrap().with_stages(Stages::Two)
 }

@@ -5,7 +5,7 @@ use basemat::{Soil, unobserved};
 
 use super::dense::inverse;
 
-/// How the strip and the soil touch.
+/// Contact of the strip with the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Contact {
     /// Glued.
@@ -46,7 +46,7 @@ impl RigidStrip {
         Self::on(Box::new(ground), time_step, contact)
     }
 
-    /// The strip on any ground whose elements are those of the strip.
+    /// The strip on any ground with the strip's elements.
     pub fn on(mut ground: Box<dyn Ground>, time_step: f64, contact: Contact) -> Self {
         ground.prepare(time_step, None, &mut unobserved).unwrap();
         let elements = ground.elements().len();

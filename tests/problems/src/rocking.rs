@@ -1,4 +1,4 @@
-//! A rocking block on a soil that gives way without inertia.
+//! A rocking block on a soil that yields without inertia.
 
 /// Time that a rigid block on a soil without inertia needs from rest at `tilt` until it is upright.
 ///

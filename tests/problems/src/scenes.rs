@@ -56,7 +56,7 @@ pub fn shake(frame: Frame, strength: f64) -> FreeFieldFn {
         let vertical = 0.02 * start(0.5, 0.07);
         [across * horizontal, strength * length * vertical]
     };
-    // No law here asks for the velocity.
+    // No law here uses the velocity.
     FreeFieldFn::new(move |_, t| at(t))
 }
 

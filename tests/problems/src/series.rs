@@ -54,7 +54,7 @@ impl Series {
     }
 }
 
-/// Root of the summed squares of an error over that of what was wanted.
+/// Root of the summed squares of an error, relative to the root of the reference's.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Error {
     square: f64,

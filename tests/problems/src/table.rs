@@ -85,7 +85,7 @@ impl Table {
         self.rows(columns)[index]
     }
 
-    /// What follows `label` in the comments, up to the end of its line, split at white space.
+    /// Words after `label` in the comments, up to the end of its line.
     pub fn words_after(&self, label: &str) -> Vec<&str> {
         let found = self.comments.iter().find_map(|line| line.split_once(label));
         let (_, words) = found.unwrap_or_else(|| panic!("{}: no '{label}'", self.name));

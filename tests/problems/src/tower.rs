@@ -13,7 +13,7 @@ use basemat::{Result, Simulation, Soil};
 
 pub const TIME_STEP: f64 = 0.01;
 
-/// What another program would hand over.
+/// Matrices as another program would write them.
 pub struct Tower {
     pub mass: Triplets,
     pub stiffness: Triplets,

@@ -66,7 +66,7 @@ pub fn bonded_impedances(poisson: f64, mesh: Mesh, frequencies: &[f64]) -> Imped
     impedances(strip, time_step, force, true, frequencies)
 }
 
-/// Distances of `[hh, vv, rr, hr]`, root mean square over that of the modulus.
+/// Distances of `[hh, vv, rr, hr]`, as root mean squares relative to the modulus's.
 pub fn distances(found: &Impedances, wanted: &Impedances) -> [f64; 4] {
     let mut errors = [Error::default(); 4];
     for (found, wanted) in found.iter().zip(wanted) {

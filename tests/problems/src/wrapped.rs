@@ -5,7 +5,7 @@ use basemat::interface::{
 };
 use basemat::structure::{DofCombination, Structure, Triplets};
 
-/// What every structure must say, as a field says it.
+/// Required methods of a structure, forwarded to a field.
 #[macro_export]
 macro_rules! needed_from {
     ($field:tt) => {
@@ -103,7 +103,7 @@ macro_rules! law_from {
 /// Coulomb's law with a rule for the next mode that is not its own.
 pub struct Wayward<F> {
     pub law: Coulomb,
-    /// The next mode, by the present one, the contact before and the mode that the law asks for.
+    /// The next mode, by the present one, the contact before and the mode that the law returns.
     pub next: F,
 }
 

@@ -32,7 +32,7 @@ fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> F
     FemModel::new(mesh, &[other, 0]).unwrap()
 }
 
-/// Degrees of freedom other than those of the clamped foot and the bar's far end.
+/// All degrees of freedom except at the clamped foot and at the bar's far end.
 fn free_dofs(model: &FemModel) -> Vec<usize> {
     (3..model.dofs() - 2).collect()
 }

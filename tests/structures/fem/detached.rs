@@ -75,7 +75,7 @@ fn a_seam_that_is_not_merged_is_named() {
     }
 }
 
-/// GOAL: what a rigid link or a spring ties to the rest is no part of its own, however soft.
+/// GOAL: a part that a rigid link or a spring ties to the rest is not detached, however soft the tie.
 #[test]
 fn links_and_springs_tie_parts() {
     let seam = [(3, 6), (4, 7), (5, 8)];

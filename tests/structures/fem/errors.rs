@@ -134,7 +134,7 @@ fn elements_count_once() {
         mesh.add(LumpedMass::new(2, 10.0).unwrap()).unwrap();
     }
     assert_eq!(mesh.elements().len(), 13);
-    // A clone knows what is there.
+    // A clone contains the elements so far.
     refused(mesh.clone().add(beam([0, 1], 0.1)), 1, &[0, 1]);
 }
 

@@ -20,7 +20,7 @@ fn tower() -> FemModel {
     FemModel::on_base(mesh).unwrap()
 }
 
-/// C φ = 2 ζ ω M φ: the eigenvalues of C are those of K by 2 ζ √λ.
+/// C φ = 2 ζ ω M φ: the eigenvalues of C are 2 ζ √λ, with λ the eigenvalues of K.
 #[test]
 fn every_mode_has_its_ratio() {
     let model = tower();
@@ -199,7 +199,7 @@ fn the_lowest_modes_of_a_fine_mesh_are_damped() {
     }
 }
 
-/// What has two footings and no stiffness between them has six rigid motions, what has P–Δ three.
+/// A structure with two footings and no stiffness between them has six rigid motions, a structure with P–Δ three.
 #[test]
 fn rigid_motions_are_counted_by_what_they_are() {
     use basemat::structure::StructureGroup;

@@ -85,8 +85,8 @@ fn mass_of_the_whole_is_the_sum_of_its_parts() {
     }
 }
 
-/// Consistent mass knows the exact rotary inertia: m (b² + h²)/12 for a rectangle, m L²/12 for a
-/// beam and a truss; on distorted quads too, since they carry a rotation exactly.
+/// Consistent mass has the exact rotary inertia: m (b² + h²)/12 for a rectangle, m L²/12 for a beam
+/// and a truss; on distorted quads too, since they carry a rotation exactly.
 #[test]
 fn consistent_mass_has_the_exact_rotary_inertia() {
     let material = Material::new(1.0, 0.0, 3.0).unwrap();

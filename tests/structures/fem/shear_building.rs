@@ -92,7 +92,7 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
             let found = building.shear(storey).unwrap().value(&u, &v, &[]);
             assert!((found - above).abs() < 1e-9 * largest(&force), "{storey}");
         }
-        // What reaches the base is the opposite of what holds it.
+        // The force on the base is the opposite of the force that holds it.
         let base = building.shear(0).unwrap().value(&u, &v, &[]);
         assert!((base + force[0]).abs() < 1e-9 * largest(&force));
     }
@@ -147,7 +147,7 @@ fn building_stands_where_it_is_put() {
     assert_eq!(uneven().floor(2).unwrap(), 5);
 }
 
-/// What the drifts add up to, and what is left of a floor's motion without that of the base.
+/// The sum of the drifts, and a floor's motion minus the base's.
 #[test]
 fn sway_is_the_sum_of_the_drifts_below() {
     let building = uneven();

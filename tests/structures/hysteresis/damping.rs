@@ -1,6 +1,6 @@
-//! GOAL: viscous damping of structures with hysteretic springs is that of their initial stiffness.
-//! SCENE: laws that never yield; one storey set in motion on rock.
-//! REFERENCE: the linear building; the closed form of a damped rigid-plastic slide.
+//! GOAL: viscous damping of structures with hysteretic springs follows their initial stiffness. SCENE: laws that never
+//! yield; one storey set in motion on rock. REFERENCE: the linear building; the closed form of a damped rigid-plastic
+//! slide.
 
 use basemat::Simulation;
 use basemat::Soil;
@@ -80,7 +80,7 @@ fn laws_leave_the_damping_matrix_alone() {
     let group = StructureGroup::new().with(sprung, 0.0).unwrap();
     assert_eq!(damping(&group), expected);
 
-    // Modal damping is that of the first tangent's modes, beside what was there.
+    // Modal damping belongs to the first tangent's modes, in addition to the structure's own damping.
     let modal = ModalDamping::new(&[0.03]).unwrap();
     let (one, other) = (modal.on(linear(0.05)).unwrap(), modal.on(yielding()).unwrap());
     let largest = expected.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -99,7 +99,7 @@ fn laws_leave_the_damping_matrix_alone() {
     assert!(((matrix[3 * n + 3] - level.damping) / column - 1.0).abs() < 1e-14);
 }
 
-/// What the documentation says to those who want no such damping where columns yield.
+/// The documentation's advice for a model without such damping where columns yield.
 #[test]
 fn dashpots_can_stand_for_stiffness_proportional_damping() {
     let ratio = 0.05;

@@ -64,7 +64,7 @@ fn laws_have_one_storey_each() {
     let one = building().with_law(1, law()).unwrap();
     assert!(matches!(one.with_law(1, law()), Err(Error::Scene { .. })));
     let one = building().with_law(1, law()).unwrap();
-    // A law's force is no weighted sum of displacements: the inertia above stands for it.
+    // A law's force is not a weighted sum of displacements: the inertia above represents it.
     let [linear, own] = [0, 1].map(|storey| one.shear(storey).unwrap());
     assert!(linear.acceleration.is_empty() && own.displacement.is_empty());
     assert_eq!(own.acceleration[..], [(4, -2e4)]);

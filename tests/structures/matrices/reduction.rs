@@ -68,8 +68,8 @@ fn rigid_motions_weight_and_inertia_pass_exactly() {
     }
 }
 
-/// Sway of the top and base moment of the reduced model against those of the full one, uplift and
-/// sliding included: the more modes, the nearer, and with all of them the same.
+/// Displacement of the top and base moment of the reduced model against the full model, uplift and sliding included:
+/// the more modes, the nearer, and with all of them the same.
 #[test]
 fn marches_like_the_full_model() {
     let steps = 500;

@@ -50,7 +50,7 @@ fn history(model: MatrixModel) -> Vec<f64> {
     history
 }
 
-/// A multiplier is no negative stiffness, whatever its coefficient, nor is one that it keeps from
+/// A multiplier does not count as negative stiffness, whatever its coefficient, nor does a stiffness that it keeps from
 /// acting: a spring between tied floors, or a column that the other outweighs.
 #[test]
 fn floors_tied_by_a_multiplier_march_as_one() {
@@ -73,8 +73,7 @@ fn floors_tied_by_a_multiplier_march_as_one() {
     }
 }
 
-/// Beside a multiplier negative stiffness is still found, and so is a multiplier with a mass, which
-/// is none.
+/// Next to a multiplier negative stiffness is still found, and so is a multiplier with a mass, which is not valid.
 #[test]
 fn multipliers_hide_no_negative_stiffness() {
     let refused = |model: MatrixModel| {
@@ -109,7 +108,7 @@ fn appended(entries: &[(usize, usize, f64)]) -> Result<MatrixModel> {
     on_base(mass, stiffness)
 }
 
-/// What a reduction or a file leaves of a massless degree of freedom marches as without it.
+/// The rounding that a reduction or a file leaves on a massless degree of freedom changes no step.
 #[test]
 fn masses_of_rounding_are_none() {
     let massless = history(appended(&[]).unwrap());

@@ -97,7 +97,7 @@ fn weak_supports_are_refused_and_named() {
     }
 }
 
-/// Rounding of sums, of entries with twelve digits, and of a reduction, is no support.
+/// Rounding of sums, of entries with twelve digits, and of a reduction, is not a support.
 #[test]
 fn rounding_is_no_support() {
     let shuffled = |value: f64| (value * 1.1) / 1.1;
@@ -178,7 +178,7 @@ fn rounding_beside_a_rigid_base_is_no_support() {
             assert!((found / exact - 1.0).abs() < 1e-6, "{unit:e} {interface:?}: {found} {exact}");
         }
     }
-    // 1 N/m is none.
+    // 1 N/m is not a support.
     let built = on_stiff_soil(craig_bampton(1.0, [[1.0, 0.0], [0.0; 2]]));
     assert!(matches!(built, Err(Error::Restrained { .. })), "{:?}", built.err());
 }

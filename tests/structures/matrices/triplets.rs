@@ -52,7 +52,7 @@ proptest! {
 fn entries_at_the_same_place_add_up_and_bad_ones_are_remembered() {
     let twice = Triplets::from_csr(1, &[0, 2], &[0, 0], &[1.0, 2.0]).unwrap();
     assert_eq!(dense(&twice), [3.0]);
-    // Not finite: refused where the matrix is used, as those of `add`.
+    // Values that are not finite are refused where the matrix is used, as with `add`.
     assert!(Triplets::from_dense(1, &[f64::NAN]).unwrap().entries()[0].2.is_nan());
     assert_eq!(Triplets::from_iter([(usize::MAX, 0, 1.0)]).order(), usize::MAX);
     assert_eq!(Triplets::from_iter([]).order(), 0);
