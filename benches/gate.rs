@@ -19,7 +19,7 @@ use basemat_problems::headline;
 
 const REPETITIONS: usize = 3;
 
-/// What is timed, with all it needs.
+/// A timed call, with all data that it needs.
 type Timed = Box<dyn FnOnce() -> Result<()>>;
 
 /// Prepares what is not timed.

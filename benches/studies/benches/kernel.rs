@@ -50,7 +50,7 @@ fn kernels(criterion: &mut Criterion) {
     });
 }
 
-/// All that a history of 1000 steps asks of a uniform patch.
+/// All coefficients that a history of 1000 steps needs of a uniform patch.
 fn patches(criterion: &mut Criterion) {
     const LAGS: usize = 1_000;
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");

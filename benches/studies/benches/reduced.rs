@@ -71,7 +71,7 @@ fn steps(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// What a reduction takes, once for every model.
+/// Time of a reduction, once for every model.
 fn reduction(criterion: &mut Criterion) {
     let (model, _) = full().expect("a valid tower");
     let mut group = criterion.benchmark_group("reduction, tower of 51102 degrees of freedom");

@@ -12,7 +12,7 @@ fn soil() -> Soil {
     Soil::new(80.0e6, 1.0 / 3.0, 1900.0).expect("a valid soil")
 }
 
-/// What each kind of scene pays for a step.
+/// Time of a step in each kind of scene.
 fn kinds(criterion: &mut Criterion) {
     let steps = 2_000;
     let mut group = criterion.benchmark_group("2000 steps of the headline run");

@@ -37,7 +37,7 @@ pub(crate) fn file_stem(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
 }
 
-/// What `/proc/cpuinfo` says of the first processor, or "unknown".
+/// Entry of `/proc/cpuinfo` for the first processor, or "unknown".
 pub(crate) fn processor(what: &str) -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let line = text.lines().find_map(|line| line.strip_prefix(what)?.split_once(": "));
@@ -49,7 +49,7 @@ pub(crate) fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// What a command prints, or "unknown".
+/// Output of a command, or "unknown".
 pub(crate) fn told_by(command: &str, arguments: &[&str]) -> String {
     let output = Command::new(command).args(arguments).output().ok();
     let told = output.filter(|output| output.status.success());

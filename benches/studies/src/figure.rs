@@ -34,7 +34,7 @@ pub(crate) struct Figure {
     pub(crate) panels: Vec<Panel>,
 }
 
-/// How a series is drawn.
+/// Style in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Style {
     /// Wide and pale: references, which lie beneath.

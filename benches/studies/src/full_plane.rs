@@ -1,8 +1,8 @@
-//! How many free-surface elements the full-plane ground needs: impedances of the bonded rigid strip
-//! against their table, and a coupled run against the half-plane.
+//! Number of free-surface elements that the full-plane ground needs: impedances of the bonded rigid strip against their
+//! table, and a coupled run against the half-plane.
 //!
-//! What the truncated surface leaves is told from what the mesh leaves by the distance to the same
-//! mesh with many free elements. Each row says whether its march is bounded.
+//! The distance to the same mesh with many free elements separates the error of the truncated surface from the error of
+//! the mesh. Each row states whether its march is bounded.
 //!
 //! ```text
 //! cargo study full-plane

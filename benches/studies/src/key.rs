@@ -7,7 +7,7 @@ use crate::AnyError;
 
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// How a name is shown.
+/// Sample shown with a name.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Sample {
     Line(RGBColor),

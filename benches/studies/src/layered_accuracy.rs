@@ -6,8 +6,8 @@
 //! cargo study layered-accuracy
 //! ```
 //!
-//! Lengths are in half widths b of the block, times in b/c of the layer, which is 2 b thick. Times are
-//! those of one thread: coefficients and static state, then the march of 30 b/c.
+//! Lengths are in half widths b of the block, times in b/c of the layer, which is 2 b thick. Times are of one thread:
+//! coefficients and static state, then the march of 30 b/c.
 
 use basemat::Simulation;
 use basemat::bem::layered::Stages;

@@ -36,7 +36,7 @@ use clap::Parser;
 
 use document::AnyError;
 
-/// What the tables and figures of basemat's documents come from.
+/// Studies that make the tables and figures of basemat's documents.
 #[derive(Debug, Parser)]
 #[command(bin_name = "cargo study")]
 enum Study {

@@ -79,7 +79,7 @@ fn pais_kausel(soil: Soil, half: f64, aspect: f64) -> [f64; 3] {
     ]
 }
 
-/// Springs and dashpots of a strip, as long as the mat, over those of the mat.
+/// Springs and dashpots of a strip as long as the mat, divided by the mat's.
 fn stiffness(short: bool) -> Result<String, AnyError> {
     let soil = soil()?;
     let profile = SoilProfile::from(soil);
@@ -115,7 +115,7 @@ fn stiffness(short: bool) -> Result<String, AnyError> {
     Ok(text)
 }
 
-/// What a block under one horizontal record does: rotation (mrad), share of the base that lifts (%), peak and residual
+/// Response of a block to one horizontal record: rotation (mrad), share of the base that lifts (%), peak and residual
 /// slip (mm), base shear over the weight.
 fn found(run: &Run) -> [f64; 5] {
     let whole = &run.whole;

@@ -39,7 +39,7 @@ pub(crate) struct Options {
     /// Elements integrated at one point, with constant strain, as the paper says.
     #[arg(long)]
     one_point: bool,
-    /// Also compute 15 elements along the base: peaks and time series beside those of 10.
+    /// Also compute 15 elements along the base, and compare peaks and time series with 10 elements.
     #[arg(long)]
     meshes: bool,
     /// Also compute friction from 0.05 to 0.8.

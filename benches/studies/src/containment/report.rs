@@ -21,8 +21,8 @@ fn change(value: f64, other: f64) -> String {
     format!("{:+.1} %", 100.0 * (value / other - 1.0))
 }
 
-/// Shear of a superstructure that moves as the foundation's top does: difference from the computed
-/// one, root mean square over that of the computed one.
+/// Shear of a superstructure that moves as the foundation's top does: difference from the computed shear, as a ratio of
+/// root mean squares.
 fn rigid_difference(outcome: &Outcome) -> Result<f64, AnyError> {
     let shear = outcome.time_series.probe("base shear")?;
     let foundation = outcome.time_series.probe("foundation")?;

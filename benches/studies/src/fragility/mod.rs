@@ -6,11 +6,11 @@
 //! cargo study fragility --merge --out runs
 //! ```
 //!
-//! A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are scaled to
-//! levels of peak ground velocity. Where the demand (residual slip, unless another column is asked for)
-//! exceeds its limit, a run counts; a lognormal curve is fitted to the counts of each friction and width by
-//! maximum likelihood. Bands hold 90 % of the curves of a bootstrap over the motions: the
-//! motions at one level are the same as at the next, so that runs are not independent.
+//! A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are scaled to levels of
+//! peak ground velocity. Where the demand (residual slip, unless another column is given) exceeds its limit, a run
+//! counts; a lognormal curve is fitted to the counts of each friction and width by maximum likelihood. Bands hold 90 %
+//! of the curves of a bootstrap over the motions: the motions at one level are the same as at the next, so that runs
+//! are not independent.
 //!
 //! Cases are rows of one table. Those that fail are rows that say why, and are left out of the counts.
 //! A run that is killed goes on where it was; `docs/guide.md`, Sweeps, spreads it over a cluster.
@@ -141,7 +141,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// As many threads as are asked for.
+/// Sets the requested number of threads.
 fn threads(count: Option<usize>) -> Result<(), AnyError> {
     #[cfg(feature = "rayon")]
     if let Some(count) = count {

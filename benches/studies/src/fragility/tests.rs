@@ -1,7 +1,6 @@
-//! GOAL: the study fits the curves of the largest likelihood and knows their confidence.
-//! SCENE: counts that are published, made by formula, or drawn.
-//! REFERENCE: probit regression in the literature, a search over the likelihood with a normal
-//! distribution of its own, and the curves that counts were made of.
+//! GOAL: the study fits the curves of the largest likelihood and estimates their confidence. SCENE: counts that are
+//! published, made by formula, or drawn. REFERENCE: probit regression in the literature, a search over the likelihood
+//! with a normal distribution of its own, and the curves that counts were made of.
 
 use super::lognormal::{Curve, Stripe, curve, fit, normal, quantile, resampled, stripes};
 use super::motions::Pulse;
@@ -48,7 +47,7 @@ fn bliss_1935_beetles() {
     let intercept = -found.curve.median.ln() / found.curve.dispersion;
     assert!((slope - 19.73).abs() < 0.006, "{slope}");
     assert!((intercept + 34.94).abs() < 0.006, "{intercept}");
-    // Of the slope: β² / ln 10 times less that of β.
+    // Error of the slope: the error of β divided by β² / ln 10.
     let error = found.errors[1] * ten / found.curve.dispersion.powi(2);
     assert!((error - 1.48).abs() < 0.012, "{error}");
 }
@@ -76,7 +75,7 @@ fn the_likelihood_is_highest_at_the_fit() {
             let p = integrated((levels[k].ln() - center) / dispersion);
             counts[k] * p.ln() + (runs[k] - counts[k]) * (1.0 - p).ln()
         };
-        // Where nothing exceeds, 0 · ln 0 is none.
+        // Where nothing exceeds, 0 · ln 0 counts as zero.
         (0..levels.len()).map(term).sum()
     };
     // From a coarse grid to a fine one around its best.

@@ -6,8 +6,8 @@
 //! cargo study opensees --elements 16 --step 0.002 --friction
 //! ```
 //!
-//! The scene is that of `scene.json`, which the other half reads too; `compare.py` runs both and
-//! says by how much they differ and what each costs. Prints time series of the block.
+//! The scene is in `scene.json`, which the other half reads too; `compare.py` runs both and prints
+//! their differences and run times. Prints time series of the block.
 
 use std::io::{BufWriter, Write};
 
@@ -89,7 +89,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     let told = |error: std::io::Error| basemat::Error::part("output", error.to_string());
     simulation.run(steps, |state| write(&mut out, state).map_err(told))?;
     out.flush()?;
-    // The system's own figure for a child would start from that of the program that made it.
+    // The system's own figure for a child would include the memory of the program that started it.
     if let Some(megabytes) = peak_memory() {
         eprintln!("{{\"megabytes\": {megabytes}}}");
     }

@@ -86,7 +86,7 @@ impl InterfaceLaw for Kinetic {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        // Once sliding, friction is that of slip.
+        // Once an element slides, the friction of slip acts.
         let law = if start.mode.is_slip() && !mode.is_slip() { &self.moving } else { &self.still };
         law.next_mode(mode, start, trial, tolerance)
     }
@@ -116,7 +116,7 @@ impl Read {
         start
     }
 
-    /// The mode that the end of the step before asks for.
+    /// The mode that follows from the end of the step before.
     fn lagged_mode(&self, start: &PreviousContact) -> Mode {
         let mut before = self.seen(start);
         before.state.slip -= start.slip_rate * start.time_step;

@@ -7,9 +7,8 @@
 //! cargo study paper-readings --limit lagged   # one
 //! ```
 //!
-//! Structure, soil and record are those of the example `containment`, the soil by the crate's
-//! half-plane. The interface is the paper's layer and the time scheme Newmark's, unless the options say
-//! otherwise.
+//! Structure, soil and record are as in the example `containment`, the soil by the crate's half-plane. The interface is
+//! the paper's layer and the time scheme Newmark's, unless the options say otherwise.
 
 mod evidence;
 mod forcing;
@@ -102,7 +101,7 @@ const COST: f64 = 0.009;
 /// Runs of the geometries and searches.
 const EVIDENCE_RUNS: f64 = 1900.0;
 
-/// One reading, those of docs/paper.md, or all that were tried.
+/// One reading, the readings of docs/paper.md, or all that were tried.
 #[derive(Debug, Clone, Parser)]
 pub(crate) struct Options {
     /// All readings, then geometries and searches.

@@ -18,7 +18,7 @@ pub(crate) struct Reading {
     /// Pressure that limits friction.
     #[arg(long, value_enum, default_value = "total")]
     pub(crate) limit: Limit,
-    /// What tells the sense of slip.
+    /// Rule for the sense of slip.
     #[arg(long, value_enum, default_value = "inelastic")]
     pub(crate) sense: Sense,
     /// Share of the shear stiffness left in slip.
@@ -131,7 +131,7 @@ pub(crate) enum Sense {
 }
 
 impl Reading {
-    /// What is to be built.
+    /// The model to be built.
     pub(crate) fn containment(&self) -> Containment {
         let paper = Containment::default();
         Containment {

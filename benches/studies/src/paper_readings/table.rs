@@ -42,7 +42,7 @@ impl Table {
         Ok(Self { writer })
     }
 
-    /// Runs the rows asked for.
+    /// Runs the requested rows.
     pub(crate) fn add(&mut self, name: &str, reading: &Reading) -> Result<(), AnyError> {
         let name = if name.is_empty() { "the paper's layer, Newmark" } else { name };
         print!("| {name} |");

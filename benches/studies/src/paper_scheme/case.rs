@@ -21,7 +21,7 @@ pub(crate) enum End {
     NoModes,
 }
 
-/// What a run leaves.
+/// Results of a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Outcome {
     /// Base shear at every step, N/m.
@@ -73,7 +73,7 @@ impl Outcome {
     }
 
     /// Difference of the base shear from `other`'s over the first `steps` steps: root mean square
-    /// over that of `other`.
+    /// relative to the root mean square of `other`.
     pub(crate) fn difference(&self, other: &Self, steps: usize) -> f64 {
         let pairs = || self.shear.iter().zip(&other.shear).take(steps);
         let apart: f64 = pairs().map(|(a, b)| (a - b).powi(2)).sum();

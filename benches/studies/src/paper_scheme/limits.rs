@@ -53,7 +53,8 @@ impl Change {
     }
 }
 
-/// Root mean square difference from `other`, over that of `other`, at its times.
+/// Root mean square difference from `other`, relative to the root mean square of `other`, at its
+/// times.
 fn apart(outcome: &Outcome, other: &Outcome) -> f64 {
     let (mut difference, mut size) = (0.0, 0.0);
     for (k, shear) in outcome.shear.iter().enumerate() {

@@ -16,9 +16,8 @@
 //! | half-plane | half-plane kernel, element means | thin layer | Newmark | robust |
 //! | basemat | half-plane kernel, element means | Coulomb | midpoint rule | robust |
 //!
-//! The third tells what is soil and what is interface and structure in the differences. Peaks and
-//! differences of a run that grows are those of the time before it leaves the third by 30 % of its
-//! peak.
+//! The third separates the soil's part of the differences from the part of interface and structure. Peaks and
+//! differences of a run that grows are taken before it leaves the third by 30 % of its peak.
 
 mod case;
 mod limits;

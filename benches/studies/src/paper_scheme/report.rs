@@ -12,8 +12,7 @@ use crate::AnyError;
 use crate::document::{file_stem, write_csv};
 use basemat_problems::containment::pounds_per_foot;
 
-/// What is known of the full-plane soils before the march. Growth slower than e-fold over the run is
-/// not looked for.
+/// Assessment of the full-plane soils before the march. Growth slower than e-fold over the run is not searched for.
 pub(crate) fn print_assessments(scene: &Scene, steps: usize) -> Result<(), AnyError> {
     println!(
         "\n| soil | base held, growth per step | base open | marched without leave |\n|---|---|---|---|"
@@ -45,7 +44,7 @@ pub(crate) fn growth_of(found: &Stability) -> String {
 /// peak from the half-plane's run, which has the same interface.
 const SOUND: f64 = 0.3;
 
-/// What a run's numbers are against: the crate's own, and the half-plane under the same interface.
+/// References of a run's numbers: the crate's own scheme, and the half-plane under the same interface.
 struct Measures {
     /// Sound steps.
     sound: usize,
@@ -96,7 +95,7 @@ pub(crate) fn print_peaks(rows: &[Row]) {
     }
 }
 
-/// How far each marched, and how far apart they are.
+/// Time that each run reached, and differences between the runs.
 pub(crate) fn print_marches(rows: &[Row]) {
     println!(
         "\n| case | scheme | marched to, s | ended by | growth per step | from basemat, rms | \

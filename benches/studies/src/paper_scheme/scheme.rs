@@ -29,7 +29,7 @@ pub(crate) enum Scheme {
 pub(crate) const SCHEMES: [Scheme; 4] =
     [Scheme::Paper, Scheme::Quadrature, Scheme::HalfPlane, Scheme::Own];
 
-/// What all schemes march through.
+/// Scene that all schemes compute.
 pub(crate) struct Scene {
     pub(crate) containment: Containment,
     pub(crate) record: Record,
@@ -42,7 +42,7 @@ pub(crate) struct Scene {
     pub(crate) ratio: f64,
     /// Newmark's γ, with β = (γ + ½)²/4.
     pub(crate) gamma: f64,
-    /// How the paper's scheme looks for contact modes.
+    /// Search for contact modes of the paper's scheme.
     pub(crate) search: ContactSearch,
 }
 

@@ -32,7 +32,7 @@ pub(crate) enum Scene {
     Sweep,
 }
 
-/// What a run took.
+/// Time and memory of a run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Taken {
     /// Processor time of all threads, s.

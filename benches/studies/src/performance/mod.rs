@@ -7,8 +7,8 @@
 //! cargo study performance --docs docs # to the documentation
 //! ```
 //!
-//! Prints Markdown. Times are those of the thread on the processor, so that other work on the
-//! machine disturbs little; the largest single step and what says so are wall time. Whole runs are
+//! Prints Markdown. Times are processor times of the thread, so that other work on the machine
+//! disturbs little; the largest single step, and numbers marked so, are wall time. Whole runs are
 //! child processes, whose peak resident memory the system reports.
 
 mod child;

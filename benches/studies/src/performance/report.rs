@@ -3,7 +3,7 @@
 use crate::document::{processor, threads, told_by};
 use std::fmt::Write as _;
 
-/// What `work` gives, and the seconds that this thread was on a processor for it.
+/// Result of `work`, and the seconds that this thread was on a processor for it.
 pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let begin = cpu_time::ThreadTime::now();
     let result = work();

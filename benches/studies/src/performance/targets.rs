@@ -1,4 +1,4 @@
-//! What is measured, and what it should be.
+//! Measured quantities and their targets.
 
 use super::child::{Scene, Taken, containment, measure};
 use super::histories::{alone, bounded, coefficients, direct, exponent, growth, relaxed};

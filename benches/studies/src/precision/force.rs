@@ -65,8 +65,8 @@ impl Force {
         self.impulse[index] + (place - index as f64) * self.step * self.means[index]
     }
 
-    /// Errors against a reference that knows shorter steps: the history is compared as means over
-    /// this force's steps, the peak as the largest of them against the reference's own.
+    /// Errors against a reference with shorter steps: the history is compared as means over this force's steps, the
+    /// peak as the largest of them against the reference's own.
     pub(crate) fn errors(&self, reference: &Self) -> Errors {
         let (mut square, mut norm) = (0.0, 0.0);
         for (k, found) in self.means.iter().enumerate() {

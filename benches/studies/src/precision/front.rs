@@ -30,7 +30,7 @@ const HEIGHT: f64 = 24.0;
 /// Seconds that are computed.
 const DURATION: f64 = 5.0;
 
-/// What is computed, apart from how.
+/// A case, without its numerical settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Case {
     /// Columns and rows of quadrilaterals.
@@ -48,7 +48,7 @@ pub(crate) struct Family {
     case: Case,
     pub(crate) grading: Grading,
     pub(crate) coordinates: Coordinates,
-    /// How far down the ladder.
+    /// Number of rungs of the ladder.
     points: usize,
 }
 
@@ -56,7 +56,7 @@ pub(crate) struct Family {
 pub(crate) struct Point {
     pub(crate) elements: usize,
     pub(crate) time_step: f64,
-    /// The larger of those of history and peak.
+    /// The larger of the errors of history and peak.
     pub(crate) error: f64,
     /// Processor time of building and running, s.
     pub(crate) seconds: f64,
@@ -170,7 +170,7 @@ impl Case {
         Ok((Force::new(time_step, means), seconds))
     }
 
-    /// What its lines are compared with, in reduced coordinates of 1e-8.
+    /// Reference of its lines, in reduced coordinates of 1e-8.
     fn reference(&self, points: usize) -> std::result::Result<Force, AnyError> {
         let (elements, time_step) = reference_settings(points);
         let coordinates = Coordinates::Reduced { tolerance: 1e-8 };
@@ -178,8 +178,8 @@ impl Case {
     }
 }
 
-/// Twice the elements and half the step of the last rung: whole numbers of its steps make those of
-/// every rung, so that means are compared without interpolation.
+/// Twice the elements and half the step of the last rung: the step of every rung is a whole number
+/// of its steps, so that means are compared without interpolation.
 fn reference_settings(points: usize) -> (usize, f64) {
     let (elements, time_step) = LADDER[points.clamp(1, LADDER.len()) - 1];
     (2 * elements, 0.5 * time_step)

@@ -1,7 +1,7 @@
 //! Error of the base shear against processor time: a rigid block with a reference table, the
 //! containment of the example of that name cut to five seconds, and towers of 300 to 30 000 degrees of freedom.
 //!
-//! Swept are elements, grading, time step, history and time scheme, and coordinates of the towers. What is in
+//! Swept are elements, grading, time step, history and time scheme, and coordinates of the towers. The content of
 //! `benches/studies/tables/precision.md` comes from
 //!
 //! ```text

@@ -65,7 +65,7 @@ pub(crate) fn tables(sweeps: &[Outcome]) -> Result<String, AnyError> {
     Ok(text)
 }
 
-/// What the document shows: settings to read, and how good the containment's references are.
+/// Part shown in the document: settings to read, and the accuracy of the containment's references.
 pub(crate) fn summary(settings: &str, sweeps: &[Outcome]) -> Result<String, AnyError> {
     let mut text = format!("{}\n\n{settings}", machine());
     doubts(&mut text, sweeps)?;

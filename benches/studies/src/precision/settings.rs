@@ -1,11 +1,11 @@
-//! How a scene is computed: mesh, time step, history, time scheme.
+//! Numerical settings of a scene: mesh, time step, history, time scheme.
 
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::{Result, Soil};
 
-/// How the past is summed.
+/// Method by which the past is summed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Past {
     pub(crate) name: &'static str,
@@ -32,7 +32,8 @@ pub(crate) enum Scheme {
     Newmark(f64, f64),
 }
 
-/// What is tried beside the midpoint rule: damped, and the two common members of Newmark's family.
+/// Schemes tried in addition to the midpoint rule: the damped rule, and the two common members of
+/// Newmark's family.
 pub(crate) const SCHEMES: [Scheme; 3] =
     [Scheme::Theta(0.55), Scheme::Newmark(0.5, 0.25), Scheme::Newmark(0.6, 0.3025)];
 

@@ -21,7 +21,7 @@ pub(crate) struct Sweep {
     pub(crate) crossing: f64,
 }
 
-/// What a sweep is compared with.
+/// Reference of a sweep.
 pub(crate) enum Reference {
     Table(Force),
     /// A run with these settings, beside it one with half the elements and twice the step.
@@ -43,7 +43,7 @@ pub(crate) struct Outcome {
     pub(crate) scene: &'static str,
     pub(crate) crossing: f64,
     pub(crate) points: Vec<Point>,
-    /// How far the run beside the reference is from it.
+    /// Distance of a neighbouring run from the reference.
     pub(crate) doubt: Option<Errors>,
 }
 

@@ -64,7 +64,7 @@ pub(crate) struct Map {
     pub(crate) y: Axis,
     pub(crate) schemes: &'static [Scheme],
     pub(crate) base: Scene,
-    /// What cells of the crate's own scheme may be beside bounded.
+    /// Verdicts other than bounded that cells of the crate's own scheme may have.
     pub(crate) allowed: &'static [Verdict],
     /// Whether it is worth a picture.
     pub(crate) drawn: bool,

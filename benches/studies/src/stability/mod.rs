@@ -2,7 +2,7 @@
 //! contact modes, over pairs of parameters from one extreme to the other. The crate's own scheme,
 //! the paper's, and the one by convolution quadrature; and the time schemes on the crate's soil.
 //!
-//! What is in `benches/studies/tables/stability.md` comes from
+//! The content of `benches/studies/tables/stability.md` comes from
 //!
 //! ```text
 //! cargo study stability --docs docs

@@ -9,7 +9,7 @@ use basemat::motion::{FreeFieldFn, Record, STANDARD_GRAVITY, el_centro_1940};
 
 use std::f64::consts::{PI, TAU};
 
-/// What shakes.
+/// Motion or force that shakes a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Motion {
     /// Nothing: the static state has to stay.
@@ -70,7 +70,7 @@ impl Motion {
                 }
             }
         };
-        // Nothing here asks for velocities: half-plane and springs take displacements at step ends.
+        // Nothing here uses velocities: half-plane and springs take displacements at step ends.
         Ok(FreeFieldFn::new(move |_, time| at(time)))
     }
 

@@ -62,7 +62,7 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
     legend(&root, height - LEGEND + 14, compared)?;
     root.present()?;
     drop(root);
-    // What is the default anyway takes a fifth of the file.
+    // Attributes with default values take a fifth of the file.
     let mut text = std::fs::read_to_string(path)?;
     for word in [" opacity=\"1\"", " stroke=\"none\"", " fill=\"#000000\""] {
         text = text.replace(word, "");

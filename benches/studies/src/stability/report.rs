@@ -191,7 +191,7 @@ fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
     text
 }
 
-/// What the time schemes make of the crate's soil.
+/// Results of the time schemes on the crate's soil.
 pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::from(
         "| time scheme | cells | most energy made by the scheme | cells beyond 2 % | beyond 50 % | \
@@ -223,7 +223,7 @@ pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
     text
 }
 
-/// How many cells have which verdict, in words.
+/// Number of cells of each verdict, in words.
 fn verdicts(cells: &[&Cell]) -> String {
     let counts = Verdict::ALL.into_iter().filter_map(|verdict| {
         let count = cells.iter().filter(|cell| cell.outcome.verdict == verdict).count();
@@ -258,8 +258,7 @@ pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
     if text.is_empty() { text } else { format!("not as guaranteed:{text}") }
 }
 
-/// What was foretold of the full-plane schemes and what came of it, each equation counted once a
-/// cell.
+/// Predictions for the full-plane schemes and their outcome, each equation counted once a cell.
 fn foretold(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::from(
         "\n| sweep | scheme | assessed | growth foretold: of these grew or failed | were active | \

@@ -7,12 +7,11 @@
 //! H = kinetic + strain + interface + static_contact + soil
 //! ```
 //!
-//! cannot rise, but for the work of a weight that acts as a load, which is taken off: dashpots, friction
-//! and impacts only take. The same holds for the dissipative midpoint rule with `algorithmic` in H.
-//! `rise` says by how much H rises all the same, relative to the largest energy of the run, that of the
-//! structure carried along by the ground included: a block that its ground leaves behind has none but
-//! rounding. `least_soil` is the least work done on the soil, relative in the same way: below zero, the
-//! soil gave more than it had got.
+//! cannot rise, but for the work of a weight that acts as a load, which is taken off: dashpots, friction and impacts
+//! only take. The same holds for the dissipative midpoint rule with `algorithmic` in H. `rise` says by how much H rises
+//! all the same, relative to the largest energy of the run, including the energy of the structure carried along by the
+//! ground: a block that its ground leaves behind has only rounding. `least_soil` is the least work done on the soil,
+//! relative in the same way: below zero, the soil returned more than it had received.
 
 use basemat::contact::SearchMethod;
 use basemat::coupled::{EnergyBalance, State};
@@ -26,7 +25,7 @@ pub(crate) const ROUNDING: f64 = 1e-9;
 const GROWTH: f64 = 1.1;
 const WINDOWS: usize = 4;
 
-/// What a cell is like.
+/// Verdict on a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Verdict {
     /// Energy does not grow, and the soil gives nothing that it has not got.
@@ -56,7 +55,7 @@ impl Verdict {
     }
 }
 
-/// What a cell gave.
+/// Results of a cell.
 #[derive(Debug, Clone)]
 pub(crate) struct Outcome {
     pub(crate) verdict: Verdict,
@@ -138,7 +137,7 @@ struct Watch {
     windows: [f64; WINDOWS],
     /// The same in the first and second half of the shaking.
     halves: [f64; 2],
-    /// What there is to grow from when the shaking stops: H.
+    /// Energy H at the end of the shaking, from which growth is measured.
     stored: f64,
     /// Work of loads and ground when the shaking stops.
     fed: f64,
@@ -244,7 +243,7 @@ impl Outcome {
         (self.rise, self.least_soil) = (relative(watch.rise), relative(watch.least_soil));
         self.made = relative(watch.least_algorithmic.abs());
         let [first, .., last] = watch.windows;
-        // What is below the rounding of the largest energy is no motion.
+        // Energy below the rounding of the largest energy does not count as motion.
         let floor = 1e-12 * watch.scale;
         self.growth = if last > floor { last / first.max(floor) } else { 0.0 };
         let rising = watch.windows.windows(2).all(|w| w[1] > w[0]);

@@ -24,7 +24,7 @@ const WIDTH: f64 = 10.0;
 /// Free elements beside the base in the full-plane schemes, as in the paper.
 const FREE: usize = 5;
 
-/// What marches.
+/// Scheme of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Scheme {
     /// Half-plane in the mean, midpoint rule.
@@ -86,9 +86,9 @@ pub(crate) struct Scene {
     pub(crate) elements: usize,
     /// Longest over shortest element; the short ones at both ends.
     pub(crate) grading: f64,
-    /// Young's modulus of the structure over that of the soil; infinite for a rigid block.
+    /// Ratio of Young's modulus of the structure to the soil's; infinite for a rigid block.
     pub(crate) stiffness: f64,
-    /// Mass of the structure over that of as wide and as high a piece of soil as its base.
+    /// Ratio of the structure's mass to the mass of a piece of soil as wide and as high as its base.
     pub(crate) mass: f64,
     /// Height over width.
     pub(crate) slenderness: f64,

@@ -1,7 +1,7 @@
 //! Physics that must come out: eleven problems with a reference that shares no code with the crate.
 //!
-//! Each case states its errors and a limit for each; the process fails if one is exceeded. What is
-//! in `benches/studies/tables/validation.md` comes from
+//! Each case states its errors and a limit for each; the process fails if one is exceeded. The
+//! content of `benches/studies/tables/validation.md` comes from
 //!
 //! ```text
 //! cargo study validation --docs docs
@@ -47,7 +47,7 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// Whether the case called `name` was asked for.
+    /// Whether the case called `name` was requested.
     pub(crate) fn wants(&self, name: &str) -> bool {
         self.case.as_deref().is_none_or(|case| case == name)
     }

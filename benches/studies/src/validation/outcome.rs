@@ -1,4 +1,4 @@
-//! What a case is, and what comes of it.
+//! A case of the validation, and its outcome.
 
 use std::ops::RangeInclusive;
 
@@ -11,11 +11,11 @@ pub(crate) struct Case {
     /// Name on the command line, in file names and in the document's markers.
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
-    /// What it is compared with, in a few words.
+    /// Reference, in a few words.
     pub(crate) reference: &'static str,
     /// Mesh and time step.
     pub(crate) settings: &'static str,
-    /// Runs it; `true` asks for the short form.
+    /// Runs the case; `true` selects the short form.
     pub(crate) run: fn(bool) -> Result<Outcome, AnyError>,
 }
 

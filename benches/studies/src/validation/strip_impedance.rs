@@ -43,7 +43,7 @@ fn curves(name: &str, poisson: f64, bonded: bool) -> Curves {
 }
 
 impl Curves {
-    /// Root mean square of the error over that of the modulus.
+    /// Root mean square of the error, relative to the root mean square of the modulus.
     fn errors(&self) -> [f64; 4] {
         std::array::from_fn(|k| {
             let mut error = Error::default();

@@ -204,7 +204,7 @@ fn cantilever(_short: bool) -> Result<Outcome, AnyError> {
     let cantilever = Cantilever::new(8);
     let top = cantilever.top();
     let tip = move |state: &State| state.absolute_displacement()[top];
-    // What the base of mass 1 does not take itself.
+    // Shear of the beam, without the inertia of the base of mass 1.
     let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
     let (found, energy_balance) = histories(
         "td_EBcantilever_SV_nu0333.csv",

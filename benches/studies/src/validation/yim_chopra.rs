@@ -38,7 +38,7 @@ struct Model {
 
 impl Model {
     /// Fixed-base period 0.6 s and damping 5 %; h/b = 5, m₀/m = 0.2; vertical frequency on the bed
-    /// eight times that of the column, with damping 40 %.
+    /// eight times the column's, with damping 40 %.
     fn new() -> Self {
         let (mass, mat, height, half_width) = (1e5, 2e4, 15.0, 3.0);
         let omega = std::f64::consts::TAU / 0.6;
