@@ -1,4 +1,4 @@
-//! Every digit of some thirty scenes, to compare a rebuilt crate with what it was before.
+//! Every digit of some forty scenes, to compare a rebuilt crate with what it was before.
 //!
 //! ```text
 //! cargo bench --bench golden -- target/golden.csv
@@ -10,6 +10,7 @@
 
 use std::fmt::Write as _;
 
+use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::coupled::{
     Coordinates, GravityStage, HhtAlpha, Load, Newmark, Probe, SimulationBuilder, Theta,
@@ -17,11 +18,11 @@ use basemat::coupled::{
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Cohesive, Coulomb, ThinLayer, VariableFriction, Yielding};
-use basemat::motion::{PlaneWave, Record, VerticalIncidence, el_centro_1940};
+use basemat::motion::{PlaneWave, Record, Triaxial, VerticalIncidence, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{
-    Bilinear, BoucWen, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
-    StructureGroup,
+    Bilinear, BoucWen, FemModel, PlanStorey, RayleighDamping, RigidBlock, RigidBody, ShearBuilding,
+    Storey, StoreyBuilding, Structure, StructureGroup,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -113,7 +114,31 @@ fn group() -> Result<StructureGroup> {
     StructureGroup::new().with(building()?, -6.0)?.with(block()?, 5.0)
 }
 
-const SCENES: [(&str, Make); 32] = [
+fn body() -> Result<RigidBody> {
+    RigidBody::cuboid([4.0, 3.0, 6.0], 1500.0)
+}
+
+/// A structure in plan, shaken in all directions.
+fn in_plan(
+    structure: impl Structure + 'static,
+    ground: impl Ground + 'static,
+) -> SimulationBuilder {
+    let shake = |factor| shaking().scaled(factor).ok();
+    let motion = Triaxial { x: shake(1.0), y: shake(0.7), up: shake(0.4) };
+    Simulation::builder(TIME_STEP).structure(structure).ground(ground).motion(motion)
+}
+
+fn body_under(law: impl basemat::interface::InterfaceLaw + 'static) -> Result<SimulationBuilder> {
+    let ground = ElasticGround::under(soil()?, &body()?, 4)?;
+    Ok(in_plan(body()?, ground).interface(law))
+}
+
+fn storeys() -> Result<StoreyBuilding> {
+    let storey = PlanStorey::new(3.0, 18.0e3, [4.0, 3.0], [18.0e6, 12.0e6, 40.0e6]);
+    StoreyBuilding::new(RigidBody::cuboid([4.0, 3.0, 1.0], 2400.0)?, &[storey; 3])
+}
+
+const SCENES: [(&str, Make); 42] = [
     ("block, direct", || by_history(HistoryMethod::Direct, Grading::Cosine)),
     ("block, relaxed transforms on pairs", || {
         by_history(HistoryMethod::RelaxedFft, Grading::Cosine)
@@ -185,6 +210,35 @@ const SCENES: [(&str, Make); 32] = [
         Ok(on(group()?, half_plane(&group()?)?)
             .interface(Coulomb::new(0.3)?)
             .without_energy_balance())
+    }),
+    ("plan, friction", || body_under(Coulomb::new(0.4)?)),
+    ("plan, bonded", || body_under(Bonded)),
+    ("plan, bearing pressure", || body_under(Yielding::new(2.5e5, 0.5)?)),
+    ("plan, cohesive", || body_under(Cohesive::new(2.0e4, 5.0e4, 0.5)?)),
+    ("plan, thin layer", || {
+        body_under(ThinLayer::new(soil()?, 1.0, 0.4)?.with_debonded_ratio(0.0)?)
+    }),
+    ("plan, disc", || {
+        let disc = Plan::disc([0.0; 2], 2.0, 6)?;
+        let cylinder = RigidBody::cylinder(2.0, 5.0, 1500.0)?;
+        Ok(in_plan(cylinder, ElasticGround::in_plan(soil()?, disc)?).interface(Coulomb::new(0.5)?))
+    }),
+    ("plan, springs", || {
+        let bed = SpringGround::under(&body()?, 4, 2.0e7, 1.0e7)?.with_dashpots(4.0e5, 2.0e5)?;
+        Ok(in_plan(body()?, bed).interface(Coulomb::new(0.4)?))
+    }),
+    ("plan, layers on a half-space", || {
+        let ground = ElasticGround::under(profile()?, &body()?, 3)?;
+        Ok(in_plan(body()?, ground).interface(Coulomb::new(0.4)?))
+    }),
+    ("plan, storeys", || {
+        let ground = ElasticGround::under(soil()?, &storeys()?, 4)?;
+        Ok(in_plan(storeys()?, ground).interface(Coulomb::new(0.4)?))
+    }),
+    ("group in plan", || {
+        let pair = StructureGroup::new().with(body()?, -4.0)?.with(storeys()?, 4.0)?;
+        let ground = ElasticGround::under(soil()?, &pair, 3)?;
+        Ok(in_plan(pair, ground).interface(Coulomb::new(0.4)?))
     }),
 ];
 

@@ -47,7 +47,7 @@ fn main() -> Result<()> {
     let soil = Soil::new(60.0e6, 0.33, 1900.0)?;
     let mut ground = ElasticGround::new(soil, Strip::graded(-HALF_WIDTH..HALF_WIDTH, 10)?)?;
     let motion = el_centro_1940();
-    let centers: Vec<f64> = ground.elements().iter().map(ContactElement::center).collect();
+    let centers: Vec<f64> = ground.elements().iter().map(|element| element.center()[0]).collect();
     let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();
     let (count, size) = (centers.len(), 2 * centers.len());
 

@@ -75,7 +75,7 @@ fn main() -> basemat::Result<()> {
     let (area, time) = (whole.uplifted_area.highest.value, whole.uplifted_area.highest.time);
     println!("uplifted area {area:.0} m² at {time:.2} s");
     if let Some((own, peak)) = run.largest_pressure() {
-        let [x, y] = [own.element.center(), 0.5 * (own.depth[0] + own.depth[1])];
+        let [x, y, _] = own.element.center();
         println!("largest pressure {:.0} kPa at ({x:.1}, {y:.1})", 1e-3 * peak.value);
     }
     contact_plan("L-shaped mat", &series, time)?.save("target/l_shaped_mat.svg")?;

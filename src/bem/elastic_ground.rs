@@ -7,8 +7,7 @@ use super::elastic_source::ElasticSource;
 use super::layered::Stages;
 use super::plan::{Plan, gate_sample, static_compliance};
 use super::{
-    Grading, Ground, GroundDescription, PlanElement, SharedKernels, Strip, WeightsGround,
-    WeightsSource,
+    Grading, Ground, GroundDescription, SharedKernels, Strip, WeightsGround, WeightsSource,
 };
 use crate::error::{Observer, Result, require};
 use crate::geometry::{ContactElement, SPACE, check_count, check_order};
@@ -123,11 +122,10 @@ impl ElasticGround {
     /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
     /// more cells than matrices between them allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
-        let (elements, depths) = plan.sides();
+        let (elements, unions) = (plan.elements(), plan.unions());
         check_count(elements.len(), SPACE)?;
-        let (unions, inside) = (plan.unions(), plan.fractions_inside());
         let source = ElasticSource::new(profile.into(), Some(plan))?;
-        let ground = WeightsGround::in_plan(source.clone(), elements, (depths, inside), unions);
+        let ground = WeightsGround::with_unions(source.clone(), elements, unions);
         Ok(Self { source, used: None, ground })
     }
 
@@ -272,7 +270,6 @@ impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
-        fn in_plan(&self, element: usize) -> Option<PlanElement>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);

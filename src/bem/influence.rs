@@ -33,8 +33,8 @@ use crate::soil::Soil;
 /// use basemat::bem::{ContactElement, InfluenceKernel};
 /// let soil = basemat::Soil::new(80.0e6, 0.25, 2000.0)?;
 /// let kernel = InfluenceKernel::new(soil, 1.0e-3)?;
-/// let left = ContactElement { left: 0.0, right: 1.0 };
-/// let right = ContactElement { left: 1.0, right: 2.0 };
+/// let left = ContactElement::new(0.0, 1.0);
+/// let right = ContactElement::new(1.0, 2.0);
 /// let influence = kernel.coefficients(left, right, 3)?;
 /// assert!(influence.zz > 0.0);
 /// # Ok::<(), basemat::Error>(())

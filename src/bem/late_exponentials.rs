@@ -192,7 +192,7 @@ fn legendre(x: f64, values: &mut [f64]) {
 /// Means over the elements of the Legendre polynomials of degree 0, 1, … below `degrees`, on [−1, 1] stretched over the
 /// patch.
 fn means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
-    let (first, last) = (elements[0].left, elements[elements.len() - 1].right);
+    let (first, last) = (elements[0].left(), elements[elements.len() - 1].right());
     let (half, middle) = (0.5 * (last - first), 0.5 * (first + last));
     let mut means = vec![vec![0.0; elements.len()]; degrees];
     let mut values = vec![0.0; degrees];
@@ -200,7 +200,7 @@ fn means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
     let rule = gauss::largest();
     for (e, element) in elements.iter().enumerate() {
         for (node, weight) in rule.points() {
-            let x = element.center() - middle + 0.5 * element.length() * node;
+            let x = element.center()[0] - middle + 0.5 * element.length() * node;
             legendre(x / half, &mut values);
             for (mean, value) in means.iter_mut().zip(&values) {
                 mean[e] += 0.5 * weight * value;

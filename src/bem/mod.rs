@@ -7,8 +7,9 @@
 //! (traction τ on the soil and displacement, positive to the right). All are means over the elements, from left to
 //! right.
 //!
-//! A ground [in plan](Ground::in_plan) has three directions. Its vectors have 3Q entries: down, along x (to the right)
-//! and along y (away from the reader). In plan, read 3Q for 2Q everywhere. Its elements are rectangles, in any order.
+//! A ground in plan has three directions. Its vectors have 3Q entries: down, along x (to the right) and along y (away
+//! from the reader). In plan, read 3Q for 2Q everywhere. Its elements are rectangles ([`ContactElement::in_plan`]), in
+//! any order.
 
 mod elastic_ground;
 mod elastic_source;
@@ -40,7 +41,6 @@ use std::sync::Arc;
 pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Error, Observer, Result};
-use crate::geometry::{ContactLayout, PLANE, Patch, SPACE};
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
@@ -54,20 +54,11 @@ use crate::soil::Soil;
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
 #[auto_impl::auto_impl(Box)]
 pub trait Ground: Any + Send {
-    /// The elements, from left to right, not overlapping.
+    /// The elements, not overlapping: from left to right in the plane, in any order in plan.
     ///
-    /// In plan these are the elements' sides along x, in any order.
+    /// All elements are in the plane, or all are [in plan](ContactElement::in_plan). In plan they move in three
+    /// directions, and forces, moments and energies refer to the whole body, in N, N m and J.
     fn elements(&self) -> &[ContactElement];
-
-    /// Ends along y of an element in plan; `None` (the default) in the plane.
-    ///
-    /// A ground returns a place for every element or for none.
-    ///
-    /// In plan elements move in three directions, and forces, moments and energies refer to the whole body, in N, N m
-    /// and J.
-    fn in_plan(&self, _element: usize) -> Option<PlanElement> {
-        None
-    }
 
     /// Prepares for steps of `time_step` seconds, and clears all tractions.
     ///
@@ -158,38 +149,14 @@ pub trait Ground: Any + Send {
     ///
     /// Normal components are positive **down**. The default evaluates `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let layout = ContactLayout::new(directions(self), self.elements().len());
-        if layout.components() == SPACE {
-            for (e, element) in self.elements().iter().enumerate() {
-                let [front, back] = self.in_plan(e).map_or(METRE, |place| place.depth);
-                let place = [element.center(), 0.5 * (front + back)];
-                let [east, north, up] = motion.displacement_at(place, time);
-                for (place, value) in layout.places::<SPACE>(e).into_iter().zip([-up, east, north])
-                {
-                    displacement[place] = value;
-                }
-            }
-            return;
-        }
-        let [down, along] = layout.split_mut(displacement);
-        for (element, (down, along)) in self.elements().iter().zip(down.iter_mut().zip(along)) {
-            let [horizontal, vertical] = motion.displacement(element.center(), time);
-            *down = -vertical;
-            *along = horizontal;
+        let count = self.elements().len();
+        for (e, element) in self.elements().iter().enumerate() {
+            let [x, y, _] = element.center();
+            let moved = element.components(motion.displacement_at([x, y], time));
+            let places = displacement.iter_mut().skip(e).step_by(count);
+            places.zip(moved).for_each(|(value, moved)| *value = moved);
         }
     }
-}
-
-/// Ends of a contact element along y, and the fraction of its area inside the outline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlanElement {
-    /// Front and back end of the element along y, m.
-    pub depth: [f64; 2],
-    /// Fraction of the area inside the outline of the mat, above 0 and at most 1.
-    ///
-    /// A simulation's pressures, shear tractions and strengths refer to the area inside; a ground's tractions refer to
-    /// the whole element.
-    pub fraction_inside: f64,
 }
 
 /// Soil and history of a ground, for warnings and pages.
@@ -209,34 +176,11 @@ pub struct GroundDescription {
     pub history: Option<HistoryChoice>,
 }
 
-/// Ends along y of an element in the plane, m: it is a metre deep.
-const METRE: [f64; 2] = [0.0, 1.0];
-
-/// Number of directions in which the elements of a ground move.
-pub(crate) fn directions(ground: &(impl Ground + ?Sized)) -> usize {
-    ground.in_plan(0).map_or(PLANE, |_| SPACE)
-}
-
 /// Error of a ground before its time step is known.
 const NOT_PREPARED: Error = Error::Scene {
     quantity: "ground",
     needed: "`prepare` must be called with the time step first",
 };
-
-/// Returns the elements of a ground, or an error if they are not valid.
-pub(crate) fn patch(ground: &dyn Ground) -> Result<Patch> {
-    let elements = ground.elements().to_vec();
-    let places: Vec<_> = (0..elements.len()).map(|element| ground.in_plan(element)).collect();
-    if places.windows(2).any(|pair| pair[0].is_some() != pair[1].is_some()) {
-        return Err(Error::Scene {
-            quantity: "contact elements of the ground",
-            needed: "all of them, or none, in plan",
-        });
-    }
-    let depths = places.iter().map(|place| place.map_or(METRE, |place| place.depth)).collect();
-    let inside = places.iter().map(|place| place.map_or(1.0, |place| place.fraction_inside));
-    Patch::new(directions(ground), elements, depths, inside.collect())
-}
 
 /// Soil with convolution weights and a static compliance, as [`WeightsGround`] needs it.
 pub trait WeightsSource: Any + Send {

@@ -1,11 +1,11 @@
 //! Winkler's spring bed: a ground without history.
 
 use super::plan::Plan;
-use super::{Grading, Ground, NOT_PREPARED, PlanElement, Strip};
+use super::{Grading, Ground, NOT_PREPARED, Strip};
 use crate::error::{
     CheckpointError, Observer, Result, not_negative, positive, require, same_length,
 };
-use crate::geometry::{ContactElement, ContactLayout, PLANE, SPACE, check_count, check_order};
+use crate::geometry::{ContactElement, Patch, SPACE};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
@@ -24,9 +24,7 @@ use crate::structure::Structure;
 /// ```
 #[derive(Debug, Clone)]
 pub struct SpringGround {
-    elements: Vec<ContactElement>,
-    /// Front and back end of each element along y, m; only in plan.
-    depths: Option<Vec<[f64; 2]>>,
+    elements: Patch,
     /// Stiffness downwards, along x and in plan along y, Pa/m.
     stiffness: [f64; SPACE],
     /// Dashpot coefficient downwards, along x and in plan along y, Pa·s/m.
@@ -82,8 +80,7 @@ impl SpringGround {
         tangential_stiffness: f64,
     ) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
-        check_order(&elements)?;
-        Self::bed(elements, None, [normal_stiffness, tangential_stiffness, tangential_stiffness])
+        Self::bed(elements, [normal_stiffness, tangential_stiffness, tangential_stiffness])
     }
 
     /// Bed in three dimensions under the contact elements of a [`Plan`].
@@ -96,7 +93,7 @@ impl SpringGround {
     /// use basemat::bem::{Ground, SpringGround};
     /// let mat = Plan::rectangle(-4.0..4.0, -3.0..3.0, 6)?;
     /// let bed = SpringGround::in_plan(mat, [30.0e6, 20.0e6, 20.0e6])?;
-    /// assert!(bed.in_plan(0).is_some() && bed.elements().len() == 8 * 6);
+    /// assert_eq!((bed.elements().len(), bed.elements()[0].directions().len()), (8 * 6, 3));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -105,24 +102,17 @@ impl SpringGround {
     /// [`Error::Memory`](crate::Error::Memory) for more elements than their matrices allow; as for
     /// [`Plan::without_overhang`].
     pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
-        let (elements, depths) = plan.without_overhang()?.sides();
-        check_count(elements.len(), SPACE)?;
-        Self::bed(elements, Some(depths), stiffness)
+        Self::bed(plan.without_overhang()?.elements(), stiffness)
     }
 
-    fn bed(
-        elements: Vec<ContactElement>,
-        depths: Option<Vec<[f64; 2]>>,
-        stiffness: [f64; SPACE],
-    ) -> Result<Self> {
+    fn bed(elements: Vec<ContactElement>, stiffness: [f64; SPACE]) -> Result<Self> {
+        let elements = Patch::new(elements)?;
         positive("normal stiffness of the spring bed", stiffness[0])?;
         positive("tangential stiffness of the spring bed", stiffness[1])?;
         positive("tangential stiffness of the spring bed along y", stiffness[2])?;
-        let components = if depths.is_some() { SPACE } else { PLANE };
         Ok(Self {
-            displacement: vec![0.0; ContactLayout::new(components, elements.len()).len()],
+            displacement: vec![0.0; elements.layout().len()],
             elements,
-            depths,
             stiffness,
             dashpot: [0.0; SPACE],
             theta: 0.5,
@@ -182,11 +172,6 @@ impl Ground for SpringGround {
         &self.elements
     }
 
-    fn in_plan(&self, element: usize) -> Option<PlanElement> {
-        let depth = *self.depths.as_ref()?.get(element)?;
-        Some(PlanElement { depth, fraction_inside: 1.0 })
-    }
-
     fn prepare(
         &mut self,
         time_step: f64,
@@ -242,7 +227,7 @@ impl Ground for SpringGround {
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
-        let parts = if self.depths.is_some() { 4 } else { 2 };
+        let parts = self.elements[0].parts().count();
         let size = parts * self.displacement.len();
         let mut matrix = vec![0.0; size * size];
         for i in 0..size {

@@ -41,7 +41,7 @@ impl StaticKernel {
     /// The logarithm needs a length as datum. A long one keeps the static matrix positive definite, and the settlement
     /// that it adds cancels in all results.
     pub(super) fn under(soil: Soil, elements: &[ContactElement]) -> Result<Self> {
-        let span = elements[elements.len() - 1].right - elements[0].left;
+        let span = elements[elements.len() - 1].right() - elements[0].left();
         Self::new(soil, 10.0 * span)
     }
 
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     fn element(left: f64, right: f64) -> ContactElement {
-        ContactElement { left, right }
+        ContactElement::new(left, right)
     }
 
     #[test]
@@ -202,8 +202,8 @@ mod tests {
             let inner = |x: f64| if x == 0.0 { 0.0 } else { x * ((x.abs() / 3.0).ln() - 1.0) };
             let mut sum = 0.0;
             for i in 0..count {
-                let x = p.left + p.length() * (f64::from(i) + 0.5) / f64::from(count);
-                sum += inner(x - q.left) - inner(x - q.right);
+                let x = p.left() + p.length() * (f64::from(i) + 0.5) / f64::from(count);
+                sum += inner(x - q.left()) - inner(x - q.right());
             }
             let expected = -0.7 / (std::f64::consts::PI * 2.0) * sum / f64::from(count);
             let found = kernel.coefficients(p, q).unwrap();

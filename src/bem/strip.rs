@@ -103,7 +103,7 @@ impl Strip {
     /// let block = RigidBlock::new(6.0, 4.0, 2400.0)?;
     /// let strips = Strip::under(&block, 12, Grading::Cosine)?;
     /// let elements = strips[0].elements();
-    /// assert_eq!((strips.len(), elements[0].left, elements[11].right), (1, -3.0, 3.0));
+    /// assert_eq!((strips.len(), elements[0].left(), elements[11].right()), (1, -3.0, 3.0));
     /// assert!(elements[0].length() < 0.15 * elements[6].length());
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -150,7 +150,7 @@ impl Strip {
 
     /// The elements, from left to right.
     pub fn elements(&self) -> Vec<ContactElement> {
-        self.nodes.windows(2).map(|n| ContactElement { left: n[0], right: n[1] }).collect()
+        self.nodes.windows(2).map(|n| ContactElement::new(n[0], n[1])).collect()
     }
 }
 
@@ -183,8 +183,8 @@ pub(crate) struct Overlap {
 
 /// Returns the element if its ends are finite and the left end comes first.
 fn checked(element: ContactElement) -> Result<ContactElement> {
-    finite("left end of an element", element.left)?;
-    finite("right end of an element", element.right)?;
+    finite("left end of an element", element.left())?;
+    finite("right end of an element", element.right())?;
     positive("length of an element", element.length())?;
     Ok(element)
 }
@@ -192,11 +192,12 @@ fn checked(element: ContactElement) -> Result<ContactElement> {
 impl Overlap {
     pub(crate) fn new(receiver: ContactElement, source: ContactElement) -> Result<Self> {
         let (p, q) = (checked(receiver)?, checked(source)?);
-        let (first, last) = (p.left - q.right, p.right - q.left);
-        let (one, two) = (p.left - q.left, p.right - q.right);
+        let (first, last) = (p.left() - q.right(), p.right() - q.left());
+        let (one, two) = (p.left() - q.left(), p.right() - q.right());
         let plateau = p.length().min(q.length());
         let width = |x: f64| (x - first).min(last - x).min(plateau).max(0.0);
-        let scale = [p.left, p.right, q.left, q.right].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let scale =
+            [p.left(), p.right(), q.left(), q.right()].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let close = 8.0 * f64::EPSILON * scale;
         let mut nodes = vec![first.abs(), one.abs(), two.abs(), last.abs()];
         if first < close && last > -close {

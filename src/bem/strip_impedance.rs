@@ -1,9 +1,9 @@
 //! Dynamic stiffness of the strips of an elastic ground.
 
 use super::layered::{StripContact, StripImpedance, impedance_watch, strip_impedances};
-use super::{ElasticGround, Ground, directions};
+use super::{ElasticGround, Ground};
 use crate::error::{Error, Observer, Result};
-use crate::geometry::SPACE;
+use crate::geometry::ContactLayout;
 
 impl ElasticGround {
     /// Dynamic stiffness of all strips as one rigid body, at each of `frequencies` (Hz).
@@ -48,7 +48,7 @@ impl ElasticGround {
         contact: StripContact,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        if directions(self) == SPACE {
+        if ContactLayout::for_elements(self.elements()).is_plan() {
             return Err(Error::Scene {
                 quantity: "ground in plan",
                 needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",

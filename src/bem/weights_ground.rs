@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::plan::Unions;
-use super::{Ground, GroundDescription, NOT_PREPARED, PlanElement, SharedKernels, WeightsSource};
+use super::{Ground, GroundDescription, NOT_PREPARED, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Observer, Result};
-use crate::geometry::{ContactElement, PLANE, check_order};
+use crate::geometry::{ContactElement, ContactLayout, PLANE, check_order};
 use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryOptions};
 
 /// Ground for any soil that has convolution weights and a static compliance.
@@ -103,8 +103,6 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
-    /// Front and back ends of elements in plan, m, and the fractions of their areas inside the outline.
-    depths: Option<(Vec<[f64; 2]>, Vec<f64>)>,
     /// Cells of the elements in plan that consist of several cells.
     unions: Option<Unions>,
     options: HistoryOptions,
@@ -139,22 +137,18 @@ impl WeightsGround {
     /// overlap, are out of order or have no length.
     pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
-        Ok(Self { depths: None, ..Self::in_plan(source, elements, Default::default(), None) })
+        Ok(Self::with_unions(source, elements, None))
     }
 
-    /// Ground of `source` under elements in plan.
-    ///
-    /// `depths` are front and back ends along y (m), and fractions of the elements' areas inside the outline.
-    pub(super) fn in_plan(
+    /// Ground of `source` under elements, some of them unions of cells.
+    pub(super) fn with_unions(
         source: impl WeightsSource,
         elements: Vec<ContactElement>,
-        depths: (Vec<[f64; 2]>, Vec<f64>),
         unions: Option<Unions>,
     ) -> Self {
         Self {
             source: Box::new(source),
             elements,
-            depths: Some(depths),
             unions,
             options: HistoryOptions::default(),
             own_history: None,
@@ -214,11 +208,6 @@ impl WeightsGround {
 impl Ground for WeightsGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
-    }
-
-    fn in_plan(&self, element: usize) -> Option<PlanElement> {
-        let (depths, inside) = self.depths.as_ref()?;
-        Some(PlanElement { depth: *depths.get(element)?, fraction_inside: *inside.get(element)? })
     }
 
     fn prepare(
@@ -303,10 +292,10 @@ impl Ground for WeightsGround {
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
-        if self.depths.is_some() {
+        if ContactLayout::for_elements(&self.elements).is_plan() {
             return Ok(None);
         }
-        let halves: Vec<_> = self.elements.iter().flat_map(ContactElement::halves).collect();
+        let halves: Vec<_> = self.elements.iter().flat_map(ContactElement::parts).collect();
         let mut matrix = vec![0.0; (PLANE * halves.len()).pow(2)];
         self.source.static_compliance(&halves, &mut matrix)?;
         Ok(Some(matrix))

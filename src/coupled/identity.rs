@@ -3,6 +3,7 @@
 use crate::Simulation;
 use crate::coupled::scene::Scene;
 use crate::error::{CheckpointError, Result};
+use crate::geometry::ContactElement;
 use crate::interface::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::linalg::{largest, mixed, mixing_weight};
 use crate::text::check_sum::CheckSum;
@@ -191,11 +192,8 @@ impl Simulation {
         for row in [c.acceleration, c.velocity, c.displacement] {
             scheme.extend(row);
         }
-        let mut elements: Vec<f64> =
-            scene.base.elements().iter().flat_map(|e| [e.left, e.right]).collect();
-        if scene.layout().is_plan() {
-            elements.extend(scene.base.elements().depths().iter().flatten());
-        }
+        let elements = scene.base.elements().iter();
+        let elements = elements.flat_map(ContactElement::ends).flatten().collect();
         let (free_field, loads) = self.samples(steps)?;
         let structure = vec![
             sum(model.mass.values()),
@@ -242,17 +240,12 @@ impl Simulation {
         let mut force = vec![0.0; scene.model.dofs];
         let instants = count.min(MOST_INSTANTS);
         let stride = instants.div_ceil((LOAD_ENTRIES / force.len().max(1)).max(SAMPLES));
-        let (is_plan, place) = (scene.layout().is_plan(), scene.base.elements().middle(0));
+        let [x, y, _] = scene.base.elements()[0].center();
         for instant in 0..instants {
             let (part, weight) = (instant * SAMPLES / instants, mixing_weight(instant));
             let step = (instant as f64 * (count as f64 / instants as f64)).round();
             let end = (step + 1.0) * scene.time_step;
-            moved[part] += weight
-                * if is_plan {
-                    mixed(&motion.displacement_at(place, end))
-                } else {
-                    mixed(&motion.displacement(place[0], end))
-                };
+            moved[part] += weight * mixed(&motion.displacement_at([x, y], end));
             let time = (step + scene.coefficients.load_fraction) * scene.time_step;
             let external = scene.loads.iter().zip(&rows);
             let external = external.map(|(load, row)| row * load.own_value(time));

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::bem::{Ground, patch};
+use crate::bem::Ground;
 use crate::contact::ContactSearch;
 use crate::coupled::base::held::held;
 use crate::coupled::coordinates::Coordinates;
@@ -161,10 +161,10 @@ impl Parts {
             .ground
             .take()
             .ok_or(missing("ground", "give one to the builder with `ground`"))?;
-        let elements = patch(ground.as_ref())?;
+        let elements = Patch::new(ground.elements().to_vec())?;
         if given.held {
             given.laws = vec![Box::new(Bonded)];
-            (structure, ground) = held(structure, ground.as_ref(), &elements, time_step)?;
+            (structure, ground) = held(structure, &elements, time_step)?;
         }
         let (layout, count) = (elements.layout(), elements.len());
         // The laws may assume gravity only if there is pressure at the start.

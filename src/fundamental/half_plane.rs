@@ -182,17 +182,17 @@ impl HalfPlane {
             positive("length of an element", element.length())?;
         }
         let path = time * self.soil.shear_wave_speed();
-        let gap = (source.left - receiver.right).max(receiver.left - source.right).max(0.0);
+        let gap = (source.left() - receiver.right()).max(receiver.left() - source.right()).max(0.0);
         if path <= gap * self.branches.first {
             return Ok(Surface::default());
         }
         let (p, q) = (receiver, source);
         let mut sum = Surface::default();
         for (x, sign) in [
-            (p.right - q.left, 1.0),
-            (p.left - q.left, -1.0),
-            (p.right - q.right, -1.0),
-            (p.left - q.right, 1.0),
+            (p.right() - q.left(), 1.0),
+            (p.left() - q.left(), -1.0),
+            (p.right() - q.right(), -1.0),
+            (p.left() - q.right(), 1.0),
         ] {
             let j = self.twice_integrated(x, path);
             sum.zz += sign * j.zz;

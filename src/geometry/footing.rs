@@ -60,11 +60,9 @@ impl Footing {
     ) -> Self {
         let (ends, center, edges);
         if outline.is_empty() {
-            let along = elements.clone().map(|e| [patch[e].left, patch[e].right]);
-            let [left, right] = far_ends(along);
-            // One metre deep.
-            (ends, center) = ([[left, right], [0.0; 2]], [middle([left, right]), 0.5]);
-            let edge = |x, normal| (Edge { start: [x, 0.5], normal }, 0.5 * (right - left));
+            let [left, right] = far_ends(patch[elements.clone()].iter().map(|own| own.ends()[0]));
+            (ends, center) = ([[left, right], [0.0; 2]], [middle([left, right]), 0.0]);
+            let edge = |x, normal| (Edge { start: [x, 0.0], normal }, 0.5 * (right - left));
             edges = [vec![edge(left, [-1.0, 0.0]), edge(right, [1.0, 0.0])], vec![]];
         } else {
             ends = [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])));
@@ -80,7 +78,7 @@ impl Footing {
             });
         }
         let arms = elements.map(|e| {
-            let place = patch.middle(e);
+            let place = patch[e].center();
             [0, 1].map(|axis| place[axis] - center[axis])
         });
         let arms = arms.collect();

@@ -73,7 +73,7 @@ impl PairClasses {
     /// positive or shorter than 1e-8 of the patch, or elements out of order.
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
-        let span = elements[elements.len() - 1].right - elements[0].left;
+        let span = elements[elements.len() - 1].right() - elements[0].left();
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
         let quantity = "length of the shortest contact element over that of the patch";
         require(quantity, shortest / span, shortest >= SHORTEST * span, "at least 1e-8")?;
@@ -87,7 +87,7 @@ impl PairClasses {
                 #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
                 let key = |length: f64| (length / span * 1e12).round() as i64;
                 let (a, b) = (key(left.length()), key(right.length()));
-                let distance = key(right.center() - left.center());
+                let distance = key(right.center()[0] - left.center()[0]);
                 let class = *numbers.entry((a.min(b), a.max(b), distance)).or_insert_with(|| {
                     representatives.push([*left, *right]);
                     representatives.len() - 1
@@ -105,18 +105,23 @@ impl PairClasses {
 
     /// Classes of the pairs of `cells` (column and row) of a lattice in plan: [`Lattice::classes`].
     ///
-    /// The elements are the cells' sides along x, for a lattice that begins at `left` (m).
+    /// `corner`: smallest x and y of the lattice, m.
     ///
     /// # Errors
     /// As for [`check_count`].
-    pub(crate) fn in_plan(lattice: Lattice, cells: Vec<[usize; 2]>, left: f64) -> Result<Self> {
+    pub(crate) fn in_plan(
+        lattice: Lattice,
+        cells: Vec<[usize; 2]>,
+        corner: [f64; 2],
+    ) -> Result<Self> {
         check_count(cells.len(), PLANE)?;
-        let side = |[column, _]: &[usize; 2]| {
-            let [left, right] =
-                [*column, column + 1].map(|line| left + lattice.pitch[0] * line as f64);
-            ContactElement { left, right }
+        let element = |cell: &[usize; 2]| {
+            let [along, across] = [0, 1].map(|axis| {
+                [0, 1].map(|end| corner[axis] + lattice.pitch[axis] * (cell[axis] + end) as f64)
+            });
+            ContactElement::in_plan(along, across)
         };
-        let elements = cells.iter().map(side).collect();
+        let elements = cells.iter().map(element).collect();
         Ok(Self { elements, pairs: vec![], representatives: vec![], plan: Some((lattice, cells)) })
     }
 
@@ -279,6 +284,6 @@ impl PairClasses {
 
     /// Length from the first element's left end to the last one's right end, m.
     pub(crate) fn span(&self) -> f64 {
-        self.elements[self.elements.len() - 1].right - self.elements[0].left
+        self.elements[self.elements.len() - 1].right() - self.elements[0].left()
     }
 }

@@ -81,10 +81,9 @@ fn write(
         write_file(&folder.join(&file), &structure(shape, &frame, time_series.in_plan())?)?;
         entries.push((frame.time, 0, file));
     }
-    let corners = if time_series.in_plan() { 4 } else { 2 };
-    let cells: Vec<Vec<usize>> = (0..time_series.elements().len())
-        .map(|e| (corners * e..corners * (e + 1)).collect())
-        .collect();
+    let mut corners = 0..;
+    let cell = |own: &ContactElement| corners.by_ref().take(own.outline().count()).collect();
+    let cells: Vec<Vec<usize>> = time_series.elements().iter().map(cell).collect();
     for (k, frame) in time_series.contact_frames().enumerate() {
         let file = format!("{name}_base_{k:04}.vtu");
         write_file(&folder.join(&file), base(time_series, &cells, &frame))?;
@@ -115,14 +114,9 @@ fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>, in_plan: bool) -> R
 }
 
 fn base(time_series: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
-    let ends =
-        time_series.elements().iter().flat_map(|e| [[e.left, 0.0, 0.0], [e.right, 0.0, 0.0]]);
-    let sides = time_series.elements().iter().zip(time_series.depths());
-    let rectangles = sides.flat_map(|(along, [front, back])| {
-        let ContactElement { left, right } = *along;
-        [[left, *front], [right, *front], [right, *back], [left, *back]].map(|[x, y]| [x, y, 0.0])
-    });
-    let points = if time_series.in_plan() { rectangles.collect() } else { ends.collect() };
+    let place = |[x, y, z]: [f64; 3]| if time_series.in_plan() { [x, y, z] } else { [x, z, 0.0] };
+    let corners = time_series.elements().iter().flat_map(ContactElement::outline);
+    let points = corners.map(place).collect();
     let numbers = ContactState::NUMBERS.iter().filter(|own| time_series.in_plan() || !own.2);
     let values = |value: &fn(&ContactState) -> f64| frame.states.iter().map(value).collect();
     let modes = frame.modes.iter().map(|mode| f64::from(*mode as u8)).collect();

@@ -225,8 +225,8 @@ fn base(time_series: &TimeSeries, screen: &Screen, frames: usize, duration: &str
     let (shown, modes) = shown(&contact, false);
     let mut out = key(modes);
     for (e, element) in time_series.elements().iter().enumerate() {
-        let [left, _] = screen.place([element.left, 0.0]);
-        let [right, _] = screen.place([element.right, 0.0]);
+        let [left, _] = screen.place([element.left(), 0.0]);
+        let [right, _] = screen.place([element.right(), 0.0]);
         let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
         let _ = writeln!(
             out,
@@ -254,8 +254,8 @@ const SIDE: [f64; 4] = [ASIDE, 440.0, 915.0, 585.0];
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
-        let along = far_ends(time_series.elements().iter().map(|own| [own.left, own.right]));
-        let across = far_ends(time_series.depths().iter().copied());
+        let along = far_ends(time_series.elements().iter().map(|own| own.ends()[0]));
+        let across = far_ends(time_series.elements().iter().map(|own| own.ends()[1]));
         let side = (along[1] - along[0]).max(across[1] - across[0]);
         Self { ends: [along, across], margin: 0.15 * side }
     }
@@ -313,10 +313,8 @@ impl Floor {
         let scale = ((SIDE[2] - SIDE[0]) / wide).min((SIDE[3] - SIDE[1]) / high);
         let plan =
             |[x, _, y]: [f64; 3]| [SIDE[0] + scale * (x - left), SIDE[1] + scale * (back - y)];
-        let sides = time_series.elements().iter().zip(time_series.depths());
-        for (e, (along, depth)) in sides.enumerate() {
-            let corners =
-                Self { ends: [[along.left, along.right], *depth], margin: 0.0 }.corners(0.0);
+        for (e, element) in time_series.elements().iter().enumerate() {
+            let corners = Self { ends: element.ends(), margin: 0.0 }.corners(0.0);
             let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
             let change = changes("fill", &colors, duration);
             for cell in [polygon(&corners.map(seen)), polygon(&corners.map(plan))] {

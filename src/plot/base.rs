@@ -52,7 +52,7 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
                 .collect();
             let mut start = begin;
             let hair = 0.04 * element.length();
-            let low = base.place(element.left);
+            let low = base.place(element.left());
             for stretch in columns.chunk_by(|a, b| a.1 == b.1) {
                 let stop = stretch[stretch.len() - 1].0;
                 if let Some(what) = stretch[0].1 {
@@ -90,7 +90,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
         for e in envelope {
             // A gap between two strips is a gap in the curve.
-            let left = base.place(e.element.left);
+            let left = base.place(e.element.left());
             if points.last().is_some_and(|last| left - last.0 > 1e-6 * e.element.length()) {
                 points.push((f64::NAN, f64::NAN));
             }
@@ -149,17 +149,17 @@ pub(super) struct BaseAxis {
 impl BaseAxis {
     pub(super) fn new(elements: impl Iterator<Item = ContactElement>) -> Self {
         let mut elements: Vec<ContactElement> = elements.collect();
-        elements.sort_by(|a, b| a.left.total_cmp(&b.left));
+        elements.sort_by(|a, b| a.left().total_cmp(&b.left()));
         let mut pieces: Vec<Piece> = Vec::new();
         for element in &elements {
             match pieces.last_mut() {
-                Some(last) if element.left - last.right < 1e-6 * element.length() => {
-                    last.right = element.right;
+                Some(last) if element.left() - last.right < 1e-6 * element.length() => {
+                    last.right = element.right();
                 }
                 _ => pieces.push(Piece {
-                    left: element.left,
-                    right: element.right,
-                    start: element.left,
+                    left: element.left(),
+                    right: element.right(),
+                    start: element.left(),
                 }),
             }
         }
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn wide_gaps_are_short_and_marks_tell_where_one_is() {
         let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
-        let elements = elements.map(|(left, right)| ContactElement { left, right });
+        let elements = elements.map(|(left, right)| ContactElement::new(left, right));
         let base = BaseAxis::new(elements.into_iter());
         // 17.5 m of foundations: the gap of 32 m becomes 1.75 m; the gap of 0.5 m keeps its width.
         assert_eq!(base.breaks, [Break { from: 8.0, to: 9.75, width: 32.0 }]);

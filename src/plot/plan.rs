@@ -55,10 +55,10 @@ pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<
         (shown == Shown::Slip && size > 0.0)
             .then(|| [state.shear / size, state.shear_across / size])
     };
-    let sides = time_series.elements().iter().zip(time_series.depths());
+    let elements = time_series.elements().iter();
     let cells =
-        sides.zip(frame.states.iter().zip(&shown)).map(|((along, depth), (state, what))| Cell {
-            sides: [[along.left, along.right], *depth],
+        elements.zip(frame.states.iter().zip(&shown)).map(|(element, (state, what))| Cell {
+            sides: element.ends(),
             color: match what {
                 Shown::Open | Shown::Weightless => what.color(),
                 _ => classes.color(state.pressure),
@@ -82,7 +82,7 @@ pub(super) fn largest_pressures(title: &str, run: &Run) -> Result<Svg> {
     let largest = |own: &crate::results::ElementEnvelope| own.pressure.highest.value;
     let classes = Classes::to(run.envelope.iter().map(largest).fold(0.0, f64::max));
     let cell = |own: &crate::results::ElementEnvelope| Cell {
-        sides: [[own.element.left, own.element.right], own.depth],
+        sides: own.element.ends(),
         color: classes.color(largest(own)),
         slides: None,
     };

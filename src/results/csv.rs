@@ -85,10 +85,10 @@ type EnvelopeColumn = (&'static str, &'static str, bool, fn(&ElementEnvelope) ->
 impl Run {
     /// Columns of an [envelope](Run::envelope): word, SI unit, whether in plan only, value.
     pub const ENVELOPE: [EnvelopeColumn; 20] = [
-        ("left", "m", false, |own| own.element.left),
-        ("right", "m", false, |own| own.element.right),
-        ("front", "m", true, |own| own.depth[0]),
-        ("back", "m", true, |own| own.depth[1]),
+        ("left", "m", false, |own| own.element.left()),
+        ("right", "m", false, |own| own.element.right()),
+        ("front", "m", true, |own| own.element.depth()[0]),
+        ("back", "m", true, |own| own.element.depth()[1]),
         ("static_pressure", "Pa", false, |own| own.static_pressure),
         ("lowest_pressure", "Pa", false, |own| own.pressure.lowest.value),
         ("lowest_pressure_time", "s", false, |own| own.pressure.lowest.time),
@@ -171,12 +171,12 @@ impl TimeSeries {
     /// Ends of the elements.
     pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
         let mut ends = vec![
-            ("left_m", self.elements().iter().map(|own| own.left).collect()),
-            ("right_m", self.elements().iter().map(|own| own.right).collect()),
+            ("left_m", self.elements().iter().map(|own| own.left()).collect()),
+            ("right_m", self.elements().iter().map(|own| own.right()).collect()),
         ];
         if self.in_plan() {
-            ends.push(("front_m", self.depths().iter().map(|own| own[0]).collect()));
-            ends.push(("back_m", self.depths().iter().map(|own| own[1]).collect()));
+            ends.push(("front_m", self.elements().iter().map(|own| own.depth()[0]).collect()));
+            ends.push(("back_m", self.elements().iter().map(|own| own.depth()[1]).collect()));
         }
         ends
     }

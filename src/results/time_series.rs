@@ -9,6 +9,7 @@ use crate::bem::ContactElement;
 use crate::coupled::state::sequence::Sequence;
 use crate::coupled::{EnergyBalance, Probe, State};
 use crate::error::{MemoryError, Result, memory_limit, require};
+use crate::geometry::ContactLayout;
 use crate::structure::probe::probe_index;
 
 /// Time series and snapshots of a run.
@@ -22,7 +23,6 @@ use crate::structure::probe::probe_index;
 pub struct TimeSeries {
     pub(super) recorder: Recorder,
     pub(super) elements: Vec<ContactElement>,
-    depths: Vec<[f64; 2]>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
     #[cfg_attr(feature = "serde", serde(rename = "end", serialize_with = "Sequence::write_end"))]
@@ -43,8 +43,6 @@ validated! {
     TimeSeries as TimeSeriesForm {
         recorder: Recorder,
         elements: Vec<ContactElement>,
-        #[serde(default)]
-        depths: Vec<[f64; 2]>,
         probes: Vec<Probe>,
         time_step: f64,
         end: f64,
@@ -61,11 +59,8 @@ validated! {
     } => {
         let kept = times.len();
         let lengths = scalars.iter().chain(&probe_values).map(Vec::len);
-        let in_plan = !depths.is_empty();
-        if in_plan {
-            crate::error::same_length("list of depths", depths.len(), elements.len())?;
-        }
-        crate::error::same_length("list of scalars", scalars.len(), Quantity::recorded(in_plan).count())?;
+        let count = Quantity::recorded(ContactLayout::for_elements(&elements).is_plan()).count();
+        crate::error::same_length("list of scalars", scalars.len(), count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
         lengths.into_iter().try_for_each(|length| crate::error::same_length("time series", length, kept))?;
@@ -75,7 +70,7 @@ validated! {
         crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
         let sequence = Sequence::ended(end);
         Ok(Self {
-            recorder, elements, depths, probes, time_step, sequence, steps, dofs, times, scalars,
+            recorder, elements, probes, time_step, sequence, steps, dofs, times, scalars,
             probe_values, energy_balances, contact, motion,
         })
     }
@@ -100,17 +95,15 @@ impl Recorder {
         require("steps between what is kept", 0.0, !intervals.contains(&Some(0)), "one or more")?;
         let state = simulation.state();
         let elements = simulation.elements();
-        let in_plan = elements.is_plan();
         let mut series = TimeSeries {
             elements: elements.to_vec(),
-            depths: if in_plan { elements.depths().to_vec() } else { Vec::new() },
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
             sequence: Sequence::new(state),
             steps: 0,
             dofs: self.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
-            scalars: vec![Vec::new(); Quantity::recorded(in_plan).count()],
+            scalars: vec![Vec::new(); Quantity::recorded(elements.is_plan()).count()],
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: self.contact.map(ContactFrames::new),
@@ -274,16 +267,9 @@ impl TimeSeries {
         &self.elements
     }
 
-    /// Front and back end of each contact element along y, m.
-    ///
-    /// For a ground in plan; empty in the plane.
-    pub fn depths(&self) -> &[[f64; 2]] {
-        &self.depths
-    }
-
     /// Whether the ground is one in plan.
-    pub(crate) fn in_plan(&self) -> bool {
-        !self.depths.is_empty()
+    pub fn in_plan(&self) -> bool {
+        ContactLayout::for_elements(&self.elements).is_plan()
     }
 
     /// Snapshots of the base; none unless [`Recorder::contact`] was set.

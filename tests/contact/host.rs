@@ -3,7 +3,7 @@
 //! El Centro; central differences by hand.
 //! REFERENCE: the same structure in a `Simulation`, by the midpoint rule; errors by their type.
 
-use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::bem::{Ground, SpringGround};
 use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -63,7 +63,7 @@ fn by_simulation() -> Vec<[f64; 3]> {
 fn by_hand() -> Vec<[f64; 3]> {
     let mut ground = ground();
     let motion = el_centro_1940();
-    let centers: Vec<f64> = ground.elements().iter().map(ContactElement::center).collect();
+    let centers: Vec<f64> = ground.elements().iter().map(|own| own.center()[0]).collect();
     let (count, length) = (centers.len(), 0.5);
     let size = 2 * count;
     let base = |u: &[f64; 4]| -> Vec<f64> {

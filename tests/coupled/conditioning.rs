@@ -46,8 +46,8 @@ fn ground_and_delassus_match_their_inverses() {
         let (sway, turn) = (1.0 / mass + height * height / inertia, 1.0 / inertia);
         let elements = soil.elements().to_vec();
         for (i, j) in (0..size * size).map(|k| (k / size, k % size)) {
-            let (x, source) = (elements[i % count].center(), elements[j % count]);
-            let (y, length) = (source.center(), source.length());
+            let (x, source) = (elements[i % count].center()[0], elements[j % count]);
+            let (y, length) = (source.center()[0], source.length());
             // Mean motions: down −(u_y + x θ), along u_x.
             let mean = match (i < count, j < count) {
                 (true, true) => 1.0 / mass + x * y * turn,

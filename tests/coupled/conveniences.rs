@@ -64,7 +64,7 @@ fn soil_from_its_shear_wave_speed() {
 #[test]
 fn strips_lie_under_foundations() {
     let ends = |ground: &ElasticGround| {
-        ground.elements().iter().map(|e| [e.left, e.right]).collect::<Vec<_>>()
+        ground.elements().iter().map(|e| [e.left(), e.right()]).collect::<Vec<_>>()
     };
     // Graded elements are projections of equal arcs, and the default.
     let arc = |k: i32| -3.0 * (std::f64::consts::PI * f64::from(k) / 8.0).cos();

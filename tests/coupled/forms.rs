@@ -313,7 +313,7 @@ fn probes_storeys_layers_and_formats_of_files() {
         (Material::new(3e10, 0.2, 2400.0).unwrap(), QuadFormulation::Full);
     kept(&Layer { height: 1.0, rows: 2, material, formulation });
     kept(&ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2]));
-    kept(&ContactElement { left: -1.0, right: 1.0 });
+    kept(&ContactElement::new(-1.0, 1.0));
     kept(&ColumnFormat {
         time_column: 2,
         acceleration_column: Some(3),

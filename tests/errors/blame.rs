@@ -353,10 +353,7 @@ impl Ground for Answering {
 #[test]
 fn a_ground_that_pushes_back_is_blamed_itself() {
     let built = |own: f64, between: f64, sense: f64| {
-        let elements = vec![
-            ContactElement { left: -2.0, right: 1.0 },
-            ContactElement { left: 1.0, right: 2.0 },
-        ];
+        let elements = vec![ContactElement::new(-2.0, 1.0), ContactElement::new(1.0, 2.0)];
         let mut matrix = vec![0.0; 16];
         (0..4).for_each(|i| matrix[5 * i] = own / elements[i % 2].length());
         // Reciprocal: lengths times the entries are symmetric.

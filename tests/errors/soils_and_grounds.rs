@@ -93,8 +93,8 @@ fn absurd_counts_do_not_panic() {
         assert!(ground.step_compliance(&mut [0.0; 4]).is_ok());
     }
 
-    let left = ContactElement { left: 0.0, right: 1.0 };
-    let right = ContactElement { left: 1.0, right: 2.0 };
+    let left = ContactElement::new(0.0, 1.0);
+    let right = ContactElement::new(1.0, 2.0);
     let patch = PatchKernel::new(soil(), vec![left, right], 1e-30).unwrap();
     let ends = |class| patch.last_coupling_lag(class).unwrap();
     let last = (0..patch.classes().count()).find(|&class| ends(class) == Some(usize::MAX - 1));
@@ -104,7 +104,7 @@ fn absurd_counts_do_not_panic() {
 
 #[test]
 fn kernels() {
-    let element = |left: f64, right: f64| ContactElement { left, right };
+    let element = |left: f64, right: f64| ContactElement::new(left, right);
     refused("time step", &BAD, |x| InfluenceKernel::new(soil(), x));
     let kernel = InfluenceKernel::new(soil(), 1e-3).unwrap();
     let unit = element(0.0, 1.0);

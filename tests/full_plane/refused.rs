@@ -30,8 +30,8 @@ fn two_motions_are_refused() {
     // A simulation passes the reason on.
     let ground = FullPlaneGround::new(soil(0.25), canyon(0.5)).with_incident_field(waves());
     let elements = ground.elements().to_vec();
-    let width = elements[elements.len() - 1].right - elements[0].left;
-    let center = elements[0].left + 0.5 * width;
+    let width = elements[elements.len() - 1].right() - elements[0].left();
+    let center = elements[0].left() + 0.5 * width;
     let block = RigidBlock::new(width, 0.5, 1.0).unwrap().centered_at(center).unwrap();
     let simulation = Simulation::builder(0.5)
         .structure(block)

@@ -33,8 +33,8 @@ fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
 fn step_coefficients_match_sixty_digits() {
     for row in rows(include_str!("../data/influence.csv")) {
         let kernel = InfluenceKernel::new(soil(row[0]), row[1]).unwrap();
-        let receiver = ContactElement { left: row[2], right: row[3] };
-        let source = ContactElement { left: row[4], right: row[5] };
+        let receiver = ContactElement::new(row[2], row[3]);
+        let source = ContactElement::new(row[4], row[5]);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let found = kernel.coefficients(receiver, source, row[6] as usize).unwrap();
         // A large source on a small receiver gives more than the receiver on itself.
@@ -183,7 +183,7 @@ fn lamb_line_load_and_elements() {
                 close(found, expected, 1e-11, &what);
             }
         }
-        let receiver = |d: f64| ContactElement { left: d - 0.5, right: d + 0.5 };
+        let receiver = |d: f64| ContactElement::new(d - 0.5, d + 0.5);
         for row in rows(galerkin) {
             let u = plane.element_mean(receiver(row[0]), receiver(0.0), row[1]).unwrap();
             let what = format!("galerkin {nu} {row:?}");
@@ -340,8 +340,8 @@ fn full_plane_obeys_navier_and_reciprocity() {
 fn nothing_arrives_early_and_bad_input_is_refused() {
     for nu in POISSON {
         let ground = soil(nu);
-        let near = ContactElement { left: 0.0, right: 1.0 };
-        let far = ContactElement { left: 11.0, right: 12.0 };
+        let near = ContactElement::new(0.0, 1.0);
+        let far = ContactElement::new(11.0, 12.0);
         let kernel = InfluenceKernel::new(ground, 0.01).unwrap();
         let at = |lag| kernel.coefficients(far, near, lag).unwrap();
         let quiet = at(9);
@@ -369,9 +369,9 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
         assert!(InfluenceKernel::new(ground, bad).is_err());
     }
     let kernel = InfluenceKernel::new(ground, 0.1).unwrap();
-    let good = ContactElement { left: 0.0, right: 1.0 };
+    let good = ContactElement::new(0.0, 1.0);
     for bad in [(0.0, 0.0), (1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        let bad = ContactElement { left: bad.0, right: bad.1 };
+        let bad = ContactElement::new(bad.0, bad.1);
         assert!(kernel.coefficients(good, bad, 1).is_err());
         assert!(HalfPlane::new(ground).element_mean(bad, good, 1.0).is_err());
     }

@@ -35,7 +35,7 @@ impl Fading {
 
     fn at(&self, class: usize, lag: usize) -> [f64; 3] {
         let [source, receiver] = self.classes.representative(class).unwrap();
-        let distance = receiver.center() - source.center();
+        let distance = receiver.center()[0] - source.center()[0];
         let weight = source.length() * receiver.length() / (1.0 + distance * distance);
         let fade = |rate: f64| weight * (-rate * lag as f64).exp();
         let ended = self.ends.is_some_and(|last| lag > last);

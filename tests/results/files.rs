@@ -111,8 +111,8 @@ fn contact_has_a_row_for_every_frame_and_element() {
         let (element, contact) = (time_series.elements()[e], state.contact[e]);
         same(&row[0], state.time);
         assert_eq!(row[1], e.to_string());
-        same(&row[2], element.left);
-        same(&row[3], element.right);
+        same(&row[2], element.left());
+        same(&row[3], element.right());
         assert_eq!(row[4].parse::<Mode>(), Ok(state.modes[e]));
         let values = [contact.gap, contact.slip, contact.pressure, contact.shear];
         row[5..].iter().zip(values).for_each(|(cell, value)| same(cell, value));
@@ -131,7 +131,7 @@ fn envelopes_and_spectra() {
     assert_eq!((heading.len(), rows.len()), (15, run.envelope.len()));
     let at = |name: &str| heading.iter().position(|column| column == name).unwrap();
     for (row, own) in rows.iter().zip(&run.envelope) {
-        same(&row[at("left_m")], own.element.left);
+        same(&row[at("left_m")], own.element.left());
         same(&row[at("static_pressure_pa")], own.static_pressure);
         same(&row[at("lowest_pressure_pa")], own.pressure.lowest.value);
         same(&row[at("highest_pressure_time_s")], own.pressure.highest.time);

@@ -1,6 +1,6 @@
 //! A ground in plan: springs and dashpots under each cell, of its own and by the midpoint rule.
 
-use basemat::bem::{ContactElement, Ground, GroundDescription, PlanElement, SpringGround};
+use basemat::bem::{ContactElement, Ground, GroundDescription, SpringGround};
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::interface::InterfaceLaw;
 use basemat::motion::{FreeField, Record, Triaxial};
@@ -20,7 +20,6 @@ pub(crate) const BED: Bed =
 #[derive(Clone)]
 pub(crate) struct Cells {
     pub(crate) elements: Vec<ContactElement>,
-    pub(crate) depths: Vec<[f64; 2]>,
     pub(crate) sampled: Option<[usize; 2]>,
     bed: Bed,
     time_step: f64,
@@ -30,15 +29,14 @@ pub(crate) struct Cells {
 impl Cells {
     /// Rectangles between neighbouring `x` and neighbouring `y`.
     pub(crate) fn between(x: &[f64], y: &[f64], bed: Bed) -> Self {
-        let (mut elements, mut depths) = (Vec::new(), Vec::new());
+        let mut elements = Vec::new();
         for away in y.windows(2) {
             for along in x.windows(2) {
-                elements.push(ContactElement { left: along[0], right: along[1] });
-                depths.push([away[0], away[1]]);
+                elements.push(ContactElement::in_plan([along[0], along[1]], [away[0], away[1]]));
             }
         }
         let displacement = vec![0.0; 3 * elements.len()];
-        Self { elements, depths, sampled: None, bed, time_step: 0.0, displacement }
+        Self { elements, sampled: None, bed, time_step: 0.0, displacement }
     }
 
     /// The same after elements were taken away.
@@ -59,8 +57,8 @@ impl Cells {
 
     /// Area and middle of a cell.
     pub(crate) fn cell(&self, e: usize) -> (f64, [f64; 2]) {
-        let (element, [front, back]) = (&self.elements[e], self.depths[e]);
-        (element.length() * (back - front), [element.center(), 0.5 * (front + back)])
+        let [x, y, _] = self.elements[e].center();
+        (self.elements[e].area(), [x, y])
     }
 
     /// k/2 + c/Δt and c/Δt − k/2 of the number `i` of a contact vector.
@@ -81,11 +79,6 @@ impl Cells {
 impl Ground for Cells {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
-    }
-
-    fn in_plan(&self, element: usize) -> Option<PlanElement> {
-        let depth = *self.depths.get(element)?;
-        Some(PlanElement { depth, fraction_inside: 1.0 })
     }
 
     fn description(&self) -> GroundDescription {

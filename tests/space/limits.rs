@@ -87,7 +87,7 @@ fn pressures(simulation: &Simulation) -> Vec<f64> {
 /// Navier's pressures, compressive or not: N/A (1 + e x A/I), with I of the cells' middles.
 fn linear(simulation: &Simulation, beside: f64) -> Vec<f64> {
     let elements = simulation.ground().elements();
-    let middles: Vec<f64> = elements.iter().map(basemat::bem::ContactElement::center).collect();
+    let middles: Vec<f64> = elements.iter().map(|own| own.center()[0]).collect();
     let square = middles.iter().map(|x| x * x).sum::<f64>() / middles.len() as f64;
     middles.iter().map(|x| PRESSURE * (1.0 + beside * x / square)).collect()
 }

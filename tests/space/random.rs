@@ -3,7 +3,7 @@
 //! `SPACE_SCENES=1000` draws so many, `SPACE_FIRST=40` from that one on.
 
 use basemat::bem::plan::Plan;
-use basemat::bem::{ElasticGround, PlanElement};
+use basemat::bem::{ContactElement, ElasticGround};
 use basemat::coupled::{GravityStage, Load, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
 use basemat::motion::FreeField;
@@ -140,12 +140,7 @@ fn energies_of_random_scenes_close() {
         };
         let areas: Vec<f64> = {
             let ground = simulation.ground();
-            let area = |e: usize| {
-                let PlanElement { depth: [front, back], fraction_inside } =
-                    ground.in_plan(e).unwrap();
-                ground.elements()[e].length() * (back - front) * fraction_inside
-            };
-            (0..ground.elements().len()).map(area).collect()
+            ground.elements().iter().map(ContactElement::area).collect()
         };
         let mut before = simulation.state().contact.clone();
         let begun = simulation.begin_run();

@@ -1,7 +1,7 @@
 //! Invalid scenes in plan, each with an error that names the fault.
 
 use basemat::bem::plan::Plan;
-use basemat::bem::{Ground, SpringGround};
+use basemat::bem::{ContactElement, Ground, SpringGround};
 use basemat::coupled::Load;
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::STANDARD_GRAVITY;
@@ -152,17 +152,32 @@ fn elements_that_are_no_cells() {
         error => panic!("{error}"),
     };
     // One that has no place in plan, unlike the others.
-    let error = wrong(|own| own.depths.truncate(3));
+    let error = wrong(|own| own.elements[3] = ContactElement::new(-1.0, 1.0));
     assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
-    assert_eq!(quantity(wrong(|own| own.depths[3] = [1.0, 1.0])), "depth of a contact element");
-    assert_eq!(quantity(wrong(|own| own.depths[3][1] = f64::NAN)), "back end of a contact element");
-    assert_eq!(
-        quantity(wrong(|own| own.elements[5].right += 0.1)),
-        "left end of a contact element"
-    );
-    assert_eq!(quantity(wrong(|own| own.depths[5][0] -= 0.1)), "left end of a contact element");
+    /// Moves the ends of an element to the right and away, m.
+    fn stretch(own: &mut ContactElement, [right, front, back]: [f64; 3]) {
+        let [low, high] = own.depth();
+        let along = [own.left(), own.right() + right];
+        *own = ContactElement::in_plan(along, [low + front, high + back]);
+    }
+    let flat = |own: &mut Cells| own.elements[3] = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
+    assert_eq!(quantity(wrong(flat)), "depth of a contact element");
+    for (stretched, blamed) in [
+        ([0.0, 0.0, f64::NAN], "back end of a contact element"),
+        ([0.1, 0.0, 0.0], "left end of a contact element"),
+        ([0.0, -0.1, 0.0], "left end of a contact element"),
+    ] {
+        let mut cells = cells();
+        stretch(&mut cells.elements[5], stretched);
+        assert_eq!(quantity(build(cube(), cells, Bonded)), blamed);
+    }
     // In the plane these rows lie on one another.
-    assert_eq!(quantity(wrong(|own| own.depths.clear())), "left end of a contact element");
+    let lines = |own: &mut Cells| {
+        own.elements.iter_mut().for_each(|e| *e = ContactElement::new(e.left(), e.right()));
+    };
+    assert_eq!(quantity(wrong(lines)), "left end of a contact element");
+    let inside = |own: &mut Cells| own.elements[0] = own.elements[0].with_fraction_inside(1.5);
+    assert_eq!(quantity(wrong(inside)), "fraction of an element inside the outline");
 }
 
 #[test]

@@ -65,16 +65,14 @@ fn extreme(values: impl Iterator<Item = f64>) -> f64 {
 fn quantities_are_sums_over_the_cells() {
     let (_, time_series, run, states) = rocking();
     let elements = time_series.elements();
-    let depths = time_series.depths();
-    let areas: Vec<f64> =
-        elements.iter().zip(depths).map(|(e, [front, back])| e.length() * (back - front)).collect();
+    let areas: Vec<f64> = elements.iter().map(|own| own.area()).collect();
     let whole: f64 = areas.iter().sum();
     assert!((whole - SIDES[0] * SIDES[1]).abs() < 1e-9);
     // By hand, of a state: along, across, both, moments, torque, open area, slip, sliding element.
     let by_hand = |state: &State| {
         let mut sums = [0.0; 8];
         for (e, own) in state.contact.iter().enumerate() {
-            let [x, y] = [elements[e].center(), 0.5 * (depths[e][0] + depths[e][1])];
+            let [x, y, _] = elements[e].center();
             let [fx, fy, p] = [own.shear, own.shear_across, own.pressure].map(|t| areas[e] * t);
             let is_open = if state.modes[e] == Mode::Open { areas[e] } else { 0.0 };
             // The soil is pressed down: (x, y, 0) × (fx, fy, −p).
@@ -185,7 +183,7 @@ fn files_have_columns_of_the_whole_body() {
     let row = &values[3 * count + 5];
     let state = &states[30].contact[5];
     assert_eq!(row[..2], [states[30].time, 5.0]);
-    assert_eq!(row[4..6], time_series.depths()[5]);
+    assert_eq!(row[4..6], time_series.elements()[5].depth());
     assert_eq!(row[7..11], [state.gap, state.slip, state.pressure, state.shear]);
     assert_eq!(row[11..], [state.slip_across, state.shear_across]);
 
@@ -323,7 +321,7 @@ fn pictures_show_open_and_sliding_cells() {
     ));
     assert!(plot::time_series("T", &mixed, Quantity::MeanSlip).is_ok());
     // Series of three directions alone are empty in the plane.
-    assert!(strip.series(Quantity::Torque).is_empty() && strip.depths().is_empty());
+    assert!(strip.series(Quantity::Torque).is_empty() && !strip.in_plan());
 }
 
 #[test]
@@ -345,8 +343,8 @@ fn paraview_gets_the_base_as_rectangles() {
     assert_eq!(numbers("shear_across"), of(|own| own.shear_across));
     assert_eq!(numbers("slip_across"), of(|own| own.slip_across));
     assert_eq!(numbers("pressure"), of(|own| own.pressure));
-    let (element, [front, back]) = (&time_series.elements()[5], time_series.depths()[5]);
-    let [left, right] = [element.left, element.right];
+    let element = &time_series.elements()[5];
+    let ([left, right], [front, back]) = ([element.left(), element.right()], element.depth());
     let corners = [left, front, 0.0, right, front, 0.0, right, back, 0.0, left, back, 0.0];
     assert_eq!(numbers("points")[60..72], corners);
     assert!(numbers("types").iter().all(|kind| *kind == 9.0));
@@ -363,7 +361,7 @@ fn results_in_plan_are_read_again() {
     let again: TimeSeries = serde_json::from_str(&text).unwrap();
     assert_eq!(again.csv(), time_series.csv());
     assert_eq!(again.contact_csv(), time_series.contact_csv());
-    let cut = text.replacen("\"depths\":[[", "\"depths\":[[0.0,1.0],[", 1);
+    let cut = text.replace("\"in_plan\":true", "\"in_plan\":false");
     assert!(serde_json::from_str::<TimeSeries>(&cut).is_err());
     let again: Run = serde_json::from_str(&serde_json::to_string(&run).unwrap()).unwrap();
     assert_eq!(again.to_string(), run.to_string());

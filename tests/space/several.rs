@@ -81,9 +81,9 @@ fn by_hand(
 ) -> [f64; 8] {
     let mut sums = [0.0; 8];
     for e in own {
-        let (element, [front, back]) = (&time_series.elements()[e], time_series.depths()[e]);
-        let area = element.length() * (back - front);
-        let [x, y] = [element.center() - middle[0], 0.5 * (front + back) - middle[1]];
+        let element = &time_series.elements()[e];
+        let (area, center) = (element.area(), element.center());
+        let [x, y] = [0, 1].map(|axis| center[axis] - middle[axis]);
         let own = &state.contact[e];
         let [fx, fy, p] = [own.shear, own.shear_across, own.pressure].map(|t| area * t);
         let open = if state.modes[e] == Mode::Open { area } else { 0.0 };
@@ -380,11 +380,7 @@ fn mats_that_are_no_two() {
     let lines: Vec<f64> = (-4..=11).map(f64::from).collect();
     let mut rows = Cells::between(&lines, &[-3.0, 0.0, 3.0], BED);
     let between = |x: f64| x > 4.0 && x < 7.0;
-    let kept: Vec<bool> = rows.elements.iter().map(|own| !between(own.center())).collect();
-    let mut keep = kept.iter();
-    rows.elements.retain(|_| *keep.next().unwrap());
-    let mut keep = kept.iter();
-    rows.depths.retain(|_| *keep.next().unwrap());
+    rows.elements.retain(|own| !between(own.center()[0]));
     let error = build(rows.resized());
     assert!(error.to_string().contains("apart from the others of its mat"), "{error}");
     // One element reaches from one mat to the other.

@@ -234,7 +234,7 @@ class Ground:
         """Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m."""
     @property
     def depths(self) -> NDArray[np.float64]:
-        """Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; 0 and 1, the
+        """Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
         metre of thickness, in the plane.
         """
 

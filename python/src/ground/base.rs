@@ -17,7 +17,6 @@ use crate::recipe::Recipe;
 pub(crate) struct PyGround {
     pub(crate) make: Recipe<dyn Ground>,
     elements: Vec<ContactElement>,
-    depths: Vec<[f64; 2]>,
 }
 
 impl PyGround {
@@ -27,19 +26,17 @@ impl PyGround {
     ) -> PyResult<Self> {
         let ground = make().or_raise()?;
         let elements = ground.elements().to_vec();
-        let depth = |element| ground.in_plan(element).map_or([0.0, 1.0], |place| place.depth);
-        let depths = (0..elements.len()).map(depth).collect();
-        Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements, depths })
+        Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements })
     }
 }
 
 members! {
     PyGround, own;
     /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
-    elements: Rows = Rows(own.elements.iter().map(|e| vec![e.left, e.right]).collect());
-    /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; 0 and 1, the
+    elements: Rows = Rows(own.elements.iter().map(|e| vec![e.left(), e.right()]).collect());
+    /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
     /// metre of thickness, in the plane.
-    depths: Rows = Rows(own.depths.iter().map(|ends| ends.to_vec()).collect());
+    depths: Rows = Rows(own.elements.iter().map(|e| e.depth().to_vec()).collect());
 }
 
 /// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex

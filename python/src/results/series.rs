@@ -17,7 +17,7 @@ pub(super) fn named(time_series: &TimeSeries, name: &str) -> PyResult<Array> {
     if let Ok(values) = time_series.probe(name) {
         return Ok(Array::from(values));
     }
-    let in_plan = !time_series.depths().is_empty();
+    let in_plan = time_series.in_plan();
     if let Some(quantity) = Quantity::recorded(in_plan).find(|own| own.to_string() == name) {
         return Ok(Array::from(time_series.series(quantity)));
     }
@@ -34,7 +34,7 @@ pub(super) fn names(time_series: &TimeSeries) -> Vec<String> {
 
 /// All scalars and probes by their names.
 pub(super) fn all(time_series: &TimeSeries) -> PyResult<Named<String, Array>> {
-    let scalars = Quantity::recorded(!time_series.depths().is_empty()).map(|own| own.to_string());
+    let scalars = Quantity::recorded(time_series.in_plan()).map(|own| own.to_string());
     let all = std::iter::once("time".into()).chain(scalars).chain(names(time_series));
     all.map(|name| named(time_series, &name).map(|values| (name, values))).collect()
 }
@@ -65,7 +65,7 @@ pub(super) fn contact<'py>(
     let value = |pick: fn(&ContactState) -> f64| {
         filled(py, shape, frames.iter().flat_map(|frame| frame.states).map(pick))
     };
-    let in_plan = !time_series.depths().is_empty();
+    let in_plan = time_series.in_plan();
     for (name, _, across, pick) in ContactState::NUMBERS {
         if in_plan || !across {
             columns.set_item(name, value(pick)?)?;
@@ -95,7 +95,7 @@ pub(super) fn motion<'py>(
     columns.set_item("velocity", all(|frame| frame.velocity)?)?;
     let free_field = frames.iter().flat_map(|frame| frame.free_field);
     columns.set_item("free_field", filled(py, [frames.len(), 2], free_field)?)?;
-    if !time_series.depths().is_empty() {
+    if time_series.in_plan() {
         let across = frames.iter().map(|frame| frame.free_field_across);
         columns.set_item("free_field_across", across.collect::<Array>())?;
     }

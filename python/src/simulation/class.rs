@@ -104,7 +104,7 @@ members! {
     /// Names of the probes, in their order.
     probe_names: PyResult<Vec<String>> = Ok(own.lock()?.probes().iter().map(|probe| probe.name.clone()).collect());
     /// Ends of the contact elements: list of (left, right), m.
-    elements: PyResult<Vec<(f64, f64)>> = Ok(own.lock()?.ground().elements().iter().map(|e| (e.left, e.right)).collect());
+    elements: PyResult<Vec<(f64, f64)>> = Ok(own.lock()?.ground().elements().iter().map(|e| (e.left(), e.right())).collect());
     /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
     static_displacement: PyResult<Array> = Ok(Array::from(own.lock()?.static_displacement()));
     /// Which history the ground keeps, in words; None for a ground without one.

@@ -69,7 +69,7 @@ impl Given {
     /// A builder of parts of its own.
     pub(super) fn made(&self, py: Python<'_>) -> PyResult<Made> {
         let ground = made(&self.ground.bind(py).get().make)?;
-        let laws = interface::recipes(self.interface.bind(py), ground.in_plan(0).is_some())?;
+        let laws = interface::recipes(self.interface.bind(py), ground.elements()[0].directions().len() == 3)?;
         let laws = laws.iter().map(|make| make()).collect::<Result<_>>().or_raise()?;
         user::made_springs();
         let (structure, object) = structure::made(self.structure.bind(py))?;

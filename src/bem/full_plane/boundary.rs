@@ -44,7 +44,7 @@ impl Boundary {
         };
         let (first, last) = (&strips[0], &strips[strips.len() - 1]);
         let mut nodes: Vec<f64> =
-            (1..=free).rev().map(|k| elements[0].left - k as f64 * mean(first)).collect();
+            (1..=free).rev().map(|k| elements[0].left() - k as f64 * mean(first)).collect();
         let mut contact = Vec::with_capacity(elements.len());
         for (k, strip) in strips.iter().enumerate() {
             if k > 0 {
@@ -64,7 +64,7 @@ impl Boundary {
             contact.extend((0..strip.nodes().len() - 1).map(|e| from + e));
             nodes.extend_from_slice(strip.nodes());
         }
-        let right = elements[elements.len() - 1].right;
+        let right = elements[elements.len() - 1].right();
         nodes.extend((1..=free).map(|k| right + k as f64 * mean(last)));
         let segments =
             nodes.windows(2).map(|n| Segment { from: [n[0], 0.0], to: [n[1], 0.0] }).collect();
@@ -92,7 +92,7 @@ impl Boundary {
             let flat = rise <= 1e-9 * segment.length();
             let needed = "none: contact elements are horizontal";
             require("rise of a contact element", rise, flat, needed)?;
-            elements.push(ContactElement { left: segment.from[0], right: segment.to[0] });
+            elements.push(ContactElement::new(segment.from[0], segment.to[0]));
         }
         check_order(&elements)?;
         Ok(Self { segments, contact: contact.to_vec(), elements })

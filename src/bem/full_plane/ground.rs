@@ -322,7 +322,7 @@ impl Ground for FullPlaneGround {
         if self.boundary.is_flat() {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }
-        let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
+        let datum = 10.0 * (elements[elements.len() - 1].right() - elements[0].left());
         static_compliance(self.soil, &self.boundary, datum, matrix)
     }
 

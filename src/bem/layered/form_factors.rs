@@ -46,7 +46,8 @@ impl PairShape {
     fn new(source: ContactElement, receiver: ContactElement) -> Self {
         let lengths = [source.length(), receiver.length()];
         // The offset of an element from itself must be exactly zero.
-        let offset = if source == receiver { 0.0 } else { receiver.center() - source.center() };
+        let offset =
+            if source == receiver { 0.0 } else { receiver.center()[0] - source.center()[0] };
         Self { lengths, offset }
     }
 

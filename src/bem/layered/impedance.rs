@@ -211,13 +211,13 @@ impl<'a> RigidStrip<'a> {
         let classes = PairClasses::new(elements.to_vec())?;
         let integrals = Wavenumbers::new(&classes, TOLERANCE);
         let layout = classes.layout();
-        let middle = 0.5 * (elements[0].left + elements[elements.len() - 1].right);
+        let middle = 0.5 * (elements[0].left() + elements[elements.len() - 1].right());
         let mut motions = vec![Complex64::default(); 3 * layout.len()];
         for (p, element) in elements.iter().enumerate() {
             let (length, [down, along]) = (element.length(), layout.places(p));
             motions[3 * along].re = length;
             motions[3 * down + 1].re = length;
-            motions[3 * down + 2].re = length * (element.center() - middle);
+            motions[3 * down + 2].re = length * (element.center()[0] - middle);
         }
         Ok(Self { profile, contact, classes, integrals, motions })
     }

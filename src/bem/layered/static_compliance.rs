@@ -92,7 +92,7 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
 fn smooth(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] {
     let rule = gauss::largest();
     let (p, q) = (0.5 * receiver.length(), 0.5 * source.length());
-    let offset = if source == receiver { 0.0 } else { receiver.center() - source.center() };
+    let offset = if source == receiver { 0.0 } else { receiver.center()[0] - source.center()[0] };
     let mut sums = [0.0; 2];
     for (u, wu) in rule.nodes.iter().zip(&rule.weights) {
         for (v, wv) in rule.nodes.iter().zip(&rule.weights) {

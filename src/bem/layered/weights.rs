@@ -50,7 +50,7 @@ impl StripWeights {
         profile.check_causal()?;
         let classes = PairClasses::new(elements.to_vec())?;
         let quadrature = Quadrature::new(profile, &classes, stages, time_step, tolerance);
-        let mesh = elements.iter().flat_map(|element| [element.left, element.right]).collect();
+        let mesh = elements.iter().flat_map(|element| [element.left(), element.right()]).collect();
         Ok(Self::new(quadrature, classes, None, mesh, file))
     }
 }

@@ -288,7 +288,7 @@ impl Plan {
 
     /// Pairs of the cells.
     pub(super) fn classes(&self) -> Result<PairClasses> {
-        PairClasses::in_plan(self.lattice.clone(), self.cells.clone(), self.corner[0])
+        PairClasses::in_plan(self.lattice.clone(), self.cells.clone(), self.corner)
     }
 
     /// Contact element of a cell.
@@ -310,30 +310,30 @@ impl Plan {
         self.owners.as_deref().map(Unions::new)
     }
 
-    /// Sides of the contact elements along x, and front and back ends, m.
-    pub(in crate::bem) fn sides(&self) -> (Vec<ContactElement>, Vec<[f64; 2]>) {
+    /// The contact elements.
+    pub(in crate::bem) fn elements(&self) -> Vec<ContactElement> {
         let ends = |axis: usize, cell: &[usize; 2]| {
             [0, 1]
                 .map(|end| self.corner[axis] + self.lattice.pitch[axis] * (cell[axis] + end) as f64)
         };
-        let mut elements: Vec<ContactElement> = vec![];
-        let mut depths: Vec<[f64; 2]> = vec![];
+        let mut all: Vec<[[f64; 2]; 2]> = vec![];
         for (number, cell) in self.cells.iter().enumerate() {
-            let ([left, right], depth) = (ends(0, cell), ends(1, cell));
+            let own = [0, 1].map(|axis| ends(axis, cell));
             // Cells of a mat come row by row, and the first cell of an element before its others.
-            let owner = self.owner(number);
-            if let Some((element, [_, back])) = elements.get_mut(owner).zip(depths.get_mut(owner)) {
-                (element.right, *back) = (element.right.max(right), back.max(depth[1]));
-            } else {
-                elements.push(ContactElement { left, right });
-                depths.push(depth);
+            match all.get_mut(self.owner(number)) {
+                Some(sides) => (0..2).for_each(|k| sides[k][1] = sides[k][1].max(own[k][1])),
+                None => all.push(own),
             }
         }
-        (elements, depths)
+        let elements = all.into_iter().zip(self.fractions_inside());
+        let element = |([along, across], inside): ([[f64; 2]; 2], f64)| {
+            ContactElement::in_plan(along, across).with_fraction_inside(inside)
+        };
+        elements.map(element).collect()
     }
 
     /// Fraction of the area of each contact element that is inside the outline.
-    pub(in crate::bem) fn fractions_inside(&self) -> Vec<f64> {
+    fn fractions_inside(&self) -> Vec<f64> {
         let [a, b] = self.lattice.pitch;
         let mut sums: Vec<[f64; 2]> = vec![];
         for (number, inside) in self.inside().into_iter().enumerate() {

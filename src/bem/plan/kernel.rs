@@ -73,7 +73,7 @@ impl LatticeKernel {
         let own = vec![[0; 2]; classes.count()];
         let quadrature = Quadrature::over(profile, integrals, own, stages, [time_step, tolerance]);
         let some = gate_sample(plan).map(|_| scattered(&plan.cells));
-        let sample = some.map(|cells| PairClasses::in_plan(plan.lattice.clone(), cells, 0.0));
+        let sample = some.map(|cells| PairClasses::in_plan(plan.lattice.clone(), cells, [0.0; 2]));
         let Lattice { pitch, counts } = &plan.lattice;
         let mesh = pitch.iter().copied().chain(counts.iter().map(|count| *count as f64)).collect();
         Ok(Self::new(quadrature, classes, sample.transpose()?, mesh, file))

@@ -5,14 +5,14 @@ mod bonds;
 use std::sync::Arc;
 
 use super::*;
-use crate::bem::{ElasticGround, Ground, Strip, patch};
+use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
 use crate::coupled::model::Model;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{ContactLayout, PLANE, Patch};
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
@@ -131,7 +131,9 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let mesh = Mesh::layered_block(-2.0..2.0, count, &layers).unwrap();
         Box::new(FemModel::on_base(mesh).unwrap())
     };
-    let (assembled, _) = Assembled::new(structure.as_ref(), &patch(&ground).unwrap()).unwrap();
+    let (assembled, _) =
+        Assembled::new(structure.as_ref(), &Patch::new(ground.elements().to_vec()).unwrap())
+            .unwrap();
     let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();

@@ -118,8 +118,7 @@ pub(crate) fn check(
 /// `None` if the compliance is unknown, or too large for a check.
 fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
     let patch = base.elements();
-    let times = if patch.is_plan() { 4 } else { 2 };
-    if times * patch.layout().len() > MOST {
+    if patch[0].parts().count() * patch.layout().len() > MOST {
         return None;
     }
     let finer = patch.finer().ok()?;
@@ -180,10 +179,7 @@ fn count(base: &Base, foundation: usize) -> (Option<char>, usize) {
     let patch = base.elements();
     let own = base.foundations().nth(foundation).map_or(0..0, |(_, own)| own);
     let along = |axis: usize| {
-        let ends = own
-            .clone()
-            .map(|e| [-0.5, 0.5].map(|k| patch.middle(e)[axis] + k * patch.sides(e)[axis]));
-        let mut ends: Vec<_> = ends.collect();
+        let mut ends: Vec<_> = patch[own.clone()].iter().map(|own| own.ends()[axis]).collect();
         let [least, most] = far_ends(ends.iter().copied());
         ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
         ends.dedup_by(|next, [start, end]| next[0] - *start < 0.5 * (*end - *start));

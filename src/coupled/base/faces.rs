@@ -118,7 +118,7 @@ impl<'a> Faces<'a> {
     /// A point outside all faces moves with the continued displacement of the nearest face. A point farther off
     /// than half a side is an error.
     fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
-        let sides = patch.sides(element);
+        let sides = patch[element].sides();
         let reach = 0.5 * sides[0].max(sides[1]);
         let mut weights = Vec::with_capacity(16);
         for point in gauss_points(element, patch) {
@@ -155,7 +155,7 @@ impl<'a> Faces<'a> {
                         .sum::<f64>()
                 });
                 let is_on = |e: &usize| {
-                    let (middle, sides) = (patch.middle(*e), patch.sides(*e));
+                    let (middle, sides) = (patch[*e].center(), patch[*e].sides());
                     (0..2).all(|k| (place[k] - middle[k]).abs() <= 0.5 * sides[k])
                 };
                 if let Some(e) = mat.elements.clone().find(is_on) {
@@ -231,7 +231,7 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> 
 
 /// The 2 × 2 Gauss points of an element.
 fn gauss_points(element: usize, patch: &Patch) -> [Point; 4] {
-    let ([x, y], sides) = (patch.middle(element), patch.sides(element));
+    let ([x, y, _], sides) = (patch[element].center(), patch[element].sides());
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     signs.map(|[right, away]| [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]])
 }
@@ -249,7 +249,7 @@ fn face_points(corners: usize) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{ContactElement, SPACE};
+    use crate::geometry::ContactElement;
 
     fn nodes(corners: &[Point]) -> Vec<FaceNode> {
         corners.iter().map(|&place| FaceNode::rigid(place, [0.0; 2], [0, 1, 2, 3, 4, 5])).collect()
@@ -258,8 +258,8 @@ mod tests {
     /// Mean over a cell of a field given at the corners.
     fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
         let [left, right, front, back] = cell;
-        let cell = ContactElement { left, right };
-        let patch = Patch::new(SPACE, vec![cell], vec![[front, back]], vec![1.0]).unwrap();
+        let cell = ContactElement::in_plan([left, right], [front, back]);
+        let patch = Patch::new(vec![cell]).unwrap();
         let (nodes, mut sum) = (nodes(corners), 0.0);
         let faces = Faces::new(&nodes, faces).unwrap();
         for (node, weight) in faces.mean_weights(0, &patch).unwrap() {

@@ -6,7 +6,7 @@
 //! | Q | orthonormal rigid motions of these nodes |
 //! | γ | stiffness of the springs |
 
-use crate::bem::{Ground, PlanElement, directions};
+use crate::bem::Ground;
 use crate::coupled::base::Base;
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
@@ -25,7 +25,6 @@ const ROUNDING: f64 = 1e-9;
 /// The structure with a base that keeps its shape, and the ground that holds it.
 pub(crate) fn held(
     structure: Box<dyn Structure>,
-    ground: &dyn Ground,
     elements: &Patch,
     time_step: f64,
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
@@ -45,11 +44,7 @@ pub(crate) fn held(
     let resistance = 4.0 * mass.form(&along, &along) / (time_step * time_step);
     // A massless structure: the reference is its stiffness.
     let resistance = if resistance > 0.0 { resistance } else { stiffest(&stiffness) };
-    let held = HeldGround {
-        elements: ground.elements().to_vec(),
-        places: (0..elements.len()).map(|element| ground.in_plan(element)).collect(),
-        compliance: total / (GROUND * resistance),
-    };
+    let held = HeldGround { elements: elements.clone(), compliance: total / (GROUND * resistance) };
     let mut shape = Triplets::new(n);
     for (nodes, _) in base.foundations() {
         keep_shape(nodes, SHAPE * stiffest(&stiffness), &mut shape);
@@ -170,15 +165,14 @@ impl Structure for RigidBase {
 
 /// Springs under each element, so stiff that the base moves with the free field.
 struct HeldGround {
-    elements: Vec<ContactElement>,
-    places: Vec<Option<PlanElement>>,
+    elements: Patch,
     /// Displacement by a traction, m/Pa.
     compliance: f64,
 }
 
 impl HeldGround {
     fn fill(&self, matrix: &mut [f64]) -> Result<()> {
-        let size = directions(self) * self.elements.len();
+        let size = self.elements.layout().len();
         same_length("matrix of the held ground", matrix.len(), size * size)?;
         matrix.fill(0.0);
         matrix.iter_mut().step_by(size + 1).for_each(|entry| *entry = self.compliance);
@@ -189,10 +183,6 @@ impl HeldGround {
 impl Ground for HeldGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
-    }
-
-    fn in_plan(&self, element: usize) -> Option<PlanElement> {
-        self.places.get(element).copied().flatten()
     }
 
     fn prepare(

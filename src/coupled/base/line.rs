@@ -20,7 +20,7 @@ impl Base {
             let last = own.end - 1;
             let end = nodes.get(own.end).map_or(elements.len(), |next| {
                 let middle = 0.5 * (nodes[last].x + next.x);
-                elements.partition_point(|element| element.center() < middle)
+                elements.partition_point(|element| element.center()[0] < middle)
             });
             foundations.push(Outline {
                 elements: element..end,
@@ -64,7 +64,7 @@ fn check_order(nodes: &[FaceNode]) -> Result<()> {
 fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
     let slack = 1e-9 * element.length();
     let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
-    let ContactElement { left, right, .. } = *element;
+    let [left, right] = element.ends()[0];
     if first - left <= slack && right - last <= slack {
         return Ok(());
     }
@@ -91,8 +91,9 @@ fn chord_rotation(nodes: &[FaceNode]) -> Terms {
 fn pieces(nodes: &[FaceNode], element: &ContactElement) -> impl Iterator<Item = (usize, [f64; 2])> {
     let segments = nodes.windows(2).enumerate().map(|(k, pair)| {
         // The outermost segments also include a part outside them by rounding.
-        let from = if k == 0 { element.left } else { element.left.max(pair[0].x) };
-        let to = if k + 2 == nodes.len() { element.right } else { element.right.min(pair[1].x) };
+        let from = if k == 0 { element.left() } else { element.left().max(pair[0].x) };
+        let to =
+            if k + 2 == nodes.len() { element.right() } else { element.right().min(pair[1].x) };
         (k, [from, to])
     });
     segments.filter(|(_, [from, to])| to > from)

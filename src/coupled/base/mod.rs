@@ -165,9 +165,9 @@ impl Base {
     pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
         let ground = &self.elements;
         let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
-            let sides = own.map(|e| (ground.middle(e)[axis], ground.sides(e)[axis]));
-            let longest = sides.clone().fold(0.0, |longest: f64, (_, side)| side.max(longest));
-            let ends = sides.map(|(middle, side)| [middle - 0.5 * side, middle + 0.5 * side]);
+            let ends = ground[own].iter().map(|own| own.ends()[axis]);
+            let sides = ends.clone().map(|[low, high]| high - low);
+            let longest = sides.fold(0.0, |longest: f64, side| side.max(longest));
             let [first, last] = far_ends(ends);
             let [left, right] = span(nodes.iter().map(|node| node.place()[axis]));
             let least = longest.min(UNCOVERED * (right - left));
@@ -311,23 +311,19 @@ pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
 mod tests {
     use super::*;
     use crate::bem::ContactElement;
-    use crate::geometry::PLANE;
     use crate::structure::ContactNode;
 
     fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
-        let count = elements.len();
-        let (depths, inside) = (vec![[0.0, 1.0]; count], vec![1.0; count]);
         let nodes: Vec<_> = nodes.into_iter().map(FaceNode::from).collect();
         check_base_nodes(&nodes, dofs)?;
-        Base::on_line(nodes, &[], &Patch::new(PLANE, elements.to_vec(), depths, inside)?)
+        Base::on_line(nodes, &[], &Patch::new(elements.to_vec())?)
     }
 
     #[test]
     fn matching_meshes_give_halves() {
         let nodes: Vec<_> = (0..4).map(|k| ContactNode::free(k as f64, 2 * k, 2 * k + 1)).collect();
-        let elements: Vec<_> = (0..3)
-            .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
-            .collect();
+        let elements: Vec<_> =
+            (0..3).map(|k| ContactElement::new(f64::from(k), f64::from(k + 1))).collect();
         let base = base(nodes, &elements, 8).unwrap();
         let Rows::Sparse(rows) = base.rows else { panic!("rows of degrees of freedom") };
         assert_eq!(rows[1], vec![(3, -0.5), (5, -0.5)]);
@@ -340,14 +336,13 @@ mod tests {
         let nodes: Vec<_> =
             xs.iter().enumerate().map(|(k, &x)| ContactNode::free(x, 2 * k, 2 * k + 1)).collect();
         let ends = [-1.0, -0.8, 0.1, 1.3, 2.0];
-        let elements: Vec<_> =
-            ends.windows(2).map(|w| ContactElement { left: w[0], right: w[1] }).collect();
+        let elements: Vec<_> = ends.windows(2).map(|w| ContactElement::new(w[0], w[1])).collect();
         let base = base(nodes, &elements, 8).unwrap();
         let u: Vec<f64> = xs.iter().flat_map(|x| [2.0 + 3.0 * x, 1.0 - 0.5 * x]).collect();
         let mut means = vec![0.0; 8];
         base.means(&u, &mut means);
         for (e, element) in elements.iter().enumerate() {
-            let x = element.center();
+            let x = element.center()[0];
             assert!((means[e] + (1.0 - 0.5 * x)).abs() < 1e-14);
             assert!((means[4 + e] - (2.0 + 3.0 * x)).abs() < 1e-14);
         }
@@ -363,7 +358,7 @@ mod tests {
 
     #[test]
     fn bad_bases_are_errors() {
-        let element = [ContactElement { left: 0.0, right: 1.0 }];
+        let element = [ContactElement::new(0.0, 1.0)];
         let node = |x| ContactNode::free(x, 0, 1);
         assert!(base(vec![node(0.0)], &element, 2).is_err());
         assert!(base(vec![node(0.0), node(0.0)], &element, 2).is_err());

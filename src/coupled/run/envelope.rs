@@ -15,9 +15,6 @@ use crate::interface::ContactState;
 pub struct ElementEnvelope {
     /// The element.
     pub element: ContactElement,
-    /// Front and back end of the element along y, m; 0 and 1 in the plane.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub depth: [f64; 2],
     /// Pressure at the start, Pa.
     pub static_pressure: f64,
     /// Smallest and largest pressure, Pa.
@@ -52,18 +49,17 @@ pub(crate) fn tension(
     let least = |own: &ElementEnvelope| own.pressure.lowest.value;
     let (_, own) = held.min_by(|(_, a), (_, b)| least(a).total_cmp(&least(b)))?;
     let (tension, time) = (-least(own), own.pressure.lowest.time);
-    let (x, [front, back]) = (own.element.center(), own.depth);
-    let y = in_plan.then_some(0.5 * (front + back));
+    let [x, y, _] = own.element.center();
+    let y = in_plan.then_some(y);
     (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, time })
 }
 
 /// Envelopes of all elements at the start of a run.
 pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
-    let envelope = |((element, depth), contact): ((&ContactElement, &[f64; 2]), &ContactState)| {
+    let envelope = |(element, contact): (&ContactElement, &ContactState)| {
         let peak = |value| Peak { value, time: state.time };
         ElementEnvelope {
             element: *element,
-            depth: *depth,
             static_pressure: contact.pressure,
             pressure: Extremes::single(contact.pressure, state.time),
             shear: peak(contact.shear),
@@ -74,7 +70,7 @@ pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
             slip_across: peak(contact.slip_across),
         }
     };
-    elements.iter().zip(elements.depths()).zip(&state.contact).map(envelope).collect()
+    elements.iter().zip(&state.contact).map(envelope).collect()
 }
 
 /// Extends the envelopes by a step of duration `step`.

@@ -263,8 +263,8 @@ impl Run {
         self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
         let length = |own: &ElementEnvelope| {
-            let (along, [front, back]) = (own.element.length(), own.depth);
-            if self.in_plan { along.min(back - front) } else { along }
+            let [along, across] = own.element.sides();
+            if self.in_plan { along.min(across) } else { along }
         };
         let lengths: f64 = self.envelope.iter().map(length).sum();
         let Summary { base_rotation, rotation_across, twist, .. } = &self.whole;

@@ -154,9 +154,7 @@ impl Run {
         let of = |own: &Summary| {
             let ends = [own.ends, own.depth][axis];
             let elements = self.envelope.get(own.elements.clone()).unwrap_or_default();
-            let of_element = |own: &ElementEnvelope| {
-                middle([[own.element.left, own.element.right], own.depth][axis])
-            };
+            let of_element = |own: &ElementEnvelope| own.element.center()[axis];
             let ([first, last], center) = (span(elements.iter().map(of_element)), middle(ends));
             (center - first).min(last - center) / (0.5 * (ends[1] - ends[0]))
         };
@@ -233,10 +231,10 @@ impl Run {
         let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
         let row = |envelope: &ElementEnvelope| {
-            let mut cells = vec![thousandths(envelope.element.center())];
+            let [x, y, _] = envelope.element.center();
+            let mut cells = vec![thousandths(x)];
             if self.in_plan {
-                let [front, back] = envelope.depth;
-                cells.push(thousandths(0.5 * (front + back)));
+                cells.push(thousandths(y));
             }
             cells.extend([
                 number(1e-3 * envelope.static_pressure),

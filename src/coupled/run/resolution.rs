@@ -173,18 +173,19 @@ impl Resolution {
     pub(crate) fn new(time_step: f64, shear_wave_speed: Option<f64>, state: &State) -> Self {
         let elements = &state.context.elements;
         let in_plan = elements.is_plan();
-        let sides = |axis: usize| (0..elements.len()).map(move |e| elements.sides(e)[axis]);
+        let sides = |axis: usize| elements.iter().map(move |own| own.sides()[axis]);
         let narrowest = |axis: usize| sides(axis).fold(f64::INFINITY, f64::min);
         let longest =
             if in_plan { narrowest(0).max(narrowest(1)) } else { sides(0).fold(0.0, f64::max) };
         let foundations = state.foundations.iter().map(|own| {
-            let range = own.elements.clone();
-            let along = elements[range.clone()].iter().map(|own| [own.left, own.right]).collect();
-            let along = Axis::new(along, own.base_moment);
+            let ends = |axis: usize| {
+                elements[own.elements.clone()].iter().map(|own| own.ends()[axis]).collect()
+            };
+            let along = Axis::new(ends(0), own.base_moment);
             if !in_plan {
                 return [along, Axis { elements: usize::MAX, ..Axis::default() }];
             }
-            [along, Axis::new(elements.depths()[range].to_vec(), own.moment_across)]
+            [along, Axis::new(ends(1), own.moment_across)]
         });
         let count = |axes: &[Axis; 2]| axes[0].elements.min(axes[1].elements);
         let fewest = foundations.enumerate().min_by_key(|(_, axes)| count(axes));

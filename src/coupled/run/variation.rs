@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use crate::bem::{Ground, directions};
+use crate::bem::Ground;
 use crate::geometry::{ContactLayout, SPACE};
 use crate::motion::FreeField;
 
@@ -54,7 +54,7 @@ impl Sampler<'_> {
     /// Whether the free field differs between the first element and the last.
     pub(crate) fn is_running(&self) -> bool {
         let count = self.ground.elements().len();
-        let layout = ContactLayout::new(directions(self.ground), count);
+        let layout = ContactLayout::for_elements(self.ground.elements());
         let mut field = vec![0.0; layout.len()];
         let [mut difference, mut sum] = [0.0; 2];
         for time in self.instants() {
@@ -71,7 +71,7 @@ impl Sampler<'_> {
     /// Frequency of the ground's acceleration under the middle element, Hz.
     pub(crate) fn frequency(&self) -> Option<f64> {
         let count = self.ground.elements().len();
-        let layout = ContactLayout::new(directions(self.ground), count);
+        let layout = ContactLayout::for_elements(self.ground.elements());
         let mut field = vec![0.0; layout.len()];
         let mut distance = self.time_step;
         for _ in 0..HALVINGS {

@@ -216,12 +216,8 @@ mod tests {
     use super::*;
     use crate::bem::ContactElement;
 
-    const BASE: [ContactElement; 2] =
-        [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }];
-
-    fn patch(depths: [f64; 2], is_plan: bool) -> Patch {
-        let depths = depths.map(|depth| [0.0, depth]).to_vec();
-        Patch::new(if is_plan { 3 } else { 2 }, BASE.to_vec(), depths, vec![1.0; 2]).unwrap()
+    fn patch() -> Patch {
+        Patch::new(vec![ContactElement::new(-1.0, 1.0), ContactElement::new(1.0, 2.0)]).unwrap()
     }
 
     /// Factors of safety on `patch`, whose outline is empty in the plane.
@@ -249,7 +245,7 @@ mod tests {
     #[test]
     fn by_hand() {
         let state = contact([30.0, 10.0], [-10.0, 6.0]);
-        let of = |friction: &[f64]| safety(&patch([1.0; 2], false), &[], friction, &state);
+        let of = |friction: &[f64]| safety(&patch(), &[], friction, &state);
         assert!((of(&[0.4]).sliding - 0.4 * 70.0 / 14.0).abs() < 1e-14);
         assert!((of(&[0.5, 0.1]).sliding - 31.0 / 14.0).abs() < 1e-14);
         assert!(of(&[]).sliding.is_nan());
@@ -263,7 +259,9 @@ mod tests {
     fn by_hand_in_plan() {
         let mut state = contact([30.0, 10.0], [-10.0, 6.0]);
         [state[0].shear_across, state[1].shear_across] = [5.0, 10.0];
-        let patch = patch([3.0, 1.0], true);
+        let cells = [([-1.0, 1.0], [0.0, 3.0]), ([1.0, 2.0], [0.0, 1.0])];
+        let cells = cells.map(|(along, across)| ContactElement::in_plan(along, across));
+        let patch = Patch::new(cells.to_vec()).unwrap();
         let square = [[-1.0, 0.0], [2.0, 0.0], [2.0, 3.0], [-1.0, 3.0]];
         let found = safety(&patch, &square, &[0.4], &state);
         assert!((found.sliding - 0.4 * 190.0 / 54.0_f64.hypot(40.0)).abs() < 1e-14);
@@ -280,7 +278,7 @@ mod tests {
 
     #[test]
     fn limits() {
-        let patch = patch([1.0; 2], false);
+        let patch = patch();
         let of = |friction: f64, state: &[ContactState; 2]| safety(&patch, &[], &[friction], state);
         let (flight, pressed) = (contact([0.0; 2], [0.0; 2]), contact([1.0; 2], [0.0; 2]));
         for friction in [0.0, 0.4, f64::INFINITY] {

@@ -115,7 +115,7 @@ fn resultants(
             };
             return broken(pulls, error);
         }
-        let all_middles = part.elements().iter().map(|&e| base.elements().middle(e));
+        let all_middles = part.elements().iter().map(|&e| base.elements()[e].center());
         let passed = [0, 1].map(|axis| middles[axis] + eccentricities[axis]);
         let slack = half_widths.map(|half| 1e-9 * half);
         let mut axes = base.layout().axes();
@@ -130,7 +130,7 @@ fn resultants(
             return Some(slides);
         }
         if let Some(across) = across {
-            let distance = |[x, y]: [f64; 2]| (x - middles[0]).hypot(y - middles[1]);
+            let distance = |[x, y, _]: [f64; 3]| (x - middles[0]).hypot(y - middles[1]);
             let arms = all_middles.map(distance).zip(lengths());
             let resistance = friction * pressure * arms.map(|(arm, area)| arm * area).sum::<f64>();
             let (torque, ratio) = (moments[2], moments[2].abs() / resistance);
@@ -187,7 +187,7 @@ fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (
 ///
 /// By more than the slack.
 fn beyond(
-    middles: impl Iterator<Item = [f64; 2]>,
+    middles: impl Iterator<Item = [f64; 3]>,
     axis: usize,
     passed: [f64; 2],
     slack: [f64; 2],

@@ -84,7 +84,7 @@ impl ElementGrid {
         let (first, last) = (elements.first()?, elements.last()?);
         let pitch = first.length();
         let most = EMPTY * elements.len();
-        if (last.right - first.left) / pitch >= most as f64 + 0.5 {
+        if (last.right() - first.left()) / pitch >= most as f64 + 0.5 {
             return None;
         }
         #[allow(
@@ -92,8 +92,8 @@ impl ElementGrid {
             clippy::cast_sign_loss,
             reason = "at most `most`"
         )]
-        let cell = |left: f64| ((left - first.left) / pitch).round() as usize;
-        let cells: Vec<_> = elements.iter().map(|element| cell(element.left)).collect();
+        let cell = |left: f64| ((left - first.left()) / pitch).round() as usize;
+        let cells: Vec<_> = elements.iter().map(|element| cell(element.left())).collect();
         let mut classes = vec![None; cells.last()? + 1];
         // Pairs of one class are equal except for rounding: all pairs of one offset must be in one class.
         let mut scales = pairs.pairs().iter().map(|pair| pair.scale);

@@ -1,7 +1,7 @@
 //! One double for all traits but the structure's.
 
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
-use basemat::bem::{ContactElement, Ground, GroundDescription, PlanElement};
+use basemat::bem::{ContactElement, Ground, GroundDescription};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
 use basemat::history::ConvolutionHistory;
@@ -163,12 +163,7 @@ impl InterfaceLaw for Double {
 impl Ground for Double {
     fn elements(&self) -> &[ContactElement] {
         self.0.asked("elements");
-        &[ContactElement { left: 0.0, right: 1.0 }]
-    }
-
-    fn in_plan(&self, element: usize) -> Option<PlanElement> {
-        self.0.asked("in_plan");
-        Some(PlanElement { depth: [CORRECT, element as f64], fraction_inside: 0.5 })
+        &[const { ContactElement::new(0.0, 1.0) }]
     }
 
     fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {

@@ -71,7 +71,7 @@ fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElemen
     let scale = 0.5 * time_step * time_step;
     let elements = ground.elements();
     for (i, j) in (0..size * size).map(|k| (k / size, k % size)) {
-        let (x, y) = (elements[i % count].center(), elements[j % count].center());
+        let (x, y) = (elements[i % count].center()[0], elements[j % count].center()[0]);
         let mean = match (i < count, j < count) {
             (true, true) => 1.0 / mass + x * y / inertia,
             (true, false) => -x * height / inertia,
@@ -307,7 +307,7 @@ pub fn sequence(count: usize, friction: f64, real: bool, random: &mut Random) ->
     };
     let size = 2 * count;
     let motion = Arc::new(Mutex::new(vec![0.0; size]));
-    let (left, right) = (elements[0].left, elements[count - 1].right);
+    let (left, right) = (elements[0].left(), elements[count - 1].right());
     let ground = Prescribed { elements, matrix: matrix.clone(), motion: Arc::clone(&motion) };
     let body = RigidBlock::from_mass(right - left, 1e60, 1e60, 0.0).unwrap();
     let mut simulation = Simulation::builder(1.0)

@@ -87,17 +87,13 @@ impl Scene {
 /// follows.
 pub fn least_work(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
     let count = ground.elements().len();
-    let directions = if ground.in_plan(0).is_some() { 3 } else { 2 };
+    let directions = ground.elements()[0].directions().len();
     let size = directions * count;
     let mut operator = vec![0.0; size * size];
     ground.step_compliance(&mut operator).unwrap();
     let inverse = inverse(&operator, size);
-    let area = |e: usize| {
-        let [front, back] = ground.in_plan(e).map_or([0.0, 1.0], |place| place.depth);
-        let element = ground.elements()[e];
-        (element.right - element.left) * (back - front)
-    };
-    let areas: Vec<f64> = (0..count).map(area).collect();
+    let sides = ground.elements().iter().map(|own| own.sides());
+    let areas: Vec<f64> = sides.map(|[along, across]| along * across).collect();
     let mut random = Random(seed);
     let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
     let mut before = vec![0.0; size];

@@ -62,7 +62,7 @@ impl RigidStrip {
         for (q, element) in ground.elements().iter().enumerate() {
             if active(q) {
                 motions[1][q] = 1.0;
-                motions[2][q] = element.center();
+                motions[2][q] = element.center()[0];
             }
             if active(elements + q) {
                 motions[0][elements + q] = 1.0;

@@ -36,7 +36,7 @@ fn errors(name: &str, poisson: f64) -> Result<[f64; 3], AnyError> {
             worst[0] = worse(worst[0], (found - wanted).abs());
         }
     }
-    let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+    let element = |middle: f64| ContactElement::new(middle - 0.5, middle + 0.5);
     let mean = table(&format!("lamb_galerkin_nu{name}.csv"));
     for [distance, time, xx, xy, yx, yy] in mean.rows(["d", "t", "xx", "xy", "yx", "yy"]) {
         let closed = plane.element_mean(element(distance), element(0.0), time)?;
@@ -53,7 +53,7 @@ fn errors(name: &str, poisson: f64) -> Result<[f64; 3], AnyError> {
 /// Mean displacement `[xx, zx, zz]` of an element after a traction was held for `steps` steps.
 fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3], AnyError> {
     let kernel = InfluenceKernel::new(*soil, time / steps as f64)?;
-    let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+    let element = |middle: f64| ContactElement::new(middle - 0.5, middle + 0.5);
     (1..=steps).try_fold([0.0; 3], |[xx, zx, zz], lag| {
         let g = kernel.coefficients(element(distance), element(0.0), lag)?;
         Ok([xx + g.xx, zx + g.zx, zz + g.zz])
@@ -63,7 +63,7 @@ fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3],
 /// Relative distance of late convolution weights from their limit: u grows by (1−ν)/(π μ) ln t.
 fn late(poisson: f64) -> Result<f64, AnyError> {
     let kernel = InfluenceKernel::new(Soil::new(1.0, poisson, 1.0)?, 0.5)?;
-    let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+    let element = |middle: f64| ContactElement::new(middle - 0.5, middle + 0.5);
     let lag = 100_000;
     let limit = (1.0 - poisson) / PI * (lag as f64 / (lag as f64 - 1.0)).ln();
     let g = kernel.coefficients(element(3.0), element(0.0), lag)?;
@@ -128,7 +128,7 @@ fn figure() -> Result<Figure, AnyError> {
         let points = points.into_iter().map(|row| (row[1], row[2])).collect();
         right = right.circles(&format!("{place}, table"), color, points);
         let kernel = InfluenceKernel::new(soil, 0.02)?;
-        let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+        let element = |middle: f64| ContactElement::new(middle - 0.5, middle + 0.5);
         let (mut sum, mut found) = (0.0, vec![(0.0, 0.0)]);
         for lag in 1.. {
             let time = 0.02 * lag as f64;

@@ -138,7 +138,7 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
         .pressure
         .iter()
         .map(|(element, p)| {
-            let wanted = carried(0.75, element.right) - carried(0.75, element.left);
+            let wanted = carried(0.75, element.right()) - carried(0.75, element.left());
             (p * element.length() - wanted).abs()
         })
         .sum();
@@ -179,7 +179,7 @@ fn figure(pressed: &Found) -> Result<Figure, AnyError> {
         left = left.circles(name, color, points);
     }
     left = left.room(0.02, 0.08);
-    let middle = |element: &ContactElement| 0.5 * (element.left + element.right);
+    let middle = |element: &ContactElement| 0.5 * (element.left() + element.right());
     let pressure = |x: f64| 2.0 / PI * (x / (1.0 - x)).sqrt();
     let exact = (0..=970).map(|k| 1e-3 * f64::from(k)).map(|x| (x, pressure(x))).collect();
     let found = pressed.pressure.iter().filter(|(element, _)| middle(element) < 0.97);

@@ -18,7 +18,7 @@ struct Made {
 
 impl Made {
     fn new(lattice: &Plan, cells: Vec<[usize; 2]>) -> Arc<Self> {
-        let classes = PairClasses::in_plan(lattice.clone(), cells, 0.0).unwrap();
+        let classes = PairClasses::in_plan(lattice.clone(), cells, [0.0; 2]).unwrap();
         Arc::new(Self { classes, lattice: lattice.clone() })
     }
 

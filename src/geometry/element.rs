@@ -1,0 +1,175 @@
+//! Contact element: its place, its directions and its area.
+
+use super::middle;
+use crate::error::{Result, finite, positive, require};
+
+/// Directions of an element on the flat surface: down, to the right, away from the reader.
+const FLAT: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// Ends along y of an element in the plane, m: a metre of depth.
+const METRE: [f64; 2] = [-0.5, 0.5];
+
+/// Contact element between base and soil: a flat rectangle with directions of its own.
+///
+/// Coordinates: x to the right, y away from the reader, z up, m. Numbers of an element count along its
+/// [`directions`](ContactElement::directions): the normal into the soil, and the tangents. An element in the plane has
+/// one tangent and is one metre deep.
+///
+/// ```
+/// use basemat::bem::ContactElement;
+/// let strip = ContactElement::new(-1.0, 2.0);
+/// assert_eq!((strip.length(), strip.center()[0]), (3.0, 0.5));
+/// let cell = ContactElement::in_plan([-1.0, 2.0], [0.0, 4.0]);
+/// assert_eq!((cell.area(), cell.directions().len()), (12.0, 3));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct ContactElement {
+    /// Corner from which all tangents lead inwards, and the opposite corner, m.
+    corners: [[f64; 3]; 2],
+    /// Unit vectors: the normal into the soil, and both sides of the rectangle.
+    directions: [[f64; 3]; 3],
+    /// Whether the element moves along both sides; in the plane along the first.
+    in_plan: bool,
+    /// Fraction of the area inside the outline of the base.
+    inside: f64,
+}
+
+impl ContactElement {
+    /// Element in the plane: the interval from `left` to `right` of the surface, m.
+    pub const fn new(left: f64, right: f64) -> Self {
+        Self { in_plan: false, ..Self::in_plan([left, right], METRE) }
+    }
+
+    /// Element in plan: a rectangle of the surface by its ends along x and along y, m.
+    pub const fn in_plan([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Self {
+        let corners = [[left, front, 0.0], [right, back, 0.0]];
+        Self { corners, directions: FLAT, in_plan: true, inside: 1.0 }
+    }
+
+    /// Sets the fraction of the area that is inside the outline of the base, above 0 and at most 1.
+    ///
+    /// Pressures, shear tractions and strengths of a simulation refer to the area inside. Tractions of a ground are
+    /// means over the whole element.
+    #[must_use]
+    pub const fn with_fraction_inside(self, inside: f64) -> Self {
+        Self { inside, ..self }
+    }
+
+    /// Left end, m.
+    pub const fn left(&self) -> f64 {
+        self.corners[0][0]
+    }
+
+    /// Right end, m.
+    pub const fn right(&self) -> f64 {
+        self.corners[1][0]
+    }
+
+    /// Front and back end along y, m; −½ and ½ in the plane.
+    pub const fn depth(&self) -> [f64; 2] {
+        [self.corners[0][1], self.corners[1][1]]
+    }
+
+    /// Ends along x and along y, m.
+    pub(crate) const fn ends(&self) -> [[f64; 2]; 2] {
+        [[self.left(), self.right()], self.depth()]
+    }
+
+    /// Length along the first tangent, m.
+    pub fn length(&self) -> f64 {
+        self.sides()[0]
+    }
+
+    /// Sides along the tangents, m; the second is one metre in the plane.
+    pub fn sides(&self) -> [f64; 2] {
+        let [low, high] = self.corners;
+        let diagonal = [0, 1, 2].map(|k| high[k] - low[k]);
+        let [_, along, across] = self.components(diagonal);
+        [along, across]
+    }
+
+    /// Centre `[x, y, z]`, m.
+    pub fn center(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| middle([self.corners[0][k], self.corners[1][k]]))
+    }
+
+    /// Unit vectors along which the element moves: the normal into the soil, and the tangents.
+    ///
+    /// One tangent in the plane, two in plan.
+    pub fn directions(&self) -> &[[f64; 3]] {
+        &self.directions[..2 + usize::from(self.in_plan)]
+    }
+
+    /// Components of a vector `[x, y, z]` along the normal and both sides.
+    pub(crate) fn components(&self, vector: [f64; 3]) -> [f64; 3] {
+        self.directions.map(|own| own[0] * vector[0] + own[1] * vector[1] + own[2] * vector[2])
+    }
+
+    /// Fraction of the area that is inside the outline of the base.
+    pub const fn fraction_inside(&self) -> f64 {
+        self.inside
+    }
+
+    /// Area inside the outline of the base, m²; in the plane the length, m.
+    pub fn area(&self) -> f64 {
+        let [along, across] = self.sides();
+        along * across * self.inside
+    }
+
+    /// Corners in order, m; in the plane both ends.
+    pub(crate) fn outline(&self) -> impl Iterator<Item = [f64; 3]> {
+        // A coordinate changes along the first side, or else along the second.
+        let side = |k: usize| usize::from(self.directions[1][k] == 0.0);
+        let corner = move |ends: [usize; 2]| [0, 1, 2].map(|k| self.corners[ends[side(k)]][k]);
+        let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(corner);
+        corners.into_iter().take(2 * (self.directions().len() - 1))
+    }
+
+    /// Halves of the element; in plan its quarters: left front, right front, left back, right back.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Self> {
+        let sides = self.directions().len() - 1;
+        let part = move |part: usize| {
+            (0..sides).fold(*self, |own, side| own.half(1 + side, part >> side & 1))
+        };
+        (0..1 << sides).map(part)
+    }
+
+    /// First (0) or second (1) half along a direction.
+    fn half(mut self, direction: usize, half: usize) -> Self {
+        let center = self.center();
+        for k in (0..3).filter(|k| self.directions[direction][*k] != 0.0) {
+            self.corners[1 - half][k] = center[k];
+        }
+        self
+    }
+
+    /// Error unless ends are finite, the sides positive, and the fraction inside above 0 and at most 1.
+    pub(super) fn check(&self) -> Result<()> {
+        let ([left, right], [front, back]) = (self.ends()[0], self.depth());
+        finite("left end of a contact element", left)?;
+        finite("right end of a contact element", right)?;
+        positive("length of a contact element", self.length())?;
+        finite("front end of a contact element", front)?;
+        finite("back end of a contact element", back)?;
+        positive("depth of a contact element", self.sides()[1])?;
+        let quantity = "fraction of an element inside the outline";
+        require(
+            quantity,
+            self.inside,
+            self.inside > 0.0 && self.inside <= 1.0,
+            "above 0 and at most 1",
+        )
+        .map(drop)
+    }
+
+    /// Fraction of an element's side by which neighbours may overlap, for the rounding of a common node.
+    pub(super) const OVERLAP: f64 = 1e-9;
+
+    /// Whether the ends of two elements along `axis` (x 0, y 1) overlap by more than rounding.
+    pub(super) fn overlaps(&self, other: &Self, axis: usize) -> bool {
+        let ([low, high], [least, most]) = (self.ends()[axis], other.ends()[axis]);
+        let rounding = Self::OVERLAP * self.sides()[axis].min(other.sides()[axis]);
+        high.min(most) - low.max(least) > rounding
+    }
+}
