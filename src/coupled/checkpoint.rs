@@ -193,29 +193,8 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn resume_changed(&mut self, checkpoint: &Checkpoint, changes: &[Change]) -> Result<()> {
-        if checkpoint.format != FORMAT {
-            let found = checkpoint.format;
-            return Err(CheckpointError::Format { found, needed: FORMAT }.into());
-        }
-        if checkpoint.sum != checkpoint.sum() {
-            return Err(CheckpointError::Damaged.into());
-        }
-        let corrupt = |quantity| CheckpointError::Corrupt { quantity };
-        if checkpoint.steps > MOST_STEPS {
-            return Err(corrupt("number of steps").into());
-        }
+        checkpoint.check()?;
         checkpoint.identity.check(&self.identity(checkpoint.steps)?, changes)?;
-        for (values, quantity) in [
-            (&checkpoint.laws, "state variables of the interface laws"),
-            (&checkpoint.state, "state"),
-            (&checkpoint.ground, "state of the ground"),
-            (&checkpoint.structure, "state of the structure"),
-            (&checkpoint.set_loads, "forces that were set"),
-        ] {
-            if values.iter().any(|value| !value.is_finite()) {
-                return Err(corrupt(quantity).into());
-            }
-        }
         // Changed loads use their own functions.
         let is_kept = !changes.contains(&Change::Load);
         if is_kept && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {
@@ -225,13 +204,13 @@ impl Simulation {
         let (mut state, mut books) = (self.state.clone(), self.books.clone());
         let own = numbers(scene.layout().components(), &mut state, books.as_mut());
         if own.len() != checkpoint.state.len() {
-            return Err(corrupt("state").into());
+            return Err(CheckpointError::Corrupt { quantity: "state" }.into());
         }
         own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
         restore_modes(scene, &checkpoint.modes, &mut state)?;
         let laws = state.start.state_variables_mut();
         if laws.len() != checkpoint.laws.len() {
-            return Err(corrupt("state variables of the interface laws").into());
+            return Err(CheckpointError::Corrupt { quantity: LAWS }.into());
         }
         laws.copy_from_slice(&checkpoint.laws);
         let before = save_variables(structure)?;
@@ -254,6 +233,36 @@ impl Simulation {
         for load in &mut self.scene.loads {
             let set = saved.next().filter(|saved| saved[0] != 0.0);
             load.set(set.map(|saved| saved[1]));
+        }
+        Ok(())
+    }
+}
+
+/// Name of [`Checkpoint::laws`] in errors.
+const LAWS: &str = "state variables of the interface laws";
+
+impl Checkpoint {
+    /// Error for another format, another check sum, or a number that no simulation has.
+    fn check(&self) -> Result<()> {
+        if self.format != FORMAT {
+            return Err(CheckpointError::Format { found: self.format, needed: FORMAT }.into());
+        }
+        if self.sum != self.sum() {
+            return Err(CheckpointError::Damaged.into());
+        }
+        if self.steps > MOST_STEPS {
+            return Err(CheckpointError::Corrupt { quantity: "number of steps" }.into());
+        }
+        for (values, quantity) in [
+            (&self.laws, LAWS),
+            (&self.state, "state"),
+            (&self.ground, "state of the ground"),
+            (&self.structure, "state of the structure"),
+            (&self.set_loads, "forces that were set"),
+        ] {
+            if values.iter().any(|value| !value.is_finite()) {
+                return Err(CheckpointError::Corrupt { quantity }.into());
+            }
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::serviceability::Serviceability;
 use crate::coupled::state::Context;
-use crate::coupled::statics::equilibrium::StaticState;
+use crate::coupled::statics::static_state::StaticState;
 use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};

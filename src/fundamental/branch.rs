@@ -81,6 +81,34 @@ pub(crate) struct Branches {
     pole: [f64; 2],
 }
 
+/// Singularities that are subtracted on a piece and integrated in closed form.
+#[derive(Default)]
+struct Singular {
+    /// Residue at the Rayleigh pole.
+    residue: Option<[f64; 2]>,
+    /// Factor of s²/(s²+c) at the root beside the path, and c.
+    near: Option<([f64; 2], f64)>,
+}
+
+impl Singular {
+    /// Adds the integrals over the piece.
+    fn add(&self, pole: Option<f64>, [low, high]: [f64; 2], sum: &mut [f64; 2]) {
+        if let (Some(residue), Some(s)) = (self.residue, pole) {
+            // The lower limit 1e-30 replaces a zero distance when a piece ends at the pole; the next piece cancels
+            // it.
+            let log = ((high - s).abs().max(1e-30) / (low - s).abs().max(1e-30)).ln();
+            sum[0] += residue[0] * log;
+            sum[1] += residue[1] * log;
+        }
+        if let Some((side, c)) = self.near {
+            let delta = c.sqrt();
+            let angle = ((high - low) * delta).atan2(c + low * high);
+            sum[0] -= side[0] * delta * angle;
+            sum[1] -= side[1] * delta * angle;
+        }
+    }
+}
+
 /// A root nearer than this to a² is subtracted.
 const NEAR: f64 = 0.01;
 
@@ -190,31 +218,7 @@ impl Branches {
             self.piece(part, [s, high], a, sum, depth);
             return;
         }
-        let mut reach = f64::INFINITY;
-        for &point in &self.regular[part as usize] {
-            reach = reach.min(gauss::reach(point, low, high));
-        }
-        if part == Branch::Tail && !a.vanishes() {
-            reach = reach.min(gauss::reach([0.0, 0.0], low, high));
-        }
-        let mut subtract_pole = None;
-        if let Some(s) = pole {
-            let distance = gauss::reach([s, 0.0], low, high);
-            if distance < SUBTRACT {
-                subtract_pole = Some(s);
-            } else {
-                reach = reach.min(distance);
-            }
-        }
-        let mut subtract_near = None;
-        if let (Some(c), Branch::Pressure | Branch::OddLow) = (self.near, part) {
-            let distance = gauss::reach([0.0, c.sqrt()], low, high);
-            if distance < SUBTRACT {
-                subtract_near = Some(c);
-            } else {
-                reach = reach.min(distance);
-            }
-        }
+        let (singular, reach) = self.singularities(part, [low, high], a, pole);
         let rule = match gauss::rule_for(reach) {
             Some(rule) => rule,
             None if depth < 60 => {
@@ -225,12 +229,7 @@ impl Branches {
             }
             None => gauss::largest(),
         };
-        let residue = subtract_pole.map(|s| {
-            let [one, two, u] = self.smooth(part, s, pole);
-            let weight = a.at(u);
-            [one * weight, two * weight]
-        });
-        let side = subtract_near.map(|c| self.beside(part, c, a));
+        let Singular { residue, near, .. } = singular;
         let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
         for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
             let s = center + half * node;
@@ -247,7 +246,7 @@ impl Branches {
                 value[0] *= inverse;
                 value[1] *= inverse;
             }
-            if let (Some(side), Some(c)) = (side, subtract_near) {
+            if let Some((side, c)) = near {
                 let factor = if c == 0.0 { 0.0 } else { c / (s * s + c) };
                 value[0] += factor * side[0];
                 value[1] += factor * side[1];
@@ -255,19 +254,44 @@ impl Branches {
             sum[0] += weight * value[0];
             sum[1] += weight * value[1];
         }
-        if let (Some(residue), Some(s)) = (residue, pole) {
-            // The lower limit 1e-30 replaces a zero distance when a piece ends at the pole; the next piece
-            // cancels it.
-            let log = ((high - s).abs().max(1e-30) / (low - s).abs().max(1e-30)).ln();
-            sum[0] += residue[0] * log;
-            sum[1] += residue[1] * log;
+        singular.add(pole, [low, high], sum);
+    }
+
+    /// Singularities that are subtracted on a piece, and the reach of the nearest other one.
+    fn singularities(
+        &self,
+        part: Branch,
+        [low, high]: [f64; 2],
+        a: &impl Weight,
+        pole: Option<f64>,
+    ) -> (Singular, f64) {
+        let mut reach = f64::INFINITY;
+        for &point in &self.regular[part as usize] {
+            reach = reach.min(gauss::reach(point, low, high));
         }
-        if let (Some(side), Some(c)) = (side, subtract_near) {
-            let delta = c.sqrt();
-            let angle = ((high - low) * delta).atan2(c + low * high);
-            sum[0] -= side[0] * delta * angle;
-            sum[1] -= side[1] * delta * angle;
+        if part == Branch::Tail && !a.vanishes() {
+            reach = reach.min(gauss::reach([0.0, 0.0], low, high));
         }
+        let mut singular = Singular::default();
+        if let Some(s) = pole {
+            let distance = gauss::reach([s, 0.0], low, high);
+            if distance < SUBTRACT {
+                let [one, two, u] = self.smooth(part, s, pole);
+                let weight = a.at(u);
+                singular.residue = Some([one * weight, two * weight]);
+            } else {
+                reach = reach.min(distance);
+            }
+        }
+        if let (Some(c), Branch::Pressure | Branch::OddLow) = (self.near, part) {
+            let distance = gauss::reach([0.0, c.sqrt()], low, high);
+            if distance < SUBTRACT {
+                singular.near = Some((self.beside(part, c, a), c));
+            } else {
+                reach = reach.min(distance);
+            }
+        }
+        (singular, reach)
     }
 
     /// Kernel times dτ/ds at `s`, and u; the kernel's factor 1/(s − pole) is left out if there is a pole.

@@ -239,6 +239,11 @@ impl<'a> Fields<'a> {
         self.texts.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1)
     }
 
+    /// Whether a comma of thousands, or an empty field between tabs, may have shifted the following columns.
+    pub(super) fn may_be_shifted(&self, text: &str) -> bool {
+        self.separator == Some(',') || text.contains("\t\t")
+    }
+
     /// Time (s) in a column, counted from 1: seconds or a time of day.
     pub(super) fn time(
         &self,

@@ -215,9 +215,7 @@ impl Table {
             // The cells behind the last comma may be empty in all lines.
             let found = if all { filled } else { found };
             let expected = *columns.get_or_insert(found);
-            // A comma of thousands, or an empty field between tabs, has shifted the following columns.
-            let moved = fields.separator == Some(',') || text.contains("\t\t") || all;
-            if found != expected && moved {
+            if found != expected && (all || fields.may_be_shifted(&text)) {
                 return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
             }
             table.lines.push(lines.number);

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::deformed::{SOIL, SURFACE, View, bounds, check_dimension, places};
 use super::drawing::{fitted, short, width};
 use super::shown::{Shown, shown};
-use super::svg::Svg;
+use super::svg::{Svg, changes, polygon};
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};
@@ -279,24 +279,8 @@ impl Floor {
         let soil = polygon(&self.corners(self.margin).map(seen));
         let mut out =
             format!("<path d=\"{soil}\" fill=\"{}\" stroke=\"{}\"/>\n", hex(SOIL), hex(SURFACE));
-        let [[left, right], [front, back]] = self.ends;
-        let away = 0.6 * self.margin;
-        for (name, from, to) in [
-            ("x", [left, 0.0, front - away], [right, 0.0, front - away]),
-            ("y", [right + away, 0.0, front], [right + away, 0.0, back]),
-        ] {
-            let ([x, y], [to_x, to_y]) = (seen(from), seen(to));
-            let _ = writeln!(
-                out,
-                "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\
-                 <circle cx=\"{to_x:.1}\" cy=\"{to_y:.1}\" r=\"3\" fill=\"{}\"/>\
-                 <text x=\"{:.1}\" y=\"{:.1}\">{name}</text>",
-                hex(SURFACE),
-                hex(SURFACE),
-                to_x + 7.0,
-                to_y + 5.0
-            );
-        }
+        self.draw_axes(screen, &mut out);
+        let [[left, _], [_, back]] = self.ends;
         let contact: Vec<_> = time_series.contact_frames().collect();
         if contact.len() != frames {
             return out;
@@ -327,29 +311,29 @@ impl Floor {
         }
         out
     }
-}
 
-fn polygon(corners: &[[f64; 2]]) -> String {
-    let points: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.1} {y:.1}")).collect();
-    format!("M{}Z", points.join("L"))
-}
-
-/// Animates an attribute with values for equal parts of the time; only changes are written.
-fn changes(attribute: &str, values: &[String], duration: &str) -> String {
-    let new = |k: &usize| *k == 0 || values[*k] != values[*k - 1];
-    let at: Vec<usize> = (0..values.len()).filter(new).collect();
-    if at.len() < 2 {
-        return String::new();
+    /// Draws the axes x and y beside the soil.
+    fn draw_axes(&self, screen: &Screen, out: &mut String) {
+        let [[left, right], [front, back]] = self.ends;
+        let away = 0.6 * self.margin;
+        for (name, from, to) in [
+            ("x", [left, 0.0, front - away], [right, 0.0, front - away]),
+            ("y", [right + away, 0.0, front], [right + away, 0.0, back]),
+        ] {
+            let [[x, y], [to_x, to_y]] =
+                [from, to].map(|place| screen.place(View::Slanted.of(place)));
+            let _ = writeln!(
+                out,
+                "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\
+                 <circle cx=\"{to_x:.1}\" cy=\"{to_y:.1}\" r=\"3\" fill=\"{}\"/>\
+                 <text x=\"{:.1}\" y=\"{:.1}\">{name}</text>",
+                hex(SURFACE),
+                hex(SURFACE),
+                to_x + 7.0,
+                to_y + 5.0
+            );
+        }
     }
-    let times: Vec<String> =
-        at.iter().map(|k| format!("{:.5}", *k as f64 / values.len() as f64)).collect();
-    let values: Vec<&str> = at.iter().map(|k| &values[*k][..]).collect();
-    format!(
-        "<animate attributeName=\"{attribute}\" calcMode=\"discrete\" dur=\"{duration}\" \
-         repeatCount=\"indefinite\" keyTimes=\"{}\" values=\"{}\"/>",
-        times.join(";"),
-        values.join(";")
-    )
 }
 
 /// The running time: a bar, and a sequence of texts, because SMIL cannot count.

@@ -116,19 +116,7 @@ pub fn deformed_shapes(
     positive("magnification", magnification)?;
     at_least("times of deformed shapes", times.len(), 1)?;
     check_dimension(shape, time_series)?;
-    let rest: Vec<[f64; 3]> = shape.points().iter().map(at_rest).collect();
-    let mut drawn = vec![("at rest".to_owned(), rest)];
-    for &time in times {
-        finite("time of a deformed shape", time)?;
-        let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
-        let nearest = time_series.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
-        let frame = nearest.ok_or(Error::Scene {
-            quantity: "deformed shape",
-            needed: "tell the recorder to keep the motion",
-        })?;
-        let name = format!("t = {:.2} s", frame.time);
-        drawn.push((name, places(shape, &frame, magnification)?));
-    }
+    let drawn = shapes_at(shape, time_series, times, magnification)?;
     let stroke = |k: usize| match k.checked_sub(1) {
         None => Stroke::plain(RGBColor(170, 170, 170)),
         Some(k) => Stroke::nth(k),
@@ -178,6 +166,29 @@ pub fn deformed_shapes(
         draw(&left, &both[0])?;
         draw(&right, &both[1])
     })
+}
+
+/// The shape at rest and at the frames nearest to the times: names, and places of all points.
+fn shapes_at(
+    shape: &DeformedShape,
+    time_series: &TimeSeries,
+    times: &[f64],
+    magnification: f64,
+) -> Result<Vec<(String, Vec<[f64; 3]>)>> {
+    let rest: Vec<[f64; 3]> = shape.points().iter().map(at_rest).collect();
+    let mut shapes = vec![("at rest".to_owned(), rest)];
+    for &time in times {
+        finite("time of a deformed shape", time)?;
+        let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
+        let nearest = time_series.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let frame = nearest.ok_or(Error::Scene {
+            quantity: "deformed shape",
+            needed: "tell the recorder to keep the motion",
+        })?;
+        let name = format!("t = {:.2} s", frame.time);
+        shapes.push((name, places(shape, &frame, magnification)?));
+    }
+    Ok(shapes)
 }
 
 /// A view, ranges of its axes, and the places of all points in it at every instant.

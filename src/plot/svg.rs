@@ -106,3 +106,27 @@ impl Sheet {
         chart(&left)
     }
 }
+
+/// Path of a closed polygon.
+pub(super) fn polygon(corners: &[[f64; 2]]) -> String {
+    let points: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.1} {y:.1}")).collect();
+    format!("M{}Z", points.join("L"))
+}
+
+/// Animates an attribute with values for equal parts of the time; only changes are written.
+pub(super) fn changes(attribute: &str, values: &[String], duration: &str) -> String {
+    let new = |k: &usize| *k == 0 || values[*k] != values[*k - 1];
+    let at: Vec<usize> = (0..values.len()).filter(new).collect();
+    if at.len() < 2 {
+        return String::new();
+    }
+    let times: Vec<String> =
+        at.iter().map(|k| format!("{:.5}", *k as f64 / values.len() as f64)).collect();
+    let values: Vec<&str> = at.iter().map(|k| &values[*k][..]).collect();
+    format!(
+        "<animate attributeName=\"{attribute}\" calcMode=\"discrete\" dur=\"{duration}\" \
+         repeatCount=\"indefinite\" keyTimes=\"{}\" values=\"{}\"/>",
+        times.join(";"),
+        values.join(";")
+    )
+}

@@ -104,6 +104,51 @@ impl<'a> Column<'a> {
         let difference = (up - down).scale(0.5) * above * below;
         [sum + difference, sum - difference]
     }
+
+    /// Overwrites `found` with the functions, from the waves (up, down) at the bottom.
+    ///
+    /// `total`: travel Σ κh through all layers. `kept`: values of each soil.
+    #[inline(always)]
+    fn sought<C: Number>(
+        &self,
+        at: &At<C>,
+        waves: [C; 2],
+        total: C,
+        kept: &[[C; 6]],
+        found: &mut [C],
+    ) {
+        let ([up, down], layers) = (waves, self.profile.layers().len());
+        // A rigid base moves like the bottom of the lowest layer.
+        let is_outcrop = self.control == ControlPoint::Outcrop
+            && matches!(self.profile.base(), Base::HalfPlane { .. });
+        let value = if is_outcrop { up } else { (up + down).scale(0.5) };
+        let mut decay = value.inverse().scale(0.5);
+        match self.sought {
+            Sought::Inverse => {
+                found[0] = value;
+                found[1] = total;
+            }
+            Sought::Accelerations => {
+                found[layers] = (up + down) * decay;
+                let kept = found[..layers].iter_mut().zip(&kept[..layers]);
+                for (found, [_, _, up, down, _, half]) in kept.rev() {
+                    decay = decay * *half * *half;
+                    *found = (*up + *down) * decay;
+                }
+            }
+            Sought::Strains => {
+                let square = (at.s * at.s).inverse();
+                let sizes = self.profile.layers().iter().zip(&kept[..layers]);
+                for (found, (layer, own)) in found[..layers].iter_mut().zip(sizes).rev() {
+                    let [_, _, up, down, travel, half] = own;
+                    decay = decay * *half;
+                    let wavenumber = travel.scale(1.0 / layer.thickness) * square;
+                    *found = (*up - *down * *half * *half) * wavenumber * decay;
+                    decay = decay * *half;
+                }
+            }
+        }
+    }
 }
 
 impl Functions for Column<'_> {
@@ -178,36 +223,6 @@ impl Functions for Column<'_> {
             };
             waves = [up, down * both];
         }
-        let [up, down] = waves;
-        // A rigid base moves like the bottom of the lowest layer.
-        let is_outcrop = self.control == ControlPoint::Outcrop
-            && matches!(self.profile.base(), Base::HalfPlane { .. });
-        let value = if is_outcrop { up } else { (up + down).scale(0.5) };
-        let mut decay = value.inverse().scale(0.5);
-        match self.sought {
-            Sought::Inverse => {
-                found[0] = value;
-                found[1] = total;
-            }
-            Sought::Accelerations => {
-                found[layers] = (up + down) * decay;
-                let kept = found[..layers].iter_mut().zip(&kept[..layers]);
-                for (found, [_, _, up, down, _, half]) in kept.rev() {
-                    decay = decay * *half * *half;
-                    *found = (*up + *down) * decay;
-                }
-            }
-            Sought::Strains => {
-                let square = (at.s * at.s).inverse();
-                let sizes = self.profile.layers().iter().zip(&kept[..layers]);
-                for (found, (layer, own)) in found[..layers].iter_mut().zip(sizes).rev() {
-                    let [_, _, up, down, travel, half] = own;
-                    decay = decay * *half;
-                    let wavenumber = travel.scale(1.0 / layer.thickness) * square;
-                    *found = (*up - *down * *half * *half) * wavenumber * decay;
-                    decay = decay * *half;
-                }
-            }
-        }
+        self.sought(at, waves, total, kept, found);
     }
 }

@@ -264,6 +264,18 @@ impl Circle {
 /// Approximate number of values between two calls of `heard`: a hundredth of a second.
 const HEARD: usize = 1 << 18;
 
+/// Chebyshev polynomials of all degrees at several places.
+#[inline]
+fn chebyshev(x: [f64; LANES]) -> [[f64; LANES]; POINTS] {
+    let mut polynomials = [[1.0; LANES]; POINTS];
+    polynomials[1] = x;
+    for degree in 2..POINTS {
+        let [before, last] = [polynomials[degree - 2], polynomials[degree - 1]];
+        polynomials[degree] = std::array::from_fn(|lane| 2.0 * x[lane] * last[lane] - before[lane]);
+    }
+    polynomials
+}
+
 /// Adds the contribution of an eigenvalue on a panel to the values at the points of a circle.
 ///
 /// `spectra` has one row for each function. An error of `heard` ends the evaluation.
@@ -300,13 +312,7 @@ pub(super) fn evaluate(
         let x: [f64; LANES] = std::array::from_fn(|lane| {
             2.0 * (first + lane - points.start) as f64 / points.len() as f64 - 1.0
         });
-        let mut polynomials = [[1.0; LANES]; POINTS];
-        polynomials[1] = x;
-        for degree in 2..POINTS {
-            let [before, last] = [polynomials[degree - 2], polynomials[degree - 1]];
-            polynomials[degree] =
-                std::array::from_fn(|lane| 2.0 * x[lane] * last[lane] - before[lane]);
-        }
+        let polynomials = chebyshev(x);
         let factors: [Complex; LANES] = std::array::from_fn(|lane| {
             let turned = Complex::polar((-turn * shift).exp(), turn * x[lane]);
             turned * factor(node, [circle.logarithm, circle.angle(first + lane)])

@@ -109,6 +109,7 @@ impl<'a> Sectors<'a> {
         }))
     }
 
+    /// Adds the resultants of tractions of one sector: even (1) or odd (−1) in x and in y.
     fn add_sector(
         &self,
         parity: [f64; 2],
@@ -116,38 +117,13 @@ impl<'a> Sectors<'a> {
         values: &[[Complex; SERIES]],
         sum: &mut [[Complex64; MOTIONS]; MOTIONS],
     ) -> Result<()> {
-        let counts = self.plan.lattice.counts;
-        let character = |h: [bool; 2], component: usize| {
-            let sign = |axis: usize| {
-                let turned = if component == axis + 1 { -1.0 } else { 1.0 };
-                if h[axis] { parity[axis] * turned } else { 1.0 }
-            };
-            sign(0) * sign(1)
-        };
-        // Place of each component of each element; an element on an axis has no odd ones.
-        let mut order = 0;
-        let places: Vec<[Option<usize>; COMPONENTS]> = self
-            .elements
-            .iter()
-            .map(|element| {
-                let mut places = [None; COMPONENTS];
-                for component in components {
-                    let fixed = |h: &&Reflection| h.images[*element] == *element;
-                    let even = |h: &Reflection| character(h.axes, *component) > 0.0;
-                    if self.group.iter().filter(fixed).all(even) {
-                        places[*component] = Some(order);
-                        order += 1;
-                    }
-                }
-                places
-            })
-            .collect();
-        // The matrix and its factor.
+        let character = |axes: [bool; 2], component: usize| character(parity, axes, component);
+        let (places, order) = self.places(components, character);
         let cells = self.plan.cells.len() as f64;
         memory::check("cells of a mat", cells, 32.0 * (order as f64).powi(2))?;
         let mut matrix = vec![Complex64::default(); order * order];
         let mut loads = vec![Complex64::default(); order * MOTIONS];
-        let size = self.group.len() as f64;
+        let (size, counts) = (self.group.len() as f64, self.plan.lattice.counts);
         for (receiver, element) in &self.cells {
             let rows = places[*element];
             for Reflection { axes, .. } in &self.group {
@@ -176,20 +152,31 @@ impl<'a> Sectors<'a> {
                 }
             }
         }
-        let mut tractions = loads.clone();
-        let mut factor = DenseFactor::with_columns(order, MOTIONS);
-        if !factor.factor(&matrix, order) {
-            return Err(Error::Singular { matrix: "compliance of a mat in plan", order });
-        }
-        factor.solve_columns(&mut tractions, MOTIONS);
-        for (load, traction) in loads.chunks_exact(MOTIONS).zip(tractions.chunks_exact(MOTIONS)) {
-            for (sum, load) in sum.iter_mut().zip(load) {
-                for (sum, traction) in sum.iter_mut().zip(traction) {
-                    *sum += load * traction;
+        add_resultants(&matrix, &loads, sum)
+    }
+
+    /// Place of each component of each element in a sector, and their number.
+    ///
+    /// An element on an axis has no odd components.
+    fn places(
+        &self,
+        components: &[usize],
+        character: impl Fn([bool; 2], usize) -> f64,
+    ) -> (Vec<[Option<usize>; COMPONENTS]>, usize) {
+        let mut order = 0;
+        let places = self.elements.iter().map(|element| {
+            let mut places = [None; COMPONENTS];
+            for component in components {
+                let fixed = |h: &&Reflection| h.images[*element] == *element;
+                let even = |h: &Reflection| character(h.axes, *component) > 0.0;
+                if self.group.iter().filter(fixed).all(even) {
+                    places[*component] = Some(order);
+                    order += 1;
                 }
             }
-        }
-        Ok(())
+            places
+        });
+        (places.collect(), order)
     }
 
     /// For each component of a cell: the resultants of a unit traction in each rigid motion, N or N m.
@@ -206,6 +193,38 @@ impl<'a> Sectors<'a> {
         let across = [0.0, 1.0, 0.0, 0.0, 0.0, x];
         [down, along, across].map(|row| row.map(|value| area * value))
     }
+}
+
+/// χ of a reflection of a component, for parities of the sector in x and in y.
+fn character(parity: [f64; 2], axes: [bool; 2], component: usize) -> f64 {
+    let sign = |axis: usize| {
+        let turned = if component == axis + 1 { -1.0 } else { 1.0 };
+        if axes[axis] { parity[axis] * turned } else { 1.0 }
+    };
+    sign(0) * sign(1)
+}
+
+/// Adds LᵀF⁻¹L for the compliances F of a sector and the resultants L of its tractions.
+fn add_resultants(
+    matrix: &[Complex64],
+    loads: &[Complex64],
+    sum: &mut [[Complex64; MOTIONS]; MOTIONS],
+) -> Result<()> {
+    let order = loads.len() / MOTIONS;
+    let mut tractions = loads.to_vec();
+    let mut factor = DenseFactor::with_columns(order, MOTIONS);
+    if !factor.factor(matrix, order) {
+        return Err(Error::Singular { matrix: "compliance of a mat in plan", order });
+    }
+    factor.solve_columns(&mut tractions, MOTIONS);
+    for (load, traction) in loads.chunks_exact(MOTIONS).zip(tractions.chunks_exact(MOTIONS)) {
+        for (sum, load) in sum.iter_mut().zip(load) {
+            for (sum, traction) in sum.iter_mut().zip(traction) {
+                *sum += load * traction;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A cell's mirror image.

@@ -22,6 +22,7 @@ mod newton;
 mod problem;
 mod proximal;
 mod search;
+mod status;
 mod sweeps;
 mod system;
 #[cfg(test)]
@@ -37,7 +38,7 @@ use newton::Newton;
 use problem::{Bounds, Problem};
 use proximal::Proximal;
 use search::search;
-use system::{Normal, Status, Tangential};
+use status::{Normal, Status, Tangential};
 
 /// Gap at which a bond breaks, relative to the largest displacement.
 const GONE: f64 = 1e-12;

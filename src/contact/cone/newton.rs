@@ -6,7 +6,8 @@
 use std::mem::Discriminant;
 
 use super::problem::{Endless, Problem};
-use super::system::{Normal, Status, System, Tangential};
+use super::status::{Normal, Status, Tangential};
+use super::system::System;
 
 /// Largest number of iterations.
 const ITERATIONS: usize = 15;

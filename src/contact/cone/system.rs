@@ -18,83 +18,14 @@
 //! statuses alone if W is constant, otherwise by the statuses of the same step. If all elements stick, the factors
 //! of W itself solve.
 
-use std::mem::{Discriminant, discriminant};
-
 use super::problem::Problem;
+use super::status::{Normal, Status, Tangential};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
 /// Number of columns of W⁻¹ that are solved for together.
 const BLOCK: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE: f64 = 4.0;
-
-/// Contact status of an element.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Status {
-    pub(super) normal: Normal,
-    pub(super) tangential: Tangential,
-}
-
-/// Status along the normal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Normal {
-    /// No pressure, or a bond at its strength.
-    Open,
-    Closed,
-    /// The pressure is at its cap.
-    Capped,
-}
-
-/// Status along the base.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Tangential {
-    /// No friction.
-    Free,
-    Stick,
-    /// Slip in this direction, with κ and the growth of the radius with p.
-    Slip {
-        direction: [f64; 2],
-        turn: f64,
-        slope: f64,
-    },
-}
-
-impl Status {
-    /// Kind of the status, without its numbers.
-    pub(super) fn kind(&self) -> (Normal, Discriminant<Tangential>) {
-        (self.normal, discriminant(&self.tangential))
-    }
-
-    /// Whether the element slips and its friction is below `friction`.
-    pub(super) fn is_held_by(&self, friction: f64) -> bool {
-        matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
-    }
-
-    /// Closed without slip.
-    pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
-    /// Open, without any force.
-    pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
-
-    /// Prescribed p of an open or capped element; `None` if closed.
-    fn bound(&self, [least, most]: [f64; 2]) -> Option<f64> {
-        match self.normal {
-            Normal::Open => Some(least),
-            Normal::Closed => None,
-            Normal::Capped => Some(most),
-        }
-    }
-
-    /// Numbers of unknown forces and of unknown motions.
-    fn dofs(&self) -> [usize; 2] {
-        let [force, motion] = match self.tangential {
-            Tangential::Free => [0, 2],
-            Tangential::Stick => [2, 0],
-            Tangential::Slip { .. } => [1, 2],
-        };
-        let closed = usize::from(self.normal == Normal::Closed);
-        [force + closed, motion + 1 - closed]
-    }
-}
 
 /// A weighted sum of components: one with weight 1, or the three of an element.
 #[derive(Clone, Copy)]
@@ -280,71 +211,76 @@ impl System {
     fn gather(&mut self, problem: &Problem, statuses: &[Status]) {
         self.dofs.clear();
         self.given.fill(0.0);
+        for (e, status) in statuses.iter().enumerate() {
+            self.gather_element(problem, e, status);
+        }
+        self.dofs.sort_unstable_by_key(|unknown| !unknown.row.is_single());
+    }
+
+    /// Lists the unknown quantities of one element, and the known part of its corrections.
+    fn gather_element(&mut self, problem: &Problem, e: usize, status: &Status) {
         let motions = self.by_motions;
         let (given, dofs) = (&mut self.given, &mut self.dofs);
         let mut add = |row, column, own, goal| dofs.push(Unknown { row, column, own, goal });
-        for (e, status) in statuses.iter().enumerate() {
-            let places = problem.places(e);
-            let ([n, x, y], bounds) = (places, &problem.bounds[e]);
-            let [p, tx, ty] = places.map(|i| problem.force(i));
-            let [p_0, x_0, y_0] = places.map(|i| problem.anchor[i]);
-            let bound = status.bound(bounds.interval);
-            match bound {
-                Some(bound) if motions => add(Mix::single(n), Mix::single(n), 0.0, bound - p_0),
-                Some(bound) => given[n] = bound - p,
-                None if motions => given[n] = bounds.offset - problem.y[n],
-                None => {}
-            }
-            // The force p, and the shear that p allows in slip.
-            let mut pressing = Mix::single(n);
-            match status.tangential {
-                Tangential::Free | Tangential::Stick => {
-                    let sticks = status.tangential == Tangential::Stick;
-                    for i in [x, y] {
-                        let (own, goal) = (Mix::single(i), -problem.anchor[i]);
-                        match (motions, sticks) {
-                            (false, true) => add(own, own, 0.0, 0.0),
-                            (true, false) => add(own, own, 0.0, goal),
-                            (false, false) => given[i] = -problem.force(i),
-                            (true, true) => given[i] = -problem.y[i],
-                        }
+        let places = problem.places(e);
+        let ([n, x, y], bounds) = (places, &problem.bounds[e]);
+        let [p, tx, ty] = places.map(|i| problem.force(i));
+        let [p_0, x_0, y_0] = places.map(|i| problem.anchor[i]);
+        let bound = status.bound(bounds.interval);
+        match bound {
+            Some(bound) if motions => add(Mix::single(n), Mix::single(n), 0.0, bound - p_0),
+            Some(bound) => given[n] = bound - p,
+            None if motions => given[n] = bounds.offset - problem.y[n],
+            None => {}
+        }
+        // The force p, and the shear that p allows in slip.
+        let mut pressing = Mix::single(n);
+        match status.tangential {
+            Tangential::Free | Tangential::Stick => {
+                let sticks = status.tangential == Tangential::Stick;
+                for i in [x, y] {
+                    let (own, goal) = (Mix::single(i), -problem.anchor[i]);
+                    match (motions, sticks) {
+                        (false, true) => add(own, own, 0.0, 0.0),
+                        (true, false) => add(own, own, 0.0, goal),
+                        (false, false) => given[i] = -problem.force(i),
+                        (true, true) => given[i] = -problem.y[i],
                     }
                 }
-                Tangential::Slip { direction: [c, s], turn, slope } => {
-                    let mix = |weights| Mix { places, weights };
-                    // Along the slip: shear and pressure are divided by a friction above one, so that infinite
-                    // friction has its limit.
-                    let [sheared, pressed] =
-                        if slope > 1.0 { [1.0 / slope, 1.0] } else { [1.0, slope] };
-                    let goal = sheared * bounds.strength + pressed * bounds.attraction;
-                    if motions {
-                        let goal = goal + pressed * p_0 - sheared * (c * x_0 + s * y_0);
-                        let row = mix([-pressed, sheared * c, sheared * s]);
-                        add(row, mix([0.0, c, s]), 0.0, goal);
-                    } else {
-                        let left = goal + pressed * (p + given[n]) - sheared * (c * tx + s * ty);
-                        if bound.is_none() && sheared < 1.0 {
-                            given[n] -= left;
-                        } else {
-                            mix([0.0, c, s]).add_to(given, left / sheared);
-                        }
-                        pressing = mix([sheared, pressed * c, pressed * s]);
-                    }
-                    // Across the slip.
-                    let (factor, own) = if motions {
-                        (1.0 - turn, turn * problem.rho[e][1])
-                    } else {
-                        (turn, (1.0 - turn) / problem.rho[e][1])
-                    };
-                    let goal = -if motions { factor } else { own } * (c * y_0 - s * x_0);
-                    add(mix([0.0, -s * factor, c * factor]), mix([0.0, -s, c]), own, goal);
-                }
             }
-            if bound.is_none() && !motions {
-                add(Mix::single(n), pressing, 0.0, bounds.offset);
+            Tangential::Slip { direction: [c, s], turn, slope } => {
+                let mix = |weights| Mix { places, weights };
+                // Along the slip: shear and pressure are divided by a friction above one, so that infinite friction
+                // has its limit.
+                let [sheared, pressed] =
+                    if slope > 1.0 { [1.0 / slope, 1.0] } else { [1.0, slope] };
+                let goal = sheared * bounds.strength + pressed * bounds.attraction;
+                if motions {
+                    let goal = goal + pressed * p_0 - sheared * (c * x_0 + s * y_0);
+                    let row = mix([-pressed, sheared * c, sheared * s]);
+                    add(row, mix([0.0, c, s]), 0.0, goal);
+                } else {
+                    let left = goal + pressed * (p + given[n]) - sheared * (c * tx + s * ty);
+                    if bound.is_none() && sheared < 1.0 {
+                        given[n] -= left;
+                    } else {
+                        mix([0.0, c, s]).add_to(given, left / sheared);
+                    }
+                    pressing = mix([sheared, pressed * c, pressed * s]);
+                }
+                // Across the slip.
+                let (factor, own) = if motions {
+                    (1.0 - turn, turn * problem.rho[e][1])
+                } else {
+                    (turn, (1.0 - turn) / problem.rho[e][1])
+                };
+                let goal = -if motions { factor } else { own } * (c * y_0 - s * x_0);
+                add(mix([0.0, -s * factor, c * factor]), mix([0.0, -s, c]), own, goal);
             }
         }
-        dofs.sort_unstable_by_key(|unknown| !unknown.row.is_single());
+        if bound.is_none() && !motions {
+            add(Mix::single(n), pressing, 0.0, bounds.offset);
+        }
     }
 
     /// Factors the matrix of the unknown quantities; `false` if it is singular.

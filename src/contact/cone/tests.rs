@@ -4,9 +4,8 @@ use basemat_problems::random::Random;
 
 use super::newton::Newton;
 use super::problem::{Bounds, Problem};
-use super::proximal::Proximal;
-use super::search::search;
-use super::system::{Normal, Status, System, Tangential};
+use super::status::{Normal, Status, Tangential};
+use super::{proximal::Proximal, search::search, system::System};
 
 /// A random positive definite W for `count` elements, and q.
 fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {

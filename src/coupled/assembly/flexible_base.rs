@@ -19,7 +19,7 @@ use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
-use crate::coupled::statics::equilibrium::StaticState;
+use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{axis_name, far_ends};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};

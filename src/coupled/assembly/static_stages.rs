@@ -4,8 +4,9 @@ use crate::coupled::base::influence::UP;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
-use crate::coupled::statics::equilibrium::{Standing, StaticState};
+use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::stability::cause;
+use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, LawError, Result, all_finite, finite};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
@@ -134,6 +135,19 @@ fn in_stages(
     }
     // From now on the base sticks at its place.
     state.modes = state.modes_with(laws);
+    under_growing_load(stage, laws, (state, &start), [weight, load])
+}
+
+/// The state under `weight` and `load`, from the `state` under the weight, with its contact states.
+///
+/// In one increment, or in several if elements slide or yield: friction depends on the path.
+fn under_growing_load(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    (state, start): (StaticState, &PreviousContacts),
+    [weight, load]: [&[f64]; 2],
+) -> Result<StaticState> {
+    let count = state.modes.len();
     let placed: Vec<_> = (0..count)
         .map(|e| {
             let start = PreviousContact::new(*start.state(e), state.modes[e], TIME_STEP);

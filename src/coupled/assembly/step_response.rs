@@ -67,18 +67,7 @@ impl StepResponses {
         let times: Vec<usize> = std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
             .take_while(|s| *s <= steps)
             .collect();
-        let mut states = vec![0.0; times.len() * 3 * count];
-        for (j, (k, d)) in modes.stiffness.iter().zip(&modes.damping).enumerate() {
-            // Every set contains the rigid motions.
-            if *k == 0.0 {
-                continue;
-            }
-            for (at, state) in Step::new(c, [effective[j], *d, *k]).states(&times).enumerate() {
-                for (kind, value) in state.into_iter().enumerate() {
-                    states[(3 * at + kind) * count + j] = value;
-                }
-            }
-        }
+        let states = mode_states(modes, c, &effective, &times);
         let (mut values, mut read) = ([Vec::new(), Vec::new()], Vec::new());
         let mut weighted = vec![0.0; forces * count];
         for states in states.chunks_exact(3 * count) {
@@ -148,6 +137,30 @@ impl StepResponses {
         }
         worst
     }
+}
+
+/// u, v and a of each mode under a constant unit force, at these steps: steps × 3 × modes.
+fn mode_states(
+    modes: &Ritz,
+    coefficients: &SchemeCoefficients,
+    effective: &[f64],
+    times: &[usize],
+) -> Vec<f64> {
+    let count = effective.len().max(1);
+    let mut states = vec![0.0; times.len() * 3 * count];
+    for (j, (k, d)) in modes.stiffness.iter().zip(&modes.damping).enumerate() {
+        // Every set contains the rigid motions.
+        if *k == 0.0 {
+            continue;
+        }
+        let step = Step::new(coefficients, [effective[j], *d, *k]);
+        for (at, state) in step.states(times).enumerate() {
+            for (kind, value) in state.into_iter().enumerate() {
+                states[(3 * at + kind) * count + j] = value;
+            }
+        }
+    }
+    states
 }
 
 /// A step of one mode under a unit force.

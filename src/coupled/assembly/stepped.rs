@@ -10,7 +10,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::mechanism::unresisted;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::parts::Parts;
-use crate::coupled::statics::equilibrium::StaticState;
+use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::{Structure, Tangent};

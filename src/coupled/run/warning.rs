@@ -1,9 +1,11 @@
 //! Warnings of a run.
 
 use crate::coupled::run::Quantity;
+use crate::coupled::run::warning_text::{across, likely_slip, unit_of_motion, with_twice_as_many};
+use crate::error::along;
 
 /// Warning that a run exceeds assumptions of the model, or is too coarse.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
@@ -11,6 +13,10 @@ pub enum Warning {
     /// Slip beyond the mean length of the elements, in plan of their shorter sides.
     ///
     /// Base and ground elements are then no longer opposite each other.
+    #[error(
+        "slip of {slip:.3e} m is beyond an element, {element_length:.3e} m on average: \
+         contact is paired for small displacements"
+    )]
     LargeSlip {
         /// Largest slip, m.
         slip: f64,
@@ -18,6 +24,7 @@ pub enum Warning {
         element_length: f64,
     },
     /// Rotation of the base beyond 0.1 rad, in plan about any axis: small-rotation geometry is inaccurate.
+    #[error("base rotation of {rotation:.3e} rad: geometry is that of small rotations")]
     LargeRotation {
         /// Largest rotation, rad.
         rotation: f64,
@@ -25,6 +32,10 @@ pub enum Warning {
     /// A foundation has settled by more than a tenth of its width, which counts as bearing failure.
     ///
     /// The model's ground surface does not follow the base down, and stays plane.
+    #[error(
+        "foundation {foundation} settles by {settlement:.3e} m, width {width:.3} m: beyond a tenth of it \
+         the soil has failed in bearing"
+    )]
     LargeSettlement {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -36,6 +47,7 @@ pub enum Warning {
     /// Tension under a base that cannot open, above 1 % of the largest static pressure.
     ///
     /// In reality the base would open; this model cannot.
+    #[error("base pulled up by {tension:.2e} Pa, x = {x:.2} m{} at {time:.2} s: its law cannot open", across(*y))]
     Tension {
         /// Largest tension of any element, Pa.
         tension: f64,
@@ -48,6 +60,7 @@ pub enum Warning {
         time: f64,
     },
     /// The energy balance does not close to 1e-9 at the end.
+    #[error("energy balance open by {residual:.1e}")]
     EnergyBalance {
         /// Residual of the balance, relative to the largest energy of the run.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
@@ -56,12 +69,15 @@ pub enum Warning {
     /// The time scheme has created energy, more than 2 % of the run's largest energy.
     ///
     /// See [`Newmark`](crate::coupled::Newmark).
+    #[error("time scheme made {:.1} % of the largest energy: take `Midpoint`, or shorter steps", 100.0 * made)]
     AlgorithmicEnergy {
         /// Largest created energy at any time, relative to the largest energy of the run.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         made: f64,
     },
     /// The base shear vibrates with a period that the time step does not resolve.
+    #[error("base shear off by about {:.0} %: steps of {time_step:.2e} s, period {period:.2e} s; \
+         take {needed:.1e} s", 100.0 * error)]
     UnresolvedPeriod {
         /// Root-mean-square period of the base shear, s.
         period: f64,
@@ -76,6 +92,8 @@ pub enum Warning {
         error: f64,
     },
     /// Ground and base shear vary faster than the time step resolves.
+    #[error("base shear off by about {:.0} %: steps of {time_step:.2e} s, ground {frequency:.3} Hz; \
+         take {needed:.1e} s", 100.0 * error)]
     UnresolvedMotion {
         /// Root-mean-square frequency of the ground acceleration, Hz.
         frequency: f64,
@@ -89,6 +107,10 @@ pub enum Warning {
     /// In plan, shear waves cross the base of a vibrating body in less than four steps.
     ///
     /// The body vibrates at its own period. Such steps damp its rocking more than radiation does.
+    #[error(
+        "steps of {time_step:.2e} s damp rocking: shear waves cross the base in {crossing:.2e} s; \
+         take {needed:.1e} s"
+    )]
     UnresolvedRadiation {
         /// Time in which shear waves cross the shorter side of the base, s.
         crossing: f64,
@@ -98,6 +120,7 @@ pub enum Warning {
         needed: f64,
     },
     /// Fewer elements under a foundation than its rocking stiffness needs.
+    #[error("elements{} under foundation {foundation}: {elements}, its rocking needs {needed}", along(*axis))]
     FewElements {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -113,6 +136,8 @@ pub enum Warning {
     ///
     /// Between elements only the structure resists deformation of the base. It is softer there than the neglected
     /// soil, or not stiff enough relative to it.
+    #[error("elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{}", along(*axis),
+        with_twice_as_many(*difference))]
     CoarseBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -130,6 +155,8 @@ pub enum Warning {
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.
+    #[error("foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: nothing carries it there",
+        along(*axis))]
     UncoveredBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -143,6 +170,7 @@ pub enum Warning {
     ///
     /// The check searches for errors of the quadrature and for damping laws that are not passive. Steps are the
     /// same as with a full check.
+    #[error("passivity of the ground checked on {checked} of {cells} cells")]
     SampledPassivity {
         /// Cells that were checked together.
         checked: usize,
@@ -153,6 +181,9 @@ pub enum Warning {
     ///
     /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
     /// simulation was built, the static state as one.
+    #[error(
+        "steps solved with friction {friction:.0} in place of more: {steps}; shear is too small there"
+    )]
     LessFriction {
         /// Number of such steps.
         steps: usize,
@@ -163,14 +194,20 @@ pub enum Warning {
     ///
     /// Some steps then have several solutions, and the mirror image of a scene may use others. In one scene of a
     /// hundred this changes peaks by tens of per cent.
+    #[error(
+        "friction of {friction} in plan: steps may have several solutions; run a mirror image too"
+    )]
     HighFriction {
         /// Largest friction coefficient.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         friction: f64,
     },
     /// The motion has a component along y, which a ground in the plane ignores.
+    #[error("motion along y: a ground in the plane leaves it out")]
     MotionAcross,
     /// A soil with impossible numbers: probably in another unit, unless the model is not to scale.
+    #[error("soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
+        likely_slip(*shear_wave_speed, *density))]
     UnusualSoil {
         /// Speed of its shear waves, m/s.
         shear_wave_speed: f64,
@@ -179,6 +216,7 @@ pub enum Warning {
     },
     /// A structure with an unusually long period: probably a stiffness in another unit, unless the model is not to
     /// scale.
+    #[error("structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?")]
     LongPeriod {
         /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
         period: f64,
@@ -186,36 +224,46 @@ pub enum Warning {
     /// Ground acceleration above any recorded one, or a record too weak in m/s²: probably in another unit.
     ///
     /// Unless the model is not to scale. Numbers of a weak record are probably in g.
+    #[error("ground acceleration of {acceleration:.3} m/s²: motion in {}?", unit_of_motion(*acceleration))]
     UnusualMotion {
         /// Largest component at any step, m/s²; for a weak record at any sample.
         acceleration: f64,
     },
     /// A record with a time step that no recorder has: probably in another unit, unless the model is not to scale.
+    #[error("record in steps of {time_step:.2e} s: interval in another unit?")]
     UnusualInterval {
         /// Time step of the record, s.
         time_step: f64,
     },
     /// A structure with less pressure on the ground than any building: probably masses in another unit.
+    #[error(
+        "weight of {pressure:.3} Pa over the area of the base: masses in t, or gravity in another unit?"
+    )]
     LightStructure {
         /// Weight over the area of the contact elements, Pa.
         pressure: f64,
     },
     /// A friction coefficient that no material has: probably an angle in degrees, or a percentage.
+    #[error("friction coefficient of {friction}: in degrees, or in per cent?")]
     UnusualFriction {
         /// The coefficient.
         friction: f64,
     },
     /// A storey above 100 m: probably a height in another unit, or a mass in its place.
+    #[error("storey of {height:.1} m: in another unit, or in place of the mass?")]
     TallStorey {
         /// Height of the storey, m.
         height: f64,
     },
     /// A gravity that no planet has: probably in another unit, unless the model is not to scale.
+    #[error("gravity of {gravity} m/s²: in another unit?")]
     UnusualGravity {
         /// Acceleration of gravity, m/s².
         gravity: f64,
     },
     /// The run ended before the larger part of its record: more than a third of the Arias intensity was left.
+    #[error("run ends at {end:.2} s, its record at {duration:.2} s: {:.0} % of the record's intensity until then",
+        100.0 * passed)]
     EndsEarly {
         /// Time at the end of the run, s.
         end: f64,
@@ -225,6 +273,7 @@ pub enum Warning {
         passed: f64,
     },
     /// A response to the ground motion was largest in the last step: it may grow further.
+    #[error("{} largest in the last step, at {end:.2} s: run longer", quantity.name())]
     PeakAtEnd {
         /// The response.
         quantity: Quantity,
@@ -235,6 +284,7 @@ pub enum Warning {
     ///
     /// See [`SimulationBuilder::rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit); small
     /// rotations cannot describe further motion. A further run continues from there.
+    #[error("run ended at {time:.2} s: base turned by more than {limit} rad (`rotation_limit`)")]
     Overturned {
         /// Rotation limit, rad.
         limit: f64,
@@ -244,6 +294,7 @@ pub enum Warning {
     /// Damping that resists a rigid translation has slowed a sliding base.
     ///
     /// Mass-proportional damping does so.
+    #[error("damping resists translation ({rate:.2}/s): longest slip event short by about {:.0} %", 100.0 * loss)]
     DampedSliding {
         /// Damping of the translation, divided by the mass that it moves, 1/s.
         rate: f64,
@@ -254,6 +305,9 @@ pub enum Warning {
     ///
     /// Longer than a quarter of the soil's shear wavelength at the frequency of the base shear; in plan, cells
     /// longer than a twelfth.
+    #[error(
+        "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: take {needed:.1e} m"
+    )]
     LongElements {
         /// Length of the longest element, m; in plan the narrowest side along x or along y, whichever is longer.
         element_length: f64,

@@ -5,13 +5,13 @@ use crate::coupled::base::Base;
 use crate::coupled::base::influence::UP;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::operators::condense;
+use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
-use crate::geometry::{ContactLayout, PLANE};
-use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
+use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
 };
-use crate::structure::{InternalEnergy, Structure, Tangent, nonlinear_state};
+use crate::structure::{Structure, Tangent, nonlinear_state};
 
 const NAME: &str = "static stiffness matrix";
 /// Largest unbalanced force of an equilibrium, relative to the load.
@@ -42,87 +42,6 @@ const ROUNDING: f64 = 1e-6;
 /// [`ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
 const LONG: usize = 20;
 
-/// Static state under weight and loads at t = 0, contact conditions included.
-#[derive(Debug, Clone)]
-pub(crate) struct StaticState {
-    pub(crate) traction: Vec<f64>,
-    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
-    pub(crate) gap: Vec<f64>,
-    pub(crate) displacement: Vec<f64>,
-    pub(crate) modes: Vec<Mode>,
-    /// The structure's own load at t = 0.
-    pub(crate) load: Vec<f64>,
-    /// State variables of each element's law where it acted; empty where the law starts anew.
-    pub(crate) state_variables: Vec<Vec<f64>>,
-    /// f(u) of a nonlinear structure, and its energies if it returns them.
-    pub(crate) force: Vec<f64>,
-    pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient used instead of a larger one where an element slides; `None` if there was none.
-    pub(crate) stand_in: Option<f64>,
-}
-
-impl StaticState {
-    /// State without weight: all elements touch, without pressure.
-    pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
-        let elements = layout.elements();
-        Self {
-            traction: vec![0.0; layout.len()],
-            gap: vec![0.0; elements],
-            displacement: vec![0.0; dofs],
-            modes: vec![Mode::Stick; elements],
-            load: vec![0.0; dofs],
-            state_variables: Vec::new(),
-            force: Vec::new(),
-            energy: None,
-            stand_in: None,
-        }
-    }
-
-    fn is_plan(&self) -> bool {
-        self.traction.len() > PLANE * self.modes.len()
-    }
-
-    /// Modes with which a base continues under `laws`: closed elements stick, whatever placed them.
-    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
-        let is_plan = self.is_plan();
-        let modes = self.modes.iter().enumerate().map(|(e, mode)| {
-            let known = law_of(laws, e).modes();
-            if known.contains(mode) && !mode.is_closed() {
-                *mode
-            } else if is_plan {
-                known[0].in_plan()
-            } else {
-                known[0]
-            }
-        });
-        modes.collect()
-    }
-
-    /// Sets gaps from the states of the contact solver, exactly where a law prescribes them.
-    fn close_gaps(
-        &mut self,
-        laws: &[Box<dyn InterfaceLaw>],
-        start: &PreviousContacts,
-        states: &[ContactState],
-    ) -> Result<()> {
-        let is_plan = self.is_plan();
-        for (e, gap) in self.gap.iter_mut().enumerate() {
-            let (law, start, mode, pressure) =
-                (law_of(laws, e), start.element(e), self.modes[e], self.traction[e]);
-            let pinned = if !is_plan {
-                law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
-            } else if mode.is_closed() && !mode.is_yield() {
-                let [compliance, _] = law.compliance(Mode::Stick, &start);
-                Some(law.limits(&start)?.gap_offset - compliance * pressure)
-            } else {
-                None
-            };
-            *gap = pinned.unwrap_or(states[e].gap);
-        }
-        Ok(())
-    }
-}
-
 /// A structure on a soil at rest.
 pub(crate) struct Standing<'a> {
     pub(crate) assembled: &'a Assembled,
@@ -148,19 +67,16 @@ impl Standing<'_> {
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, soil, frictionless } = *self;
-        let (base, n) = (&assembled.base, assembled.dofs());
+        let base = &assembled.base;
         let size = base.layout().len();
-        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
-        if !epsilon.is_finite() {
-            return Err(Error::Singular { matrix: NAME, order: n });
-        }
-        let (stiffest, mut softest) = (epsilon, SOFTEST * epsilon);
+        let mut springs = Springs::new(assembled, soil)?;
+        let stiffest = springs.stiffness;
         let mut solver = ContactSolver::new(base.layout());
         let kind = ContactSearch::Robust;
         let mut search = ModeSearch::new(base.layout(), base.areas(), false, kind);
         let measure = Measure::new(assembled, load);
-        let (mut tangent, mut compliance) = (Tangent::new(n), None::<Compliance>);
-        let mut free_jump = vec![0.0; size];
+        let (mut tangent, mut compliance) = (Tangent::new(assembled.dofs()), None::<Compliance>);
+        let (static_traction, mut free_jump) = (vec![0.0; size], vec![0.0; size]);
         let (mut change, mut iterations) = (f64::INFINITY, 0);
         while iterations < ITERATIONS {
             iterations += 1;
@@ -169,25 +85,11 @@ impl Standing<'_> {
                 Some(current) if assembled.linear => current,
                 _ => {
                     solver.invalidate();
-                    let found = Compliance::new(assembled, &tangent.matrix, soil, epsilon)?;
-                    let (found, stiffness) =
-                        self.held(found, &tangent.matrix, [epsilon, STIFFENED * stiffest])?;
-                    if stiffness > epsilon {
-                        (epsilon, softest) = (stiffness, stiffness);
-                    }
-                    found
+                    self.held(&mut springs, &tangent.matrix, STIFFENED * stiffest)?
                 }
             };
             let current = compliance.insert(current);
-            // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would
-            // settle by 1/PROXIMAL_SHARE settlements. The columns that subtract the response to τ₁ therefore add
-            // the response to τ₀, and the system is solved only for the unbalanced force.
-            let mut displacement = out_of_balance(assembled, structure, load, &state)?;
-            current.factor.solve(&mut displacement);
-            for (d, u) in displacement.iter_mut().zip(&state.displacement) {
-                *d += u;
-            }
-            transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
+            let mut displacement = self.without_traction(current, load, &state)?;
             base.means(&displacement, &mut free_jump);
             for jump in &mut free_jump {
                 *jump = -*jump;
@@ -195,7 +97,7 @@ impl Standing<'_> {
             let input = ContactInput {
                 delassus: &current.delassus,
                 free_jump: &free_jump,
-                static_traction: &vec![0.0; size],
+                static_traction: &static_traction,
                 start,
                 laws,
                 length_scale: largest(&free_jump),
@@ -208,24 +110,12 @@ impl Standing<'_> {
                 Err(_) => break,
             }
             transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
-            // Force of the fictitious springs.
-            let moved: Vec<f64> =
-                displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
-            let mut pull = vec![0.0; n];
-            assembled.mass.multiply_add(epsilon, &moved, &mut pull);
+            let pull = springs.force(assembled, &displacement, &state.displacement);
             let previous = change;
             change = measure.norm(&pull);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
-            // The force of the springs has the accuracy of the solution.
-            let stalled = change <= 1e-10 && change >= 0.5 * previous;
-            let late = iterations > LATE
-                && change <= LATE_CHANGE
-                && change <= current.condition() * f64::EPSILON;
-            // A motion that nothing resists (a frictionless base along the ground) drifts for ever by the same
-            // amount under the rounding of the sums of K, a fraction that grows with its size.
-            let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
-            if change <= 1e-13 || stalled || late || drifts {
+            if has_converged([previous, change], iterations, current) {
                 // Springs without force are no equilibrium yet if K u is only rounding.
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
@@ -243,8 +133,7 @@ impl Standing<'_> {
                 0..LONG => ROUNDING,
                 _ => ROUNDING.min(current.condition() * f64::EPSILON),
             };
-            if change > rounding.max(SLOW * previous) && epsilon > softest {
-                epsilon *= 0.1;
+            if change > rounding.max(SLOW * previous) && springs.soften() {
                 compliance = None;
                 solver.invalidate();
             }
@@ -255,30 +144,101 @@ impl Standing<'_> {
         Err(failure(condition, iterations, change))
     }
 
-    /// Compliance with springs that hold a structure that leans without the ground, and their stiffness.
+    /// Displacements of the next iterate before its tractions act.
     ///
-    /// The stiffness is `most` at most. Each iteration then finds the smallest energy; with softer springs it may find
-    /// a structure on the verge of a fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or
-    /// rounding is the cause, they stay unchanged.
-    fn held(
+    /// (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would settle by
+    /// 1/`PROXIMAL_SHARE` settlements. The columns that subtract the response to τ₁ therefore add the response to τ₀,
+    /// and the system is solved only for the unbalanced force.
+    fn without_traction(
         &self,
-        mut found: Compliance,
-        tangent: &SparseMatrix,
-        [epsilon, most]: [f64; 2],
-    ) -> Result<(Compliance, f64)> {
-        if found.factor.is_positive_definite() || found.condition() > STIFFEST_CONDITION {
-            return Ok((found, epsilon));
+        current: &mut Compliance,
+        load: &[f64],
+        state: &StaticState,
+    ) -> Result<Vec<f64>> {
+        let mut displacement = out_of_balance(self.assembled, self.structure, load, state)?;
+        current.factor.solve(&mut displacement);
+        for (d, u) in displacement.iter_mut().zip(&state.displacement) {
+            *d += u;
         }
-        let mut stiffer = 10.0 * epsilon;
+        transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
+        Ok(displacement)
+    }
+
+    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground.
+    ///
+    /// Each iteration then finds the smallest energy. With softer springs it may find a structure on the verge of a
+    /// fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or rounding is the cause, they stay
+    /// unchanged.
+    fn held(&self, springs: &mut Springs, tangent: &SparseMatrix, most: f64) -> Result<Compliance> {
+        let with = |stiffness| Compliance::new(self.assembled, tangent, self.soil, stiffness);
+        let mut found = with(springs.stiffness)?;
+        if found.factor.is_positive_definite() || found.condition() > STIFFEST_CONDITION {
+            return Ok(found);
+        }
+        let mut stiffer = 10.0 * springs.stiffness;
         while stiffer <= most {
-            let next = Compliance::new(self.assembled, tangent, self.soil, stiffer)?;
+            let next = with(stiffer)?;
             if next.factor.is_positive_definite() {
-                return Ok((next, stiffer));
+                *springs = Springs { stiffness: stiffer, softest: stiffer };
+                return Ok(next);
             }
             stiffer *= 10.0;
         }
-        Ok((found, epsilon))
+        Ok(found)
     }
+}
+
+/// Fictitious springs ε M between two iterates.
+struct Springs {
+    /// ε.
+    stiffness: f64,
+    /// ε down to which the springs are softened.
+    softest: f64,
+}
+
+impl Springs {
+    fn new(assembled: &Assembled, soil: &[f64]) -> Result<Self> {
+        let foundation = vertical_stiffness(soil, &assembled.base);
+        let stiffness = PROXIMAL_SHARE * foundation / total_mass(assembled);
+        if !stiffness.is_finite() {
+            return Err(Error::Singular { matrix: NAME, order: assembled.dofs() });
+        }
+        Ok(Self { stiffness, softest: SOFTEST * stiffness })
+    }
+
+    /// Force of the springs between two displacements.
+    fn force(&self, assembled: &Assembled, to: &[f64], from: &[f64]) -> Vec<f64> {
+        let moved: Vec<f64> = to.iter().zip(from).map(|(a, b)| a - b).collect();
+        let mut force = vec![0.0; moved.len()];
+        assembled.mass.multiply_add(self.stiffness, &moved, &mut force);
+        force
+    }
+
+    /// Softens the springs tenfold; `false` if they are as soft as allowed.
+    fn soften(&mut self) -> bool {
+        let softens = self.stiffness > self.softest;
+        if softens {
+            self.stiffness *= 0.1;
+        }
+        softens
+    }
+}
+
+/// Whether the last two forces of the springs, relative to the load, show convergence.
+fn has_converged(
+    [previous, change]: [f64; 2],
+    iterations: usize,
+    current: &mut Compliance,
+) -> bool {
+    // The force of the springs has the accuracy of the solution.
+    let stalled = change <= 1e-10 && change >= 0.5 * previous;
+    // A motion that nothing resists (a frictionless base along the ground) drifts for ever by the same amount under
+    // the rounding of the sums of K, a fraction that grows with its size.
+    let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
+    let mut late = || {
+        iterations > LATE && change <= LATE_CHANGE && change <= current.condition() * f64::EPSILON
+    };
+    change <= 1e-13 || stalled || drifts || late()
 }
 
 /// Error for a search that did not converge.

@@ -2,4 +2,5 @@
 
 pub(crate) mod equilibrium;
 pub(crate) mod stability;
+pub(crate) mod static_state;
 pub(crate) mod strength;

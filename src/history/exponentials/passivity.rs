@@ -112,46 +112,8 @@ impl Measured {
         window: usize,
         horizon: usize,
     ) -> Result<Self> {
-        let count = kernel.classes().elements().len();
-        let mut first_pair = vec![None; kernel.classes().count()];
-        for (place, pair) in kernel.classes().pairs().iter().enumerate() {
-            first_pair[pair.class].get_or_insert(place);
-        }
-        let stride = kernel.classes().count().div_ceil(CLASSES);
-        let places: Vec<usize> = first_pair
-            .iter()
-            .flatten()
-            .copied()
-            .enumerate()
-            .filter(|(k, _)| k % stride == 0 || k + 1 == first_pair.len())
-            .map(|(_, place)| place)
-            .collect();
-        let sample = |lag: usize| -> Result<Sample> {
-            let age = (lag - window - 1) as f64;
-            let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
-            let mut sample = Sample { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
-            let mut worst = [[0.0_f64; 2]; 2];
-            for &place in &places {
-                let pair = kernel.classes().pairs()[place];
-                let (p, q) = (place / count, place % count);
-                let [mut zz, mut xx, mut zx] = [[0.0; 2]; KINDS];
-                kernel.coefficients(pair.class, lag, [&mut zz, &mut xx, &mut zx])?;
-                for (part, exact) in [zz, xx].iter().enumerate() {
-                    let error = [0, 1]
-                        .map(|k| pair.scale * (tail.of_pair(&fits[k][part], p, q) - exact[k]));
-                    let [worst_error, largest] = &mut worst[part];
-                    *worst_error = worst_error.max(error[0].abs());
-                    *largest = largest.max((pair.scale * exact[0]).abs());
-                    sample.change = sample.change.max((error[1] - error[0]).abs());
-                }
-            }
-            for [error, largest] in worst {
-                sample.error = sample.error.max(error);
-                sample.largest = sample.largest.max(largest);
-                sample.relative = sample.relative.max(error / largest);
-            }
-            Ok(sample)
-        };
+        let pairs = SampledPairs::new(kernel);
+        let sample = |lag: usize| pairs.at(kernel, tail, lag, window);
         let mut lag = window + 1;
         let mut before = sample(lag)?;
         let mut found =
@@ -167,6 +129,58 @@ impl Measured {
             (lag, before) = (next, now);
         }
         Ok(found)
+    }
+}
+
+/// Pairs of elements on which errors are measured: places in the list of pairs, at most one for each class.
+struct SampledPairs(Vec<usize>);
+
+impl SampledPairs {
+    fn new(kernel: &dyn ConvolutionWeights) -> Self {
+        let mut first_pair = vec![None; kernel.classes().count()];
+        for (place, pair) in kernel.classes().pairs().iter().enumerate() {
+            first_pair[pair.class].get_or_insert(place);
+        }
+        let stride = kernel.classes().count().div_ceil(CLASSES);
+        let places = first_pair.iter().flatten().copied().enumerate();
+        let places =
+            places.filter(|(k, _)| k % stride == 0 || k + 1 == first_pair.len()).map(|(_, at)| at);
+        Self(places.collect())
+    }
+
+    /// Errors of the exponentials at a lag beyond the window.
+    fn at(
+        &self,
+        kernel: &dyn ConvolutionWeights,
+        tail: &Tail,
+        lag: usize,
+        window: usize,
+    ) -> Result<Sample> {
+        let count = kernel.classes().elements().len();
+        let age = (lag - window - 1) as f64;
+        let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
+        let mut sample = Sample { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
+        let mut worst = [[0.0_f64; 2]; 2];
+        for &place in &self.0 {
+            let pair = kernel.classes().pairs()[place];
+            let (p, q) = (place / count, place % count);
+            let [mut zz, mut xx, mut zx] = [[0.0; 2]; KINDS];
+            kernel.coefficients(pair.class, lag, [&mut zz, &mut xx, &mut zx])?;
+            for (part, exact) in [zz, xx].iter().enumerate() {
+                let error =
+                    [0, 1].map(|k| pair.scale * (tail.of_pair(&fits[k][part], p, q) - exact[k]));
+                let [worst_error, largest] = &mut worst[part];
+                *worst_error = worst_error.max(error[0].abs());
+                *largest = largest.max((pair.scale * exact[0]).abs());
+                sample.change = sample.change.max((error[1] - error[0]).abs());
+            }
+        }
+        for [error, largest] in worst {
+            sample.error = sample.error.max(error);
+            sample.largest = sample.largest.max(largest);
+            sample.relative = sample.relative.max(error / largest);
+        }
+        Ok(sample)
     }
 }
 

@@ -25,21 +25,7 @@ pub(super) fn coefficients_in_plan(
 ) -> Result<()> {
     let [columns, rows] = lattice.counts;
     let own = lengths.map(|length| length / 2 + 1);
-    // Factors of each offset and wavenumber: the sum over both signs of the offset, for an even function, and for an
-    // odd one divided by i.
-    let waves = [0, 1].map(|axis| {
-        let turn = std::f64::consts::TAU / lengths[axis] as f64;
-        let angle = move |offset: usize, k: usize| turn * (offset * k % lengths[axis]) as f64;
-        let of = |wave: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
-            (0..lattice.counts[axis])
-                .flat_map(|offset| (0..own[axis]).map(move |k| (offset, k)))
-                .map(|(offset, k)| wave(offset, k))
-                .collect()
-        };
-        let even = |offset, k| if offset == 0 { 1.0 } else { 2.0 * angle(offset, k).cos() };
-        let odd = |offset, k| if offset == 0 { 0.0 } else { -2.0 * angle(offset, k).sin() };
-        [of(&even), of(&odd)]
-    });
+    let waves = [0, 1].map(|axis| cosines_and_sines(lattice.counts[axis], lengths[axis]));
     let most = CHUNK.min(count);
     let mut tables = [(); SERIES].map(|()| vec![0.0; columns * rows * most]);
     let mut lags = [(); SERIES].map(|()| vec![0.0; most]);
@@ -82,6 +68,21 @@ pub(super) fn coefficients_in_plan(
         }
     }
     Ok(())
+}
+
+/// Factors of each offset and wavenumber: the sum over both signs of the offset, of an even and of an odd function.
+///
+/// The sum of the odd function is divided by i.
+fn cosines_and_sines(offsets: usize, length: usize) -> [Vec<f64>; 2] {
+    let turn = std::f64::consts::TAU / length as f64;
+    let angle = |offset: usize, k: usize| turn * (offset * k % length) as f64;
+    let even = |offset, k| if offset == 0 { 1.0 } else { 2.0 * angle(offset, k).cos() };
+    let odd = |offset, k| if offset == 0 { 0.0 } else { -2.0 * angle(offset, k).sin() };
+    let all = |wave: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+        let places = (0..offsets).flat_map(|offset| (0..=length / 2).map(move |k| (offset, k)));
+        places.map(|(offset, k)| wave(offset, k)).collect()
+    };
+    [all(&even), all(&odd)]
 }
 
 /// The smallest even number from `least` on with no prime factor above 5.

@@ -1,0 +1,71 @@
+//! Contact status of an element: along the normal, and along the base.
+
+use std::mem::{Discriminant, discriminant};
+
+/// Contact status of an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Status {
+    pub(super) normal: Normal,
+    pub(super) tangential: Tangential,
+}
+
+/// Status along the normal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Normal {
+    /// No pressure, or a bond at its strength.
+    Open,
+    Closed,
+    /// The pressure is at its cap.
+    Capped,
+}
+
+/// Status along the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Tangential {
+    /// No friction.
+    Free,
+    Stick,
+    /// Slip in this direction, with κ and the growth of the radius with p.
+    Slip {
+        direction: [f64; 2],
+        turn: f64,
+        slope: f64,
+    },
+}
+
+impl Status {
+    /// Kind of the status, without its numbers.
+    pub(super) fn kind(&self) -> (Normal, Discriminant<Tangential>) {
+        (self.normal, discriminant(&self.tangential))
+    }
+
+    /// Whether the element slips and its friction is below `friction`.
+    pub(super) fn is_held_by(&self, friction: f64) -> bool {
+        matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
+    }
+
+    /// Closed without slip.
+    pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
+    /// Open, without any force.
+    pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
+
+    /// Prescribed p of an open or capped element; `None` if closed.
+    pub(super) fn bound(&self, [least, most]: [f64; 2]) -> Option<f64> {
+        match self.normal {
+            Normal::Open => Some(least),
+            Normal::Closed => None,
+            Normal::Capped => Some(most),
+        }
+    }
+
+    /// Numbers of unknown forces and of unknown motions.
+    pub(super) fn dofs(&self) -> [usize; 2] {
+        let [force, motion] = match self.tangential {
+            Tangential::Free => [0, 2],
+            Tangential::Stick => [2, 0],
+            Tangential::Slip { .. } => [1, 2],
+        };
+        let closed = usize::from(self.normal == Normal::Closed);
+        [force + closed, motion + 1 - closed]
+    }
+}

@@ -1,0 +1,87 @@
+//! State of structure and contact before the first step.
+
+use crate::error::Result;
+use crate::geometry::{ContactLayout, PLANE};
+use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
+use crate::structure::InternalEnergy;
+
+/// Static state under weight and loads at t = 0, contact conditions included.
+#[derive(Debug, Clone)]
+pub(crate) struct StaticState {
+    pub(crate) traction: Vec<f64>,
+    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
+    pub(crate) gap: Vec<f64>,
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) modes: Vec<Mode>,
+    /// The structure's own load at t = 0.
+    pub(crate) load: Vec<f64>,
+    /// State variables of each element's law where it acted; empty where the law starts anew.
+    pub(crate) state_variables: Vec<Vec<f64>>,
+    /// f(u) of a nonlinear structure, and its energies if it returns them.
+    pub(crate) force: Vec<f64>,
+    pub(crate) energy: Option<InternalEnergy>,
+    /// Friction coefficient used instead of a larger one where an element slides; `None` if there was none.
+    pub(crate) stand_in: Option<f64>,
+}
+
+impl StaticState {
+    /// State without weight: all elements touch, without pressure.
+    pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
+        let elements = layout.elements();
+        Self {
+            traction: vec![0.0; layout.len()],
+            gap: vec![0.0; elements],
+            displacement: vec![0.0; dofs],
+            modes: vec![Mode::Stick; elements],
+            load: vec![0.0; dofs],
+            state_variables: Vec::new(),
+            force: Vec::new(),
+            energy: None,
+            stand_in: None,
+        }
+    }
+
+    fn is_plan(&self) -> bool {
+        self.traction.len() > PLANE * self.modes.len()
+    }
+
+    /// Modes with which a base continues under `laws`: closed elements stick, whatever placed them.
+    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+        let is_plan = self.is_plan();
+        let modes = self.modes.iter().enumerate().map(|(e, mode)| {
+            let known = law_of(laws, e).modes();
+            if known.contains(mode) && !mode.is_closed() {
+                *mode
+            } else if is_plan {
+                known[0].in_plan()
+            } else {
+                known[0]
+            }
+        });
+        modes.collect()
+    }
+
+    /// Sets gaps from the states of the contact solver, exactly where a law prescribes them.
+    pub(crate) fn close_gaps(
+        &mut self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &PreviousContacts,
+        states: &[ContactState],
+    ) -> Result<()> {
+        let is_plan = self.is_plan();
+        for (e, gap) in self.gap.iter_mut().enumerate() {
+            let (law, start, mode, pressure) =
+                (law_of(laws, e), start.of(e), self.modes[e], self.traction[e]);
+            let pinned = if !is_plan {
+                law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
+            } else if mode.is_closed() && !mode.is_yield() {
+                let [compliance, _] = law.compliance(Mode::Stick, &start);
+                Some(law.limits(&start)?.gap_offset - compliance * pressure)
+            } else {
+                None
+            };
+            *gap = pinned.unwrap_or(states[e].gap);
+        }
+        Ok(())
+    }
+}
