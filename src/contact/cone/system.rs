@@ -19,7 +19,7 @@
 //! of W itself solve.
 
 use super::problem::Problem;
-use super::status::{Normal, Status, Tangential};
+use super::status::{Status, Tangential};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
 /// Number of columns of W⁻¹ that are solved for together.
