@@ -321,7 +321,7 @@ impl Floor {
             ("y", [right + away, 0.0, front], [right + away, 0.0, back]),
         ] {
             let [[x, y], [to_x, to_y]] =
-                [from, to].map(|place| screen.place(View::Slanted.of(place)));
+                [from, to].map(|place| screen.place(View::Slanted.project(place)));
             let _ = writeln!(
                 out,
                 "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\

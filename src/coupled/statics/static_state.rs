@@ -71,7 +71,7 @@ impl StaticState {
         let is_plan = self.is_plan();
         for (e, gap) in self.gap.iter_mut().enumerate() {
             let (law, start, mode, pressure) =
-                (law_of(laws, e), start.of(e), self.modes[e], self.traction[e]);
+                (law_of(laws, e), start.element(e), self.modes[e], self.traction[e]);
             let pinned = if !is_plan {
                 law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
             } else if mode.is_closed() && !mode.is_yield() {
