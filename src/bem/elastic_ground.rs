@@ -16,20 +16,19 @@ use crate::motion::FreeField;
 use crate::soil::SoilProfile;
 use crate::structure::Structure;
 
-/// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
-/// its surface.
+/// Elastic half-plane, or horizontal layers with or without damping, under one or several strips.
 ///
-/// A [`Soil`](crate::Soil) makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
-/// element means of the displacement at step ends under tractions constant over element and step,
-/// from the closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
+/// A [`Soil`](crate::Soil) makes a homogeneous half-plane. Its operator follows the energetic space–time Galerkin
+/// method: element means of the displacement at step ends due to tractions constant over element and step, from the
+/// closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
 ///
 /// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
 /// mobility (Radau IIA), with the same tractions. The number of stages follows [`Stages::for_profile`] and is reported
 /// by [`Ground::description`].
 ///
-/// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
-/// free field is that of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion
-/// at depth in the same profile.
+/// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The free field is the
+/// motion of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion at depth in the same
+/// profile.
 ///
 /// ```
 /// use basemat::Soil;
@@ -82,8 +81,9 @@ pub struct ElasticGround {
 short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
 
 impl ElasticGround {
-    /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] under a [`Strip`], or several of them from left to
-    /// right, coupled through the soil.
+    /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] under one [`Strip`], or several from left to right.
+    ///
+    /// Strips are coupled through the soil.
     ///
     /// Damping that is not causal serves [`impedances`](ElasticGround::impedances) only: a simulation
     /// returns [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
@@ -99,9 +99,10 @@ impl ElasticGround {
         Ok(Self { source, used: None, ground })
     }
 
-    /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`]: each is a contact
-    /// element with three directions. A profile's half-plane is a half-space then. Cells are coupled through the soil,
-    /// those of several mats too.
+    /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`].
+    ///
+    /// Each cell is a contact element with three directions. The half-plane of a profile is then a half-space. All
+    /// cells are coupled through the soil, also cells of different mats.
     ///
     /// ```
     /// use basemat::Soil;
@@ -120,7 +121,7 @@ impl ElasticGround {
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
-    /// more cells than matrices between them allow.
+    /// more cells than their matrices allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
         let (elements, unions) = (plan.elements(), plan.unions());
         check_count(elements.len(), SPACE)?;
@@ -129,14 +130,16 @@ impl ElasticGround {
         Ok(Self { source, used: None, ground })
     }
 
-    /// Ground under each foundation of `structure`, as wide as that is, of `count` elements each,
-    /// graded towards the edges, where tractions are singular: [`Strip::under`] with
-    /// [`Grading::Cosine`]. Under a structure with [faces](Structure::contact_faces) it is a ground
-    /// [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of them all: [`Plan::on_faces`].
+    /// Ground with `count` elements under each foundation of `structure`.
+    ///
+    /// A strip is as wide as its foundation, and its elements are graded towards the edges, where tractions are
+    /// singular: [`Strip::under`] with [`Grading::Cosine`]. Under a structure with [faces](Structure::contact_faces) it
+    /// is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces together:
+    /// [`Plan::on_faces`].
     ///
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
-    /// triangles count as one): elements see means of its displacement only, and shapes in between are held by the
-    /// structure alone. Strips or a plan of your own may have fewer; `build` then checks that they are enough.
+    /// triangles count as one). Elements receive only means of its displacement, and only the structure resists shapes
+    /// in between. Strips or a plan of your own may have fewer elements; `build` then checks that they are enough.
     ///
     /// # Errors
     /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`].
@@ -156,15 +159,16 @@ impl ElasticGround {
         Self { ground: self.ground.with_source(self.source.clone()), used: None, ..self }
     }
 
-    /// Sets the number of Runge–Kutta stages, instead of the one by rule and instead of the closed form.
+    /// Sets the number of Runge–Kutta stages, in place of the rule and of the closed form.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
         self.changed(|source| source.stages = Some(stages))
     }
 
-    /// Sets the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace domain; 1e-10 unless
-    /// called. Coefficients are then good to about its power 2/3 at the last lag of a block, and better before. The
-    /// closed form is exact.
+    /// Sets the relative `tolerance` (1e-13 to 1e-4) of element compliances in the Laplace domain.
+    ///
+    /// The default is 1e-10. The error of a coefficient is about the tolerance to the power 2/3 at the last lag of a
+    /// block, and smaller before. The closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
@@ -174,11 +178,13 @@ impl ElasticGround {
         Ok(self.changed(|source| source.tolerance = tolerance))
     }
 
-    /// Reads convolution weights from the file `path`, and writes to it those that it lacks. The closed form needs
-    /// none.
+    /// Reads convolution weights from the file `path`, and adds missing weights to it.
+    ///
+    /// The closed form needs no file.
     ///
     /// Weights from a file equal computed ones to the last bit. A file of another profile, mesh, step, accuracy,
-    /// machine or format is made anew; a damaged file, or one of something else, is left as it is and returns an error.
+    /// machine or format is replaced. A damaged file, or a file with other content, stays unchanged and causes an
+    /// error.
     ///
     /// ```
     /// use basemat::Soil;
@@ -210,7 +216,7 @@ impl ElasticGround {
         Ok(Self { ground: self.ground.with_history(options)?, ..self })
     }
 
-    /// Replaces the ground's history by one of the caller's: see [`WeightsGround::with_own_history`].
+    /// Sets a history of your own: see [`WeightsGround::with_own_history`].
     #[must_use]
     pub fn with_own_history(
         self,
@@ -225,8 +231,10 @@ impl ElasticGround {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
-    /// Convolution weights for steps of `time_step` seconds, none computed yet: those that the ground's history sums,
-    /// of its contact elements or of the cells of its plan, without shared kernels.
+    /// Convolution weights for steps of `time_step` seconds, not yet computed.
+    ///
+    /// They are the weights that the ground's history sums, of its contact elements or of the cells of its plan,
+    /// without shared kernels.
     ///
     /// ```
     /// use basemat::Soil;
@@ -244,9 +252,9 @@ impl ElasticGround {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// In layered ground [`prepare`](ConvolutionWeights::prepare) computes the blocks of lags up to the one that it is
-    /// given, after a check of passivity: the least eigenvalue of Herm[(1−z) Ĝ(z)] on |z| = 0.99. With an observer,
-    /// parts are samples of the mobility, as many as are expected.
+    /// In layered ground [`prepare`](ConvolutionWeights::prepare) computes the blocks of lags up to the requested lag,
+    /// after a check of passivity: the smallest eigenvalue of Herm[(1−z) Ĝ(z)] on |z| = 0.99. The observer counts
+    /// samples of the mobility, out of the expected number.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step,
