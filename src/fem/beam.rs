@@ -1,7 +1,7 @@
 //! Straight beam or column.
 
 use super::element::{Element, MassKind};
-use super::truss::Line;
+use super::line::Line;
 use crate::error::{Result, finite, not_negative, positive};
 use crate::geometry::{Direction, FRAME};
 use crate::linalg::gauss;

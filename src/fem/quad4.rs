@@ -1,6 +1,7 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
-use super::element::{Element, MassKind, Material, add_square};
+use super::element::{Element, MassKind, add_square};
+use super::material::Material;
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 use crate::linalg::gauss;

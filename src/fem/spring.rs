@@ -1,7 +1,7 @@
 //! Springs, dashpots and lumped masses.
 
 use super::element::{Element, MassKind, add_square};
-use super::truss::Line;
+use super::line::Line;
 use crate::error::{Result, not_negative, positive};
 use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 

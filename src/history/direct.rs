@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::convolution::{ConvolutionHistory, ConvolutionWeights, all_kinds, check_inputs};
+use super::convolution::{ConvolutionHistory, check_inputs};
+use super::convolution_weights::{ConvolutionWeights, all_kinds};
 use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 

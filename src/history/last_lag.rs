@@ -1,6 +1,6 @@
 //! Last lag that counts of a kernel in plan: the effect of a traction dies out.
 
-use super::convolution::ConvolutionWeights;
+use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
 use crate::geometry::SERIES;
 

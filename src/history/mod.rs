@@ -6,6 +6,7 @@
 
 mod chosen;
 mod convolution;
+mod convolution_weights;
 mod direct;
 mod exponential_sum;
 mod exponentials;
@@ -18,8 +19,9 @@ mod shared_spectra;
 
 pub(crate) use chosen::ChosenHistory;
 pub use chosen::HistoryChoice;
-pub(crate) use convolution::OTHER_KINDS;
-pub use convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
+pub use convolution::ConvolutionHistory;
+pub(crate) use convolution_weights::OTHER_KINDS;
+pub use convolution_weights::{ConvolutionWeights, LateWeights};
 pub use direct::DirectHistory;
 pub use exponential_sum::{ExponentialSum, TailProduct};
 pub use exponentials::{ExponentialFit, ExponentialHistory};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::chosen::ChosenHistory;
-use super::convolution::{ConvolutionWeights, LateWeights};
+use super::convolution_weights::{ConvolutionWeights, LateWeights};
 use super::direct::DirectHistory;
 use super::exponentials::{ExponentialHistory, MEMORY};
 use super::method::HistoryMethod;

@@ -10,15 +10,17 @@ mod limits;
 mod mode;
 mod previous_contact;
 mod thin_layer;
+mod variable_friction;
 mod yielding;
 
 pub use cohesive::{Bonded, Cohesive};
-pub use coulomb::{Coulomb, UnilateralCondition, VariableFriction};
+pub use coulomb::{Coulomb, UnilateralCondition};
 pub use limits::Limits;
 pub use mode::Mode;
 pub(crate) use previous_contact::state_variable_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
+pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
 
 use crate::error::{Error, Result, require_part, same_length};

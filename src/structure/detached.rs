@@ -1,16 +1,15 @@
 //! A structure on its fixed base: the springs that hold it, and parts that nothing holds.
 
-use super::{DofCombination, FaceNode, Structure, Triplets};
+use super::matrix_checks::massless;
+use super::{Structure, Triplets};
 use crate::error::{Error, Result};
-use crate::geometry::{PLANE, SPACE};
-use crate::linalg::{
-    Partition, SparseFactor, SparseMatrix, indefinite_row, largest, sparse_condition,
-};
+use crate::linalg::{Partition, SparseFactor, SparseMatrix, sparse_condition};
 
 /// Condition of a part's stiffness above which the part counts as floating.
 ///
 /// A floating part has a condition of 10¹⁶ up to rounding, a tower 800 times as high as wide has 10¹².
 const FLOATS: f64 = 1e14;
+
 /// A modal mass within 1e-6 of one counts as normalised.
 const NORMALISED: f64 = 1e-6;
 
@@ -123,156 +122,4 @@ fn holds_itself(stiffness: &Triplets) -> Result<bool> {
     }
     Ok(SparseFactor::new(NAME, stiffness)
         .is_ok_and(|mut factor| sparse_condition(&matrix, &mut factor) < FLOATS))
-}
-
-// Structures on springs under their contact nodes.
-//
-// | symbol | meaning |
-// |---|---|
-// | N | displacements of the contact nodes |
-// | γ | stiffness of the springs |
-
-/// A structure on springs at its contact nodes: K + γ NᵀN, and forces that move its base.
-pub(crate) struct HeldBase<'a> {
-    nodes: &'a [FaceNode],
-    pub(crate) spring: f64,
-    pub(crate) matrix: Triplets,
-}
-
-impl<'a> HeldBase<'a> {
-    pub(crate) const NAME: &'static str = "stiffness matrix with its base held";
-
-    pub(crate) fn new(nodes: &'a [FaceNode], stiffness: &SparseMatrix, spring: f64) -> Self {
-        let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
-        for row in nodes.iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty()) {
-            matrix.add_outer(row, spring);
-        }
-        Self { nodes, spring, matrix }
-    }
-
-    /// The factored matrix.
-    pub(crate) fn factor(&self) -> Result<SparseFactor> {
-        SparseFactor::new(Self::NAME, &self.matrix)
-    }
-
-    /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.
-    pub(crate) fn pulls(&self) -> Vec<Vec<f64>> {
-        let rows = |direction| self.nodes.iter().map(move |node| (node.rows()[direction], 1.0));
-        (0..self.directions()).map(|direction| self.forces(rows(direction))).collect()
-    }
-
-    /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
-    ///
-    /// In the plane: the rotation of x and up. In plan: the rotations of x and up, of y and up, and of x and
-    /// y.
-    pub(crate) fn turns<'b>(
-        &self,
-        nodes: impl Iterator<Item = &'b FaceNode> + Clone,
-        [x, y]: [f64; 2],
-    ) -> Vec<Vec<f64>> {
-        let mut turns = vec![self.forces(nodes.clone().map(|node| (&node.vertical, node.x - x)))];
-        if self.directions() == SPACE {
-            turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
-            let [along, across] = [
-                self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y))),
-                self.forces(nodes.map(|node| (&node.across, node.x - x))),
-            ];
-            turns.push(along.iter().zip(&across).map(|(one, other)| one + other).collect());
-        }
-        turns
-    }
-
-    /// Number of directions in which the nodes move.
-    fn directions(&self) -> usize {
-        self.nodes.first().map_or(PLANE, FaceNode::directions)
-    }
-
-    /// Forces of springs with these elongations.
-    fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
-        let mut force = vec![0.0; self.matrix.order()];
-        for (row, amount) in pulled {
-            for &(i, weight) in row {
-                force[i] += self.spring * weight * amount;
-            }
-        }
-        force
-    }
-}
-
-/// The largest stiffness on the diagonal, or one.
-pub(crate) fn stiffest(stiffness: &SparseMatrix) -> f64 {
-    let stiffest = largest(&stiffness.diagonal());
-    if stiffest > 0.0 { stiffest } else { 1.0 }
-}
-
-// Whether the mass and damping matrices of a structure are symmetric and positive semi-definite.
-
-/// Relative difference of mirrored entries up to which a matrix counts as symmetric.
-pub(super) const SYMMETRIC: f64 = 1e-9;
-/// Negative masses and dampings up to this fraction of the diagonal are rounding.
-///
-/// A singular matrix read from a file with seven digits has negative values of this size.
-const SEMI_DEFINITE: f64 = 1e-6;
-/// Masses and dampings up to this fraction of the largest entry are rounding.
-///
-/// After reductions and sums a zero has values of this size. One bound serves kg and kg m², whose sizes differ by far
-/// less.
-pub(super) const MASSLESS: f64 = 1e-12;
-
-/// Whether each degree of freedom is massless, up to rounding.
-pub(crate) fn massless(mass: &SparseMatrix) -> Vec<bool> {
-    let masses = mass.diagonal();
-    let most = MASSLESS * largest(&masses);
-    masses.iter().map(|mass| mass.abs() <= most).collect()
-}
-
-/// Square of a circular frequency (1/s²) too low to affect a run: a period of a day.
-pub(crate) const UNNOTICED: f64 = 5.29e-9;
-
-/// Error unless the stiffness matrix is symmetric.
-///
-/// A difference is relative to the diagonal of its row and column and to the inertia of `mass` there, so that
-/// scaling of coordinates does not change the result.
-pub(crate) fn check_stiffness(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<()> {
-    let [diagonal, masses] = [stiffness.diagonal(), mass.diagonal()];
-    let rounding = MASSLESS * stiffness.entries().fold(0.0, |m: f64, (_, _, k)| m.max(k.abs()));
-    let both = |of: &[f64], i: usize, j: usize| (of[i] * of[j]).abs().sqrt();
-    check_symmetric("stiffness matrix", stiffness, |i, j| {
-        SYMMETRIC * both(&diagonal, i, j) + UNNOTICED * both(&masses, i, j) + rounding
-    })
-}
-
-/// Error for mirrored entries that differ by more than 1e-9 of the largest entry.
-pub(super) fn check_mirrored(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
-    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
-    check_symmetric(name, matrix, |_, _| SYMMETRIC * largest)
-}
-
-fn check_symmetric(
-    name: &'static str,
-    matrix: &SparseMatrix,
-    allowed: impl Fn(usize, usize) -> f64,
-) -> Result<()> {
-    let refused =
-        |(row, column, entries)| Error::Unsymmetric { matrix: name, row, column, entries };
-    matrix.unsymmetric_pair(allowed).map_or(Ok(()), |pair| Err(refused(pair)))
-}
-
-/// Error unless the mass matrix is symmetric and positive semi-definite.
-pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
-    check_semi_definite("mass matrix", mass)
-}
-
-/// Error unless the damping matrix is symmetric and positive semi-definite.
-pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
-    check_semi_definite("damping matrix", damping)
-}
-
-fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
-    check_mirrored(name, matrix)?;
-    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
-    match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
-        Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),
-        None => Ok(()),
-    }
 }

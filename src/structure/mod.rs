@@ -22,28 +22,31 @@ pub(crate) use forward_structure;
 
 mod base_motion;
 mod contact_node;
-mod damping;
 mod detached;
 mod dof_combination;
+mod held_base;
 mod hysteresis;
+mod matrix_checks;
+mod modal_damping;
 mod models;
 mod nonlinear;
 pub(crate) mod probe;
+mod rayleigh_damping;
 mod reduction;
+mod rigid_motions;
 mod section_rows;
 
 pub use crate::linalg::Triplets;
 pub use contact_node::{ContactNode, FaceNode};
 pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
-pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
-pub(crate) use detached::{
-    HeldBase, UNNOTICED, check_attached, check_damping, check_mass, check_stiffness, massless,
-    numbers as unknown_numbers, stiffest,
-};
+pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
+pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber, SpringResponse, WithSprings,
 };
+pub(crate) use matrix_checks::{UNNOTICED, check_damping, check_mass, check_stiffness, massless};
+pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use models::{
     FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section,
     ShearBuilding, Storey, StoreyBuilding, StructureGroup,
@@ -52,6 +55,7 @@ pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{
     Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
 };
+pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use section_rows::SectionRows;
 

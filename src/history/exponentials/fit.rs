@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::passivity::{self, Lags, Margin};
+use super::exact_lags::Lags;
+use super::passivity::{self, Margin};
 use super::tail::{Measured, Tail};
 use crate::error::{Error, Result};
-use crate::history::convolution::{ConvolutionWeights, LateWeights};
+use crate::history::convolution_weights::{ConvolutionWeights, LateWeights};
 use crate::history::shared_spectra::SharedSpectra;
 
 /// Ratio of the error aimed at in an attempt to the error aimed at in the attempt before.

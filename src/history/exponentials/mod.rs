@@ -1,15 +1,18 @@
 //! History of a window of exact lags and a sum of exponentials: its memory does not grow.
 
+mod exact_lags;
 mod fit;
 mod passivity;
+mod sampled_pairs;
 mod tail;
 
 use std::sync::Arc;
 
+use self::exact_lags::Cut;
 use self::fit::{Fit, Request, Windowed, keep};
-use self::passivity::Cut;
 use self::tail::Tail;
-use super::convolution::{ConvolutionHistory, ConvolutionWeights, LateWeights};
+use super::convolution::ConvolutionHistory;
+use super::convolution_weights::{ConvolutionWeights, LateWeights};
 use super::relaxed_fft::{Blocks, LEAF, bounded, bytes_of_blocks};
 use super::shared_spectra::{SharedSpectra, lock};
 use crate::error::{

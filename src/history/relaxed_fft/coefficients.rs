@@ -1,12 +1,13 @@
-//! Coefficients of short lags, and the blocks of inputs and outputs.
+//! Coefficients of short lags.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use std::sync::Arc;
 
-use super::level::{Class, LEAF, Tables};
-use crate::error::{Result, Watch};
-use crate::history::convolution::ConvolutionWeights;
+use super::ring::LEAF;
+use super::tables::{Class, Tables};
+use crate::error::Result;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows};
 
@@ -106,62 +107,4 @@ impl WithSimd for Scatter<'_> {
             }
         }
     }
-}
-
-// Blocks of inputs and outputs, over pairs of elements or over wavenumbers.
-
-/// Number of parts in which the computation of spectra is observed.
-pub(super) const PARTS: usize = 100;
-
-/// Inputs and outputs so far, and the computation of blocks of outputs from blocks of inputs.
-pub(crate) trait Blocks: Send {
-    /// Number of steps for which memory and all levels are ready.
-    ///
-    /// If it is not a power of two, the outputs of the last blocks end there, and are missing when the capacity grows.
-    fn capacity(&self) -> usize;
-
-    /// Real numbers held.
-    fn numbers(&self) -> usize;
-
-    /// Makes the blocks ready for at least `steps` steps; `watch` is notified in [`PARTS`].
-    ///
-    /// Inputs and outputs are unchanged on an error.
-    fn grow(
-        &mut self,
-        kernel: &dyn ConvolutionWeights,
-        steps: usize,
-        watch: &mut Watch,
-    ) -> Result<()>;
-
-    /// Makes the blocks ready for any number of steps, in memory that does not grow.
-    ///
-    /// The coefficients after d = `reach`, a leaf times a power of two, must be zero; of a lattice they are ignored.
-    /// Call this before the first step, in place of [`Blocks::grow`], or while the capacity is at most 2 `reach`.
-    fn bound(
-        &mut self,
-        kernel: &dyn ConvolutionWeights,
-        reach: usize,
-        watch: &mut Watch,
-    ) -> Result<()>;
-
-    /// Adds the effect of the input of step `now` − 1, so that the output of `now` is complete.
-    fn work_in(&mut self, now: usize);
-
-    /// Accepts the input of step `now`.
-    fn write(&mut self, now: usize, traction: &[f64]);
-
-    /// Number of values that store the input of a step.
-    fn width(&self) -> usize;
-
-    /// Appends the stored input of `step`; the effects of inputs before `worked_in` have been added.
-    fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>);
-
-    /// Accepts for step `now` an input returned by [`Blocks::input`].
-    fn write_input(&mut self, now: usize, input: &[f64]);
-
-    /// Removes all inputs and outputs.
-    fn clear(&mut self);
-
-    /// Overwrites `displacement` with the output of step `now`.
-    fn read(&mut self, now: usize, displacement: &mut [f64]);
 }

@@ -18,11 +18,11 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
-use super::level::WaveNumbers;
 use super::plan_spectra::{CHUNK, coefficients_in_plan, smooth};
+use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::geometry::{Lattice, SERIES, SPACE};
-use crate::history::convolution::ConvolutionWeights;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 
 /// Smallest number of elements for which the transform along the surface is used.

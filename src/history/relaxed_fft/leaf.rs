@@ -2,8 +2,8 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::level::WaveNumbers;
 use super::wave_level::kinds;
+use super::wave_numbers::WaveNumbers;
 use crate::geometry::SPACE;
 use crate::history::pair_classes::KINDS;
 use crate::linalg::{Simd, WithSimd};

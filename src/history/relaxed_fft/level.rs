@@ -1,17 +1,15 @@
-//! Blocks of one size: their transforms, the spectra of their coefficients, and rings of past steps.
+//! Blocks of one size: their transforms, and the spectra of their coefficients.
 
 use std::sync::Arc;
 
+use super::ring::Ring;
+use super::tables::Class;
 use crate::geometry::PLANE;
 use crate::history::pair_classes::{KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Number of steps summed directly; the smallest block has this size.
-///
-/// Measured with 10 and 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
-pub(crate) const LEAF: usize = 32;
 /// Number of frequencies multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
 
@@ -283,93 +281,3 @@ impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
         }
     }
 }
-
-// Rings: rows whose places are used again.
-
-/// Number of steps that a row holds before its places are used again.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ring(pub(super) usize);
-
-impl Ring {
-    /// A row that holds all steps.
-    pub(super) const ENDLESS: Self = Self(usize::MAX);
-
-    /// Place of a step in its row.
-    pub(super) fn place(self, step: usize) -> usize {
-        if self.is_bounded() { step % self.0 } else { step }
-    }
-
-    /// Places of the block of `size` steps that ends before `now`.
-    pub(super) fn before(self, now: usize, size: usize) -> std::ops::Range<usize> {
-        let begin = self.place(now - size);
-        begin..begin + size
-    }
-
-    /// Whether places are used again.
-    pub(super) fn is_bounded(self) -> bool {
-        self.0 < usize::MAX
-    }
-
-    /// Number of the level for the block that ends before `now`, a multiple of a leaf.
-    pub(super) fn level(self, now: usize, levels: usize) -> usize {
-        let number = (now / LEAF).trailing_zeros() as usize;
-        if self.is_bounded() { number.min(levels - 1) } else { number }
-    }
-
-    /// Places to be cleared for outputs from `now` on.
-    pub(super) fn stale(self, now: usize) -> Option<std::ops::Range<usize>> {
-        let half = self.0 / 2;
-        let begins = self.is_bounded() && now.is_multiple_of(half);
-        begins.then(|| self.place(now)..self.place(now) + half)
-    }
-}
-
-/// Copies `count` rows of the first stride into longer rows of the second stride.
-pub(super) fn widened<T: Copy + Default>(
-    rows: &[T],
-    count: usize,
-    [old, new]: [usize; 2],
-) -> Vec<T> {
-    let mut wide = vec![T::default(); count * new];
-    for (wide, row) in wide.chunks_exact_mut(new).zip(rows.chunks_exact(old.max(1))) {
-        wide[..old].copy_from_slice(row);
-    }
-    wide
-}
-
-// Wavenumbers of a lattice.
-
-/// Numbers of wavenumbers; some have spectra, and the others are mirror images.
-#[derive(Clone, Copy)]
-pub(super) struct WaveNumbers {
-    /// Number of all wavenumbers.
-    pub(super) all: usize,
-    /// Number of wavenumbers with spectra, which come first.
-    pub(super) own: usize,
-    /// First wavenumber that has an image.
-    pub(super) first: usize,
-}
-
-impl WaveNumbers {
-    /// Place of the spectrum of a wavenumber.
-    pub(super) fn spectrum(self, wave: usize) -> usize {
-        if wave < self.own { wave } else { wave - self.own + self.first }
-    }
-
-    /// Ranges of wavenumbers, and the place of the first spectrum of each range.
-    pub(super) fn runs(self) -> [(std::ops::Range<usize>, usize); 2] {
-        [(0..self.own, 0), (self.own..self.all, self.first)]
-    }
-}
-
-// Coefficients over short delays.
-//
-// Index d of a coefficient counts the steps after the step of the traction. Lag d + 1 of the kernel belongs to it.
-
-/// Coefficients d = 0 … of one class, kind by kind.
-pub(super) type Class = [Vec<f64>; KINDS];
-
-/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1.
-///
-/// The first of them is zero. The coupling is stored as long as it is not zero.
-pub(crate) type Tables = [Vec<Vec<f64>>; KINDS];

@@ -1,10 +1,10 @@
 //! Memory of relaxed transforms.
 
 use super::element_grid::takes_wavenumbers;
-use super::level::LEAF;
 use super::plan_spectra::waves_in_plan;
+use super::ring::LEAF;
 use crate::error::Result;
-use crate::history::convolution::ConvolutionWeights;
+use crate::history::convolution_weights::ConvolutionWeights;
 
 /// Bytes of the blocks for `steps` steps, which grow by powers of two.
 pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> Result<f64> {

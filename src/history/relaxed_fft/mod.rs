@@ -1,5 +1,6 @@
 //! History by Fourier transforms of blocks: exact to rounding, O(log² N) per step.
 
+mod blocks;
 mod coefficients;
 mod element_grid;
 mod leaf;
@@ -7,7 +8,10 @@ mod level;
 mod memory;
 mod pairs;
 mod plan_spectra;
+mod ring;
+mod tables;
 mod wave_level;
+mod wave_numbers;
 mod waves;
 
 use std::sync::Arc;
@@ -17,15 +21,16 @@ pub(crate) use self::memory::bytes_of_blocks;
 use self::memory::most_steps;
 use self::pairs::Pairs;
 use self::waves::Waves;
-use super::convolution::{ConvolutionHistory, ConvolutionWeights, check_inputs};
+use super::convolution::{ConvolutionHistory, check_inputs};
+use super::convolution_weights::ConvolutionWeights;
 use super::last_lag::LastLag;
 use crate::error::{
     CheckpointError, Error, MemoryError, Observer, Progress, Result, Watch, memory_limit,
     same_length, unobserved,
 };
-pub(crate) use crate::history::relaxed_fft::coefficients::Blocks;
-use crate::history::relaxed_fft::coefficients::PARTS;
-pub(crate) use crate::history::relaxed_fft::level::LEAF;
+pub(crate) use crate::history::relaxed_fft::blocks::Blocks;
+use crate::history::relaxed_fft::blocks::PARTS;
+pub(crate) use crate::history::relaxed_fft::ring::LEAF;
 
 /// Number of lags of one class whose spectra take as long as one sample of layered ground.
 const SPECTRA: usize = 8192;

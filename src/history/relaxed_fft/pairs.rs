@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::coefficients::{Blocks, Coefficients, PARTS, Scatter};
-use super::level::{Block, Class, Components, LEAF, Level, Ring, Tables, Work, widened};
+use super::blocks::{Blocks, PARTS};
+use super::coefficients::{Coefficients, Scatter};
+use super::level::{Block, Components, Level, Work};
+use super::ring::{LEAF, Ring, widened};
+use super::tables::{Class, Tables};
 use super::wave_level::Levels;
 use crate::error::{Result, Watch, unobserved};
-use crate::history::convolution::ConvolutionWeights;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::KINDS;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;

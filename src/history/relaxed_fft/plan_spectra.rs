@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::geometry::{Lattice, SERIES};
-use crate::history::convolution::ConvolutionWeights;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::linalg::add_combined_rows;
 
 /// Number of lags evaluated together.

@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::level::{Components, Ring, WaveNumbers};
+use super::level::Components;
+use super::ring::Ring;
+use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::history::pair_classes::KINDS as STRIP_KINDS;
 use realfft::RealFftPlanner;

@@ -7,13 +7,14 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::coefficients::{Blocks, PARTS};
+use super::blocks::{Blocks, PARTS};
 use super::element_grid::ElementGrid;
 use super::leaf::{PlanLeaf, StripLeaf};
-use super::level::{Components, LEAF, Ring, widened};
+use super::level::Components;
+use super::ring::{LEAF, Ring, widened};
 use super::wave_level::{COUPLING, Levels, Near, WaveLevel};
 use crate::error::{Result, Watch, unobserved};
-use crate::history::convolution::ConvolutionWeights;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 

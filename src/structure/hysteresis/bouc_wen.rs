@@ -1,7 +1,7 @@
-//! Bouc–Wen spring, and the lead-rubber bearing.
+//! Bouc–Wen spring.
 
-use super::{Hysteresis, Slider, SpringResponse, corrupt, elastic_share, slider_law};
-use crate::error::{Result, finite, positive, require};
+use super::{Hysteresis, SpringResponse, corrupt, elastic_share};
+use crate::error::{Result, positive, require};
 use crate::linalg::gauss;
 use crate::structure::InternalEnergy;
 
@@ -271,92 +271,3 @@ fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let points = rule.nodes.iter().zip(&rule.weights);
     half * points.map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>()
 }
-
-// Lead–rubber bearing by its engineering parameters.
-
-/// Lead–rubber bearing: a bilinear spring from engineering parameters.
-///
-/// The rubber has the stiffness after yield K₂ = G A/t, the lead core the characteristic strength Q = τ_y A_lead
-/// (the force at zero displacement of a wide loop). The initial stiffness of both is K₁ = r K₂ (Skinner, Robinson
-/// & McVerry 1993; Naeim & Kelly 1999: r ≈ 10, τ_y ≈ 10 MPa).
-///
-/// ```
-/// use basemat::structure::{Hysteresis, LeadRubber};
-///
-/// // G = 0.4 MPa, 0.5 m² of rubber, 0.2 m thick in all, 0.01 m² of lead.
-/// let bearing = LeadRubber::new(0.4e6, 0.5, 0.2, 0.01)?;
-/// assert_eq!(bearing.strength(), 100.0e3);
-/// assert_eq!(bearing.response(0.2).force, 100.0e3 + 1.0e6 * 0.2);
-/// assert_eq!(bearing.response(0.0).tangent, 10.0e6);
-/// # Ok::<(), basemat::Error>(())
-/// ```
-#[derive(Debug, Clone, PartialEq)]
-pub struct LeadRubber {
-    slider: Slider,
-}
-
-impl LeadRubber {
-    /// Shear stress at which lead yields by default, Pa.
-    pub(crate) const LEAD_YIELD_STRESS: f64 = 10.0e6;
-    /// Default ratio of the first stiffness to the stiffness after yield.
-    pub const STIFFNESS_RATIO: f64 = 10.0;
-
-    /// Bearings of rubber with lead cores.
-    ///
-    /// `shear_modulus` G of the rubber: Pa. `rubber_area` A: m². `rubber_thickness` t: total, m. `lead_area` of
-    /// the cores: m². Areas are per metre of thickness.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless all are positive.
-    pub fn new(
-        shear_modulus: f64,
-        rubber_area: f64,
-        rubber_thickness: f64,
-        lead_area: f64,
-    ) -> Result<Self> {
-        positive("shear modulus of the rubber", shear_modulus)?;
-        positive("area of the rubber", rubber_area)?;
-        positive("thickness of the rubber", rubber_thickness)?;
-        positive("area of the lead cores", lead_area)?;
-        let rubber = shear_modulus * rubber_area / rubber_thickness;
-        Self::from_strength(rubber, lead_area * Self::LEAD_YIELD_STRESS)
-    }
-
-    /// Bearings with stiffness after yield K₂ (N/m) and characteristic strength Q (N).
-    ///
-    /// Both per metre of thickness.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless both are positive.
-    pub fn from_strength(stiffness: f64, strength: f64) -> Result<Self> {
-        positive("stiffness of the rubber", stiffness)?;
-        positive("strength of the lead cores", strength)?;
-        let series = (Self::STIFFNESS_RATIO - 1.0) * stiffness;
-        let series = finite("first stiffness of the bearing", series)?;
-        Ok(Self { slider: Slider::new(stiffness, series, strength) })
-    }
-
-    /// Sets the ratio of the initial stiffness to the stiffness after yield.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless it is finite and above 1.
-    pub fn with_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
-        let needed = "finite and above 1";
-        require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, needed)?;
-        let series = (ratio - 1.0) * self.slider.parallel;
-        self.slider.series = positive("first stiffness of the bearing", series)?;
-        Ok(self)
-    }
-
-    /// Characteristic strength Q, N per metre of thickness.
-    pub fn strength(&self) -> f64 {
-        self.slider.limit
-    }
-
-    /// Stiffness after yield K₂, N/m per metre of thickness.
-    pub fn stiffness(&self) -> f64 {
-        self.slider.parallel
-    }
-}
-
-slider_law!(LeadRubber);

@@ -1,9 +1,11 @@
 //! Hysteretic springs: the trait, and laws for yielding storeys and base isolators.
 
 mod bouc_wen;
+mod lead_rubber;
 mod springs;
 
-pub use bouc_wen::{BoucWen, LeadRubber};
+pub use bouc_wen::BoucWen;
+pub use lead_rubber::LeadRubber;
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 

@@ -1,6 +1,7 @@
 //! Structure made of finite elements.
 
-use super::rigid_links::{RigidLinks, describe};
+use super::dof_names::describe;
+use super::rigid_links::RigidLinks;
 use crate::error::{Error, Result, at_least, in_bounds, positive, require};
 use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
 use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, Triplets};

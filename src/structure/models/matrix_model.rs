@@ -2,7 +2,7 @@
 
 use crate::error::{Result, at_least, same_length};
 use crate::linalg::SparseMatrix;
-use crate::structure::detached::{check_damping, check_mass};
+use crate::structure::matrix_checks::{check_damping, check_mass};
 use crate::structure::{
     ContactNode, FaceNode, RayleighDamping, Structure, Triplets, base_nodes, check_base_nodes,
 };

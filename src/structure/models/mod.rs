@@ -1,7 +1,9 @@
 //! Structures that come with the crate.
 
+mod dof_names;
 mod fem_model;
 mod group;
+mod line_load;
 mod matrix_model;
 mod p_delta;
 mod rigid_block;

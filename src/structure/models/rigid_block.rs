@@ -141,5 +141,3 @@ impl Structure for RigidBlock {
         Ok(())
     }
 }
-
-// Structure given by its matrices.

@@ -267,8 +267,9 @@ impl StoreyBuilding {
     }
 }
 
-// Degrees of freedom of the mat.
+/// Degree of freedom of the mat: rotation about x.
 const ABOUT_X: usize = 3;
+/// Degree of freedom of the mat: rotation about y.
 const ABOUT_Y: usize = 4;
 
 /// Motion of a level at a place: the mat's base 0, floors from 1.

@@ -9,12 +9,14 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Basis, Recovery};
+use super::Recovery;
+use super::recovery::Basis;
 use crate::error::{
     Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
 };
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{MASSLESS, check_attached, check_mirrored, numbers, restricted};
+use crate::structure::detached::{check_attached, numbers, restricted};
+use crate::structure::matrix_checks::{MASSLESS, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
 

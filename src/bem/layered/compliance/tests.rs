@@ -171,8 +171,6 @@ fn long_waves_see_a_column() {
     }
 }
 
-// Across the wavenumber.
-
 fn across(profile: &SoilProfile, s: Complex, k: f64) -> Complex {
     let mut ground = Compliance::default();
     ground.set(profile, s).unwrap();

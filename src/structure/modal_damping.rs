@@ -1,86 +1,12 @@
-//! Damping of structures: proportional to mass and stiffness, or mode by mode.
+//! Damping given mode by mode.
 
 use std::f64::consts::TAU;
 
-use crate::error::{Error, Result, at_least, damping_ratio, not_negative, positive, require};
-use crate::linalg::{Partition, SparseMatrix, dot, generalised_modes};
-use crate::structure::detached::SYMMETRIC;
-use crate::structure::{
-    FaceNode, HeldBase, NonlinearForce, Structure, Triplets, base_nodes, stiffest,
-};
-
-/// Rayleigh damping C = α M + β K.
-///
-/// ```
-/// use basemat::structure::RayleighDamping;
-///
-/// let damping = RayleighDamping::from_ratios([1.0, 5.0], [0.05, 0.05])?;
-/// assert!((damping.ratio(1.0) - 0.05).abs() < 1e-15);
-/// assert!(damping.ratio(2.0) < 0.05);
-/// # Ok::<(), basemat::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "RayleighDampingForm"))]
-pub struct RayleighDamping {
-    mass: f64,
-    stiffness: f64,
-}
-
-validated! {
-    RayleighDamping as RayleighDampingForm { mass: f64, stiffness: f64 }
-    => RayleighDamping::new(mass, stiffness)
-}
-
-impl RayleighDamping {
-    /// Damping from α (`mass`, 1/s) and β (`stiffness`, s).
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless both are finite and not negative.
-    pub fn new(mass: f64, stiffness: f64) -> Result<Self> {
-        not_negative("mass-proportional damping", mass)?;
-        not_negative("stiffness-proportional damping", stiffness)?;
-        Ok(Self { mass, stiffness })
-    }
-
-    /// Damping with given damping ratios at two frequencies (Hz).
-    ///
-    /// # Errors
-    /// [`Error::Input`] when the frequencies are not positive or equal, a ratio is not from 0 to below 1, or
-    /// the ratios differ so much that α or β would be negative.
-    pub fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> Result<Self> {
-        for (frequency, ratio) in frequencies.into_iter().zip(ratios) {
-            positive("frequency of Rayleigh damping", frequency)?;
-            damping_ratio("damping ratio", ratio)?;
-        }
-        let [low, high] = frequencies.map(|frequency| TAU * frequency);
-        let spread = (high - low) * (high + low);
-        let needed = "different from the first";
-        require("second frequency of Rayleigh damping", frequencies[1], spread != 0.0, needed)?;
-        // Solves ζ = α/(2ω) + βω/2 at both frequencies.
-        let mass = 2.0 * low * high * (ratios[0] * high - ratios[1] * low) / spread;
-        let stiffness = 2.0 * (ratios[1] * high - ratios[0] * low) / spread;
-        Self::new(mass, stiffness)
-    }
-
-    /// α, 1/s.
-    pub fn mass(&self) -> f64 {
-        self.mass
-    }
-
-    /// β, s.
-    pub fn stiffness(&self) -> f64 {
-        self.stiffness
-    }
-
-    /// Damping ratio ζ = α/(2ω) + βω/2 of a mode of `frequency` (Hz).
-    pub fn ratio(&self, frequency: f64) -> f64 {
-        let circular = TAU * frequency;
-        0.5 * (self.mass / circular + self.stiffness * circular)
-    }
-}
-
-// Damping given mode by mode.
+use super::rigid_motions::{check_rows, rigid_momenta};
+use crate::error::{Error, Result, at_least, damping_ratio, require};
+use crate::linalg::{SparseMatrix, dot, generalised_modes};
+use crate::structure::matrix_checks::SYMMETRIC;
+use crate::structure::{HeldBase, NonlinearForce, Structure, Triplets, base_nodes, stiffest};
 
 /// Damping ratios of a structure's own modes; its rigid motions are not damped.
 ///
@@ -130,20 +56,25 @@ short_debug! {
 
 /// Largest number of degrees of freedom: C is a full matrix.
 const MOST: usize = 3000;
+
 /// A mode is rigid if rigid motions hold more than this fraction of its momentum.
 ///
 /// Eigenvalues do not distinguish rigid modes: rounding leaves theirs small but arbitrary, and in fine meshes
 /// the lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
 const RIGID: f64 = 0.5;
+
 /// Stiffness of the springs that hold a base, relative to the largest stiffness: within a millionth of a fixed base.
 const HELD: f64 = 1e6;
+
 /// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
 const MASSLESS: f64 = 1e-13;
+
 const SYMMETRIC_AND_HEAVY: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must have symmetric matrices and mass at every degree of freedom (elements with density give mass to \
              rotations; damping on a fixed base needs none)",
 };
+
 const RESISTS: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must resist every motion that is not rigid",
@@ -278,7 +209,7 @@ impl WithModalDamping {
 
     /// Adds a mode: factor × vector vectorᵀ.
     fn add(&mut self, circular: f64, factor: f64, vector: &[f64]) {
-        self.frequencies.push(circular / std::f64::consts::TAU);
+        self.frequencies.push(circular / TAU);
         for (row, a) in self.damping.chunks_exact_mut(vector.len()).zip(vector) {
             let factor = factor * a;
             row.iter_mut().zip(vector).for_each(|(entry, b)| *entry += factor * b);
@@ -315,75 +246,4 @@ impl Structure for WithModalDamping {
         }
         Ok(())
     }
-}
-
-// Rigid motions of a structure, which strain nothing.
-
-/// A part counts as at rest if it has less than this fraction of a motion's norm.
-const NOTHING: f64 = 1e-8;
-/// A motion depends on the others if the rest after removing them is below this fraction.
-const DEPENDENT: f64 = 1e-6;
-
-/// Error for contact nodes with degrees of freedom at `n` or beyond.
-fn check_rows(contact: &[FaceNode], n: usize) -> Result<()> {
-    let mut rows = contact.iter().flat_map(FaceNode::rows);
-    rows.try_for_each(|row| row.check("degree of freedom of a contact node", n))
-}
-
-/// Momenta M r of the rigid motions r of every part that stiffness connects.
-///
-/// Motions are to the right, upwards and turning, and orthonormal in M. A motion without strain follows from
-/// the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N
-/// gives the nodes' displacements and t their prescribed values.
-pub(super) fn rigid_momenta(
-    contact: &[FaceNode],
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-) -> Result<Vec<Vec<f64>>> {
-    let n = mass.order();
-    check_rows(contact, n)?;
-    let mean = |place: fn(&FaceNode) -> f64| {
-        contact.iter().map(place).sum::<f64>() / contact.len().max(1) as f64
-    };
-    let center = [mean(|node| node.x), mean(|node| node.y)];
-    let held = HeldBase::new(contact, stiffness, stiffest(stiffness));
-    let mut factor = held.factor()?;
-    let mut rigid = held.pulls();
-    rigid.extend(held.turns(contact.iter(), center));
-    let mut coupled = Partition::new(n);
-    coupled.couple(stiffness);
-    let parts = coupled.sets();
-    let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    for mut all in rigid {
-        factor.solve(&mut all);
-        let whole = mass.form(&all, &all).sqrt();
-        for part in &parts {
-            let mut motion = vec![0.0; n];
-            for &i in part {
-                motion[i] = all[i];
-            }
-            let norm = mass.form(&motion, &motion).sqrt();
-            if norm.is_nan() || norm <= NOTHING * whole {
-                continue;
-            }
-            for x in &mut motion {
-                *x /= norm;
-            }
-            for (other, momentum) in motions.iter().zip(&momenta) {
-                let share = dot(momentum, &motion);
-                motion.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
-            }
-            let rest = mass.form(&motion, &motion).sqrt();
-            if rest > DEPENDENT {
-                for x in &mut motion {
-                    *x /= rest;
-                }
-                let mut momentum = vec![0.0; n];
-                mass.multiply_add(1.0, &motion, &mut momentum);
-                motions.push(motion);
-                momenta.push(momentum);
-            }
-        }
-    }
-    Ok(momenta)
 }

@@ -1,0 +1,118 @@
+//! Meshes of rectangular quadrilaterals: layers on a common grid of columns.
+
+use std::ops::Range;
+
+use super::material::Material;
+use super::mesh::Mesh;
+use super::quad4::{Quad4, QuadFormulation};
+use crate::error::{MemoryError, Result, at_least, finite, memory, positive};
+
+/// Horizontal layer of a block: height, rows of elements, material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Layer {
+    /// Height, m.
+    pub height: f64,
+    /// Rows of elements, of equal height.
+    pub rows: usize,
+    /// Material of the layer.
+    pub material: Material,
+    /// Integration of its quadrilaterals.
+    pub formulation: QuadFormulation,
+}
+
+impl Layer {
+    /// Layer with the default formulation of its quadrilaterals (incompatible modes); set the field for
+    /// another one.
+    pub fn new(height: f64, rows: usize, material: Material) -> Self {
+        Self { height, rows, material, formulation: QuadFormulation::default() }
+    }
+}
+
+impl Mesh {
+    /// Block of equal columns over `x` (m), layer upon layer from y = 0 upwards.
+    ///
+    /// Nodes are numbered row by row from the base, left to right.
+    ///
+    /// # Errors
+    /// [`Error::Input`] or [`Error::Size`] when the range is empty or not finite, when there are no columns,
+    /// layers or rows, or when a height is not positive; [`Error::Memory`] when the elements would not fit
+    /// into memory.
+    pub fn layered_block(x: Range<f64>, columns: usize, layers: &[Layer]) -> Result<Self> {
+        finite("left end of the block", x.start)?;
+        finite("right end of the block", x.end)?;
+        positive("width of the block", x.end - x.start)?;
+        check_size(columns, layers)?;
+        let fraction = |k: usize| k as f64 / columns.max(1) as f64;
+        // Weighted ends instead of start + step, so that both ends are exact.
+        let place = |k: usize| x.start * (1.0 - fraction(k)) + x.end * fraction(k);
+        let grid: Vec<f64> = (0..=columns).map(place).collect();
+        Self::graded_block(&grid, layers)
+    }
+
+    /// Block whose columns lie between the given `grid` lines (m, ascending), from y = 0 upwards.
+    ///
+    /// Use the edges of graded contact elements as `grid` to match them.
+    ///
+    /// ```
+    /// use basemat::fem::{Layer, Material, Mesh};
+    ///
+    /// let layers = [Layer::new(1.0, 2, Material::new(1.0e9, 0.3, 2000.0)?)];
+    /// let mesh = Mesh::graded_block(&[0.0, 0.1, 1.0], &layers)?;
+    /// assert_eq!(mesh.nodes()[4], [0.1, 0.5]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Mesh::layered_block`]; [`Error::Input`] also when the grid does not ascend.
+    pub fn graded_block(grid: &[f64], layers: &[Layer]) -> Result<Self> {
+        at_least("grid lines of the block", grid.len(), 2)?;
+        at_least("layers of the block", layers.len(), 1)?;
+        for &line in grid {
+            finite("grid line of the block", line)?;
+        }
+        for pair in grid.windows(2) {
+            positive("width of a column", pair[1] - pair[0])?;
+        }
+        check_size(grid.len() - 1, layers)?;
+        let mut mesh = Self::new();
+        add_row(&mut mesh, grid, 0.0)?;
+        let mut base = 0.0;
+        for layer in layers {
+            positive("height of a layer", layer.height)?;
+            at_least("rows of a layer", layer.rows, 1)?;
+            for row in 1..=layer.rows {
+                let y = base + layer.height * (row as f64 / layer.rows as f64);
+                let upper = add_row(&mut mesh, grid, y)?;
+                for left in upper..upper + grid.len() - 1 {
+                    let below = left - grid.len();
+                    let nodes = [below, below + 1, left + 1, left];
+                    mesh.add(Quad4::new(nodes, layer.material, layer.formulation))?;
+                }
+            }
+            base += layer.height;
+        }
+        Ok(mesh)
+    }
+}
+
+/// Bytes of a quadrilateral in a mesh, with the node and the map entry that it adds.
+const BYTES: f64 = 500.0;
+
+/// Returns an error if a block's quadrilaterals would not fit into memory.
+fn check_size(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
+    let rows: f64 = layers.iter().map(|layer| layer.rows as f64).sum();
+    // There is one more row of nodes than rows of elements.
+    let count = columns as f64 * (rows + 1.0);
+    memory::check("columns times rows of the block", count, BYTES * count)
+}
+
+/// Adds the nodes of one height and returns the first one's index.
+fn add_row(mesh: &mut Mesh, grid: &[f64], y: f64) -> Result<usize> {
+    let first = mesh.nodes().len();
+    for &x in grid {
+        mesh.add_node(x, y)?;
+    }
+    Ok(first)
+}

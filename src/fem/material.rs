@@ -1,0 +1,61 @@
+//! Isotropic linear elastic solid in plane strain.
+
+use crate::error::{Result, finite, not_negative, positive, require};
+
+/// Elastic solid: Young's modulus, Poisson's ratio, density.
+///
+/// ```
+/// let steel = basemat::fem::Material::new(200.0e9, 0.25, 7800.0)?;
+/// assert_eq!(steel.elasticity()[2][2], 80.0e9); // shear modulus
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "MaterialForm"))]
+pub struct Material {
+    young_modulus: f64,
+    poisson: f64,
+    density: f64,
+}
+
+validated! {
+    Material as MaterialForm { young_modulus: f64, poisson: f64, density: f64 }
+    => Material::new(young_modulus, poisson, density)
+}
+
+impl Material {
+    /// Material from Young's modulus E (Pa), Poisson's ratio ν and density ρ (kg/m³; 0 allowed).
+    ///
+    /// E and ν belong to the solid; the plane-strain stiffness follows from them.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless E > 0, −1 < ν < 0.5, ρ ≥ 0, all finite.
+    pub fn new(young_modulus: f64, poisson: f64, density: f64) -> Result<Self> {
+        positive("Young's modulus", young_modulus)?;
+        not_negative("density of the material", density)?;
+        let quantity = "Poisson's ratio of the material";
+        let needed = "above -1 and below 0.5";
+        require(quantity, poisson, poisson > -1.0 && poisson < 0.5, needed)?;
+        let material = Self { young_modulus, poisson, density };
+        finite("plane-strain modulus of the material", material.elasticity()[0][0])?;
+        Ok(material)
+    }
+
+    /// Density ρ, kg/m³.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Shear modulus E/(2(1+ν)), Pa.
+    pub(crate) fn shear_modulus(&self) -> f64 {
+        0.5 * self.young_modulus / (1.0 + self.poisson)
+    }
+
+    /// Plane-strain matrix D, Pa: `[σ_xx, σ_yy, τ_xy] = D · [ε_xx, ε_yy, γ_xy]`.
+    pub fn elasticity(&self) -> [[f64; 3]; 3] {
+        let shear = self.shear_modulus();
+        let lame = 2.0 * shear * self.poisson / (1.0 - 2.0 * self.poisson);
+        let direct = lame + 2.0 * shear;
+        [[direct, lame, 0.0], [lame, direct, 0.0], [0.0, 0.0, shear]]
+    }
+}

@@ -1,0 +1,82 @@
+//! Exact lags before the exponentials begin.
+
+use crate::error::{Error, Observer, Result, unobserved};
+use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::pair_classes::{KINDS, PairClasses};
+use crate::history::shared_spectra::SharedSpectra;
+
+const COUPLING_LASTS: Error =
+    Error::NoExponentials { needed: "a coupling that ends before the exponentials begin" };
+
+/// A kernel whose coefficients are zero after its window.
+pub(super) struct Cut<'a> {
+    pub(super) kernel: &'a dyn ConvolutionWeights,
+    /// Last lag with coefficients.
+    pub(super) lags: usize,
+    pub(super) spectra: &'a SharedSpectra,
+}
+
+impl ConvolutionWeights for Cut<'_> {
+    fn classes(&self) -> &PairClasses {
+        self.kernel.classes()
+    }
+
+    fn prepare(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.kernel.prepare(lags.min(self.lags), observer)
+    }
+
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: [&mut [f64]; KINDS],
+    ) -> Result<()> {
+        let left = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
+        let kept = values.map(|values| {
+            let (kept, cut) = values.split_at_mut(left);
+            cut.fill(0.0);
+            kept
+        });
+        self.kernel.coefficients(class, first_lag, kept)
+    }
+
+    fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
+        self.kernel.last_coupling_lag(class)
+    }
+
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        Some(self.spectra)
+    }
+}
+
+/// Coefficients of lags 1 to W.
+///
+/// Lag 1 does not belong to the history; the check for passivity needs it.
+#[derive(Debug, Clone)]
+pub(super) struct Lags {
+    /// Coefficients of each kind, class by class; the coupling only while it is not zero.
+    pub(super) kinds: [Vec<Vec<f64>>; KINDS],
+}
+
+impl Lags {
+    /// Reads lags 1 to `window` of `kernel`.
+    pub(super) fn new(kernel: &dyn ConvolutionWeights, window: usize) -> Result<Self> {
+        kernel.prepare(window, &mut unobserved)?;
+        let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
+        for class in 0..kernel.classes().count() {
+            let mut lags = [(); KINDS].map(|()| vec![0.0; window]);
+            kernel.coefficients(class, 1, lags.each_mut().map(Vec::as_mut_slice))?;
+            let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
+            let [_, _, zx] = &mut lags;
+            zx.truncate(last.ok_or(COUPLING_LASTS)?);
+            zx.shrink_to_fit();
+            kinds.iter_mut().zip(lags).for_each(|(kind, lags)| kind.push(lags));
+        }
+        Ok(Self { kinds })
+    }
+
+    /// The last lag, W.
+    pub(super) fn length(&self) -> usize {
+        self.kinds[0].first().map_or(0, Vec::len)
+    }
+}

@@ -1,0 +1,84 @@
+//! Structures on springs under their contact nodes.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | N | displacements of the contact nodes |
+//! | γ | stiffness of the springs |
+
+use super::{DofCombination, FaceNode, Triplets};
+use crate::error::Result;
+use crate::geometry::{PLANE, SPACE};
+use crate::linalg::{SparseFactor, SparseMatrix, largest};
+
+/// A structure on springs at its contact nodes: K + γ NᵀN, and forces that move its base.
+pub(crate) struct HeldBase<'a> {
+    nodes: &'a [FaceNode],
+    pub(crate) spring: f64,
+    pub(crate) matrix: Triplets,
+}
+
+impl<'a> HeldBase<'a> {
+    pub(crate) const NAME: &'static str = "stiffness matrix with its base held";
+
+    pub(crate) fn new(nodes: &'a [FaceNode], stiffness: &SparseMatrix, spring: f64) -> Self {
+        let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
+        for row in nodes.iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty()) {
+            matrix.add_outer(row, spring);
+        }
+        Self { nodes, spring, matrix }
+    }
+
+    /// The factored matrix.
+    pub(crate) fn factor(&self) -> Result<SparseFactor> {
+        SparseFactor::new(Self::NAME, &self.matrix)
+    }
+
+    /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.
+    pub(crate) fn pulls(&self) -> Vec<Vec<f64>> {
+        let rows = |direction| self.nodes.iter().map(move |node| (node.rows()[direction], 1.0));
+        (0..self.directions()).map(|direction| self.forces(rows(direction))).collect()
+    }
+
+    /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
+    ///
+    /// In the plane: the rotation of x and up. In plan: the rotations of x and up, of y and up, and of x and
+    /// y.
+    pub(crate) fn turns<'b>(
+        &self,
+        nodes: impl Iterator<Item = &'b FaceNode> + Clone,
+        [x, y]: [f64; 2],
+    ) -> Vec<Vec<f64>> {
+        let mut turns = vec![self.forces(nodes.clone().map(|node| (&node.vertical, node.x - x)))];
+        if self.directions() == SPACE {
+            turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
+            let [along, across] = [
+                self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y))),
+                self.forces(nodes.map(|node| (&node.across, node.x - x))),
+            ];
+            turns.push(along.iter().zip(&across).map(|(one, other)| one + other).collect());
+        }
+        turns
+    }
+
+    /// Number of directions in which the nodes move.
+    fn directions(&self) -> usize {
+        self.nodes.first().map_or(PLANE, FaceNode::directions)
+    }
+
+    /// Forces of springs with these elongations.
+    fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
+        let mut force = vec![0.0; self.matrix.order()];
+        for (row, amount) in pulled {
+            for &(i, weight) in row {
+                force[i] += self.spring * weight * amount;
+            }
+        }
+        force
+    }
+}
+
+/// The largest stiffness on the diagonal, or one.
+pub(crate) fn stiffest(stiffness: &SparseMatrix) -> f64 {
+    let stiffest = largest(&stiffness.diagonal());
+    if stiffest > 0.0 { stiffest } else { 1.0 }
+}

@@ -1,0 +1,76 @@
+//! Checks that matrices of a structure are symmetric and positive semi-definite.
+
+use crate::error::{Error, Result};
+use crate::linalg::{SparseMatrix, indefinite_row, largest};
+
+/// Relative difference of mirrored entries up to which a matrix counts as symmetric.
+pub(super) const SYMMETRIC: f64 = 1e-9;
+
+/// Negative masses and dampings up to this fraction of the diagonal are rounding.
+///
+/// A singular matrix read from a file with seven digits has negative values of this size.
+const SEMI_DEFINITE: f64 = 1e-6;
+
+/// Masses and dampings up to this fraction of the largest entry are rounding.
+///
+/// After reductions and sums a zero has values of this size. One bound serves kg and kg m², whose sizes differ by far
+/// less.
+pub(super) const MASSLESS: f64 = 1e-12;
+
+/// Whether each degree of freedom is massless, up to rounding.
+pub(crate) fn massless(mass: &SparseMatrix) -> Vec<bool> {
+    let masses = mass.diagonal();
+    let most = MASSLESS * largest(&masses);
+    masses.iter().map(|mass| mass.abs() <= most).collect()
+}
+
+/// Square of a circular frequency (1/s²) too low to affect a run: a period of a day.
+pub(crate) const UNNOTICED: f64 = 5.29e-9;
+
+/// Error unless the stiffness matrix is symmetric.
+///
+/// A difference is relative to the diagonal of its row and column and to the inertia of `mass` there, so that
+/// scaling of coordinates does not change the result.
+pub(crate) fn check_stiffness(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<()> {
+    let [diagonal, masses] = [stiffness.diagonal(), mass.diagonal()];
+    let rounding = MASSLESS * stiffness.entries().fold(0.0, |m: f64, (_, _, k)| m.max(k.abs()));
+    let both = |of: &[f64], i: usize, j: usize| (of[i] * of[j]).abs().sqrt();
+    check_symmetric("stiffness matrix", stiffness, |i, j| {
+        SYMMETRIC * both(&diagonal, i, j) + UNNOTICED * both(&masses, i, j) + rounding
+    })
+}
+
+/// Error for mirrored entries that differ by more than 1e-9 of the largest entry.
+pub(super) fn check_mirrored(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
+    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
+    check_symmetric(name, matrix, |_, _| SYMMETRIC * largest)
+}
+
+fn check_symmetric(
+    name: &'static str,
+    matrix: &SparseMatrix,
+    allowed: impl Fn(usize, usize) -> f64,
+) -> Result<()> {
+    let refused =
+        |(row, column, entries)| Error::Unsymmetric { matrix: name, row, column, entries };
+    matrix.unsymmetric_pair(allowed).map_or(Ok(()), |pair| Err(refused(pair)))
+}
+
+/// Error unless the mass matrix is symmetric and positive semi-definite.
+pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
+    check_semi_definite("mass matrix", mass)
+}
+
+/// Error unless the damping matrix is symmetric and positive semi-definite.
+pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
+    check_semi_definite("damping matrix", damping)
+}
+
+fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
+    check_mirrored(name, matrix)?;
+    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
+    match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
+        Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),
+        None => Ok(()),
+    }
+}

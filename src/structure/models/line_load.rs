@@ -1,0 +1,108 @@
+//! Rows for loads along a line of nodes: pressures, tractions, resultants.
+
+use crate::error::{Result, at_least, in_bounds, positive, require_part};
+use crate::fem::Direction;
+use crate::structure::{DofCombination, FemModel};
+
+impl FemModel {
+    /// Row of nodal forces for a pressure of 1 Pa along the line through `nodes`.
+    ///
+    /// For a [`Load`](crate::coupled::Load) in Pa. The pressure pushes to the left of the direction from the first
+    /// to the last node, which is into a body whose boundary is followed counter-clockwise.
+    ///
+    /// The forces do the same work as the pressure on the elements' edges: halves at the ends of a segment,
+    /// Simpson's weights along the edge of an eight-node element whose middle node is in the list.
+    ///
+    /// ```
+    /// use basemat::coupled::Load;
+    /// use basemat::fem::{Direction, Layer, Material, Mesh};
+    /// use basemat::structure::FemModel;
+    ///
+    /// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+    /// let mesh = Mesh::layered_block(-2.0..2.0, 4, &[Layer::new(10.0, 5, concrete)])?;
+    /// let tower = FemModel::on_base(mesh)?;
+    /// // Wind on the left side, from the roof to the base: 1 kPa × 10 m to the right.
+    /// let side: Vec<usize> = [10.0, 8.0, 6.0, 4.0, 2.0, 0.0]
+    ///     .into_iter()
+    ///     .map(|y| tower.mesh().node_at(-2.0, y))
+    ///     .collect::<Result<_, _>>()?;
+    /// let row = tower.pressure_row(&side)?;
+    /// let force = row.value(&tower.rigid_motion(Direction::X, [0.0, 0.0]));
+    /// assert!((force - 10.0).abs() < 1e-12);
+    /// let wind = Load::new(row, |t: f64| 1.0e3 * (0.5 * t).sin().powi(2));
+    /// # let _ = wind;
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for a node that does not exist, [`Error::Input`]
+    /// for two successive nodes at one place, [`Error::NoDof`] for a node that no element moves in a direction of
+    /// the pressure.
+    pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
+        let mut row = DofCombination::default();
+        for (node, [x, y]) in self.line_weights(nodes)? {
+            // The normal to the left, times the length.
+            for (direction, force) in [(Direction::X, -y), (Direction::Y, x)] {
+                if force != 0.0 {
+                    row += force * self.row(node, direction)?;
+                }
+            }
+        }
+        Ok(row)
+    }
+
+    /// Row of nodal forces for a unit force (1 N/m) in `direction`.
+    ///
+    /// It is spread evenly along the line through `nodes`, for a [`Load`](crate::coupled::Load) in N/m.
+    ///
+    /// # Errors
+    /// As for [`FemModel::pressure_row`]; [`Error::Scene`] for [`Direction::Rotation`].
+    pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<DofCombination> {
+        let needed = "a direction along x or y";
+        require_part("resultant along a line", direction != Direction::Rotation, needed)?;
+        let weights = self.line_weights(nodes)?;
+        let lengths = || weights.iter().map(|(_, [x, y])| x.hypot(*y));
+        let whole: f64 = lengths().sum();
+        let mut row = DofCombination::default();
+        for ((node, _), length) in weights.iter().zip(lengths()) {
+            row += (length / whole) * self.row(*node, direction)?;
+        }
+        Ok(row)
+    }
+
+    /// The nodes of a line with their parts of its length, `[x, y]` in m; a node may occur more than once.
+    fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 2])>> {
+        at_least("nodes of a loaded line", nodes.len(), 2)?;
+        let all = self.mesh().nodes();
+        let at = |index: usize| in_bounds("node", index, all.len()).map(|index| all[index]);
+        let mut weights = Vec::with_capacity(2 * nodes.len());
+        let mut k = 0;
+        while k + 1 < nodes.len() {
+            let middle = nodes.get(k..k + 3).filter(|edge| self.is_quadratic_edge(edge));
+            let (count, shares): (usize, &[f64]) = match middle {
+                Some(_) => (2, &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]),
+                None => (1, &[0.5, 0.5]),
+            };
+            let [from, to] = [at(nodes[k])?, at(nodes[k + count])?];
+            let way = [to[0] - from[0], to[1] - from[1]];
+            positive("distance between nodes of a loaded line", way[0].hypot(way[1]))?;
+            let own = nodes[k..=k + count].iter().zip(shares);
+            weights.extend(own.map(|(&node, share)| (node, way.map(|w| share * w))));
+            k += count;
+        }
+        Ok(weights)
+    }
+
+    /// Whether three nodes are an edge of an eight-node element, with the middle node second.
+    fn is_quadratic_edge(&self, edge: &[usize]) -> bool {
+        self.mesh().elements().any(|element| {
+            let own = element.nodes();
+            let place = |node| own.iter().position(|n| *n == node);
+            let [Some(a), Some(middle), Some(b)] = [place(edge[0]), place(edge[1]), place(edge[2])]
+            else {
+                return false;
+            };
+            own.len() == 8 && a < 4 && b < 4 && middle >= 4
+        })
+    }
+}
