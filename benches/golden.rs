@@ -99,7 +99,7 @@ fn tower_in(coordinates: Coordinates) -> Result<SimulationBuilder> {
 fn profile() -> Result<SoilProfile> {
     let damped = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
     SoilProfile::on_half_plane(Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?)
-        .with_base_damping(damped(0.01)?)
+        .with_bedrock_damping(damped(0.01)?)
         .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 6.0)
         .and_then(|profile| Ok(profile.with_damping(damped(0.05)?)))
 }
@@ -169,7 +169,7 @@ const SCENES: [(&str, Make); 42] = [
     ("block, layers on a half-plane", || layered(profile()?)),
     ("block, layer on a rigid base", || {
         layered(
-            SoilProfile::on_rigid_base()
+            SoilProfile::on_rigid_bedrock()
                 .with_layer(soil()?, 5.0)?
                 .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?),
         )

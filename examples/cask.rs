@@ -31,7 +31,7 @@ fn pad() -> basemat::Result<SoilProfile> {
     let damping = || GeneralizedMaxwell::constant_q(0.03, [0.1, 30.0], 1.0);
     let soil = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
     let pad = Soil::from_shear_wave_speed(400.0, 0.25, 2200.0)?;
-    let base = SoilProfile::on_half_plane(soil).with_base_damping(damping()?);
+    let base = SoilProfile::on_half_plane(soil).with_bedrock_damping(damping()?);
     Ok(base.with_layer(pad, 1.5)?.with_damping(damping()?))
 }
 

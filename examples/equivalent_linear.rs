@@ -23,7 +23,7 @@ const STEP: f64 = 0.01;
 fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
     let rock = Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?;
     let mut profile = SoilProfile::on_half_plane(rock)
-        .with_base_damping(GeneralizedMaxwell::constant_q(0.01, [0.1, 30.0], 2.0)?);
+        .with_bedrock_damping(GeneralizedMaxwell::constant_q(0.01, [0.1, 30.0], 2.0)?);
     let mut curves = vec![];
     for k in 0..12 {
         let depth = 2.0 * f64::from(k) + 1.0;

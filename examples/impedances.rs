@@ -81,26 +81,27 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rock = Soil::from_shear_wave_speed(450.0, 0.3, 2160.0)?;
     // Damping is constant over the band; the moduli of the soils apply at 4 Hz.
     let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 4.0);
-    let on_rock = SoilProfile::on_half_plane(rock).with_base_damping(damping(0.01)?);
+    let on_rock = SoilProfile::on_half_plane(rock).with_bedrock_damping(damping(0.01)?);
     let layer = |profile: SoilProfile| -> basemat::Result<SoilProfile> {
         Ok(profile.with_layer(soil, 2.0 * HALF)?.with_damping(damping(0.05)?))
     };
-    let (on_rock, on_rigid_base) = (layer(on_rock)?, layer(SoilProfile::on_rigid_base())?);
-    println!("layer on rock:\n{on_rock}\n\nlayer on a rigid base:\n{on_rigid_base}\n");
+    let (on_rock, on_rigid_bedrock) = (layer(on_rock)?, layer(SoilProfile::on_rigid_bedrock())?);
+    println!("layer on rock:\n{on_rock}\n\nlayer on a rigid base:\n{on_rigid_bedrock}\n");
 
     // a₀ = ωB/c from 0.05 to 2.5.
     let unit = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF);
     let frequencies: Vec<f64> = (1..=50).map(|i| 0.05 * f64::from(i) * unit).collect();
     let half_plane = ElasticGround::new(soil, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
     let on_rock = ElasticGround::new(on_rock, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
-    let on_rigid_base = ElasticGround::new(on_rigid_base, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
+    let on_rigid_bedrock =
+        ElasticGround::new(on_rigid_bedrock, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
     let contact = StripContact::Bonded;
     let cases = [
         ("half-plane", half_plane.impedances(&frequencies, contact, &mut unobserved)?),
         ("layer on rock, 5 %", on_rock.impedances(&frequencies, contact, &mut unobserved)?),
         (
             "layer on a rigid base, 5 %",
-            on_rigid_base.impedances(&frequencies, contact, &mut unobserved)?,
+            on_rigid_bedrock.impedances(&frequencies, contact, &mut unobserved)?,
         ),
     ];
 

@@ -38,7 +38,7 @@ fn site(damped: bool) -> Result<SoilProfile> {
         GeneralizedMaxwell::constant_q(if damped { ratio } else { 0.0 }, [0.2, 25.0], 2.0)
     };
     let rock = Soil::from_shear_wave_speed(ROCK.0, ROCK.1, ROCK.2)?;
-    let mut profile = SoilProfile::on_half_plane(rock).with_base_damping(law(ROCK.3)?);
+    let mut profile = SoilProfile::on_half_plane(rock).with_bedrock_damping(law(ROCK.3)?);
     for (speed, poisson, density, thickness, ratio) in LAYERS {
         let soil = Soil::from_shear_wave_speed(speed, poisson, density)?;
         profile = profile.with_layer(soil, thickness)?.with_damping(law(ratio)?);

@@ -24,7 +24,8 @@ const ROCK: [f64; 3] = [800.0, 2300.0, 0.01];
 fn main() -> Result<()> {
     let [speed, density, ratio] = ROCK;
     let rock = Soil::from_shear_wave_speed(speed, 0.25, density)?;
-    let mut profile = SoilProfile::on_half_plane(rock).with_base_damping(Hysteretic::new(ratio)?);
+    let mut profile =
+        SoilProfile::on_half_plane(rock).with_bedrock_damping(Hysteretic::new(ratio)?);
     for [thickness, speed, density, ratio] in LAYERS {
         let soil = Soil::from_shear_wave_speed(speed, 0.35, density)?;
         profile = profile.with_layer(soil, thickness)?.with_damping(Hysteretic::new(ratio)?);

@@ -56,7 +56,7 @@ use crate::structure::Structure;
 /// // Six metres of soft soil with 5 % damping on rock with 1 %.
 /// let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
 /// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(500.0, 0.3, 2100.0)?)
-///     .with_base_damping(damping(0.01)?)
+///     .with_bedrock_damping(damping(0.01)?)
 ///     .with_layer(Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?, 6.0)?
 ///     .with_damping(damping(0.05)?);
 /// let block = RigidBlock::new(6.0, 9.0, 2000.0)?;
@@ -89,7 +89,7 @@ impl ElasticGround {
     /// returns [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no strips or a rigid base without layers,
+    /// [`Error::Size`](crate::Error::Size) for no strips or rigid bedrock without layers,
     /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order.
     pub fn new(profile: impl Into<SoilProfile>, strips: impl AsRef<[Strip]>) -> Result<Self> {
         let elements: Vec<_> = strips.as_ref().iter().flat_map(Strip::elements).collect();
@@ -120,7 +120,7 @@ impl ElasticGround {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers; [`Error::Memory`](crate::Error::Memory) for
+    /// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers; [`Error::Memory`](crate::Error::Memory) for
     /// more cells than their matrices allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
         let (elements, unions) = (plan.elements(), plan.unions());
@@ -192,7 +192,7 @@ impl ElasticGround {
     /// use basemat::soil::SoilProfile;
     /// let path = std::env::temp_dir().join("basemat-doctest.kernel");
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 6.0)?;
     /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
     /// ground.with_kernel_file(&path).weights(0.01)?.prepare(100, &mut basemat::unobserved)?;
     /// // Four distances, three components, 128 lags, and six words around them.
@@ -241,7 +241,7 @@ impl ElasticGround {
     /// use basemat::bem::{ElasticGround, Strip};
     /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-    /// let profile = SoilProfile::on_rigid_base()
+    /// let profile = SoilProfile::on_rigid_bedrock()
     ///     .with_layer(soil, 6.0)?
     ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
     /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;

@@ -9,7 +9,7 @@ use super::{PatchKernel, StaticKernel, WeightsSource};
 use crate::error::Result;
 use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
-use crate::soil::{Base, SoilProfile};
+use crate::soil::{Bedrock, SoilProfile};
 
 /// Default tolerance of the wavenumber integrals.
 const TOLERANCE: f64 = 1e-10;
@@ -72,8 +72,8 @@ impl WeightsSource for ElasticSource {
         if let Some(plan) = &self.plan {
             return Ok(Arc::new(self.in_plan(plan, time_step)?));
         }
-        match (self.stages(time_step), self.profile.base()) {
-            (None, Base::HalfPlane { soil, .. }) => {
+        match (self.stages(time_step), self.profile.bedrock()) {
+            (None, Bedrock::HalfPlane { soil, .. }) => {
                 Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
             }
             (stages, _) => {
@@ -86,8 +86,8 @@ impl WeightsSource for ElasticSource {
         if let Some(plan) = &self.plan {
             return plan::static_compliance(&self.profile, plan, self.tolerance, matrix);
         }
-        match self.profile.base() {
-            Base::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
+        match self.profile.bedrock() {
+            Bedrock::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
                 StaticKernel::under(*soil, elements)?.compliance(elements, matrix)
             }
             _ => static_compliance(&self.profile, elements, matrix),

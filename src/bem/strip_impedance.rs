@@ -11,7 +11,7 @@ impl ElasticGround {
     /// Cosine-graded strips converge with second order. The observer counts points of the Laplace plane, eight per
     /// frequency.
     ///
-    /// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, including hysteretic
+    /// Frequency 0 is the static stiffness on rigid bedrock. Layers may have any damping, including hysteretic
     /// damping.
     ///
     /// ```
@@ -27,7 +27,7 @@ impl ElasticGround {
     /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
     /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
     ///
-    /// let layer = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 6.0)?;
     /// let ground = ElasticGround::new(layer, strip)?;
     /// let found = ground.impedances(&[1.0, 9.0], StripContact::Bonded, &mut unobserved)?;
     /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.

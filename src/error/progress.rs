@@ -42,7 +42,7 @@ impl fmt::Display for Progress {
 /// use basemat::{Error, Progress, Soil};
 ///
 /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-/// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+/// let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 6.0)?;
 /// let weights = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?.weights(0.01)?;
 /// let stopped = weights.prepare(500, &mut |progress: Progress| {
 ///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }

@@ -10,7 +10,7 @@ use super::soil_column::SoilColumn;
 use crate::error::{Observer, Result, Watch};
 use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};
-use crate::soil::{Base, Elastic, GeneralizedMaxwell, Resolved, SoilProfile, StrainCurves};
+use crate::soil::{Bedrock, Elastic, GeneralizedMaxwell, Resolved, SoilProfile, StrainCurves};
 
 /// Strain-compatible properties of one layer, and its strains.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -155,11 +155,11 @@ impl SoilColumn {
         let reference = soft.first_frequency().unwrap_or(band[0]).clamp(band[0], band[1]);
         let law = |ratio| GeneralizedMaxwell::constant_q(ratio, band, reference);
         let profile = self.compatible(properties, complex_modulus, law)?;
-        match profile.base() {
-            Base::HalfPlane { damping, .. } if !damping.is_causal() => {
+        match profile.bedrock() {
+            Bedrock::HalfPlane { damping, .. } if !damping.is_causal() => {
                 let modulus = damping.modulus(Complex::new(0.0, TAU * reference));
                 let law = law(0.5 * modulus.im / modulus.re)?;
-                Ok(profile.with_base_damping(law))
+                Ok(profile.with_bedrock_damping(law))
             }
             _ => Ok(profile),
         }
@@ -210,8 +210,8 @@ impl fmt::Display for EquivalentLinear {
                 peaks.next().unwrap_or(f64::NAN)
             )?;
         }
-        let base = peaks.next().unwrap_or(f64::NAN);
-        writeln!(f, "{:>9.2} {:>60} {base:>8.3}", self.profile.depth(), "base, within")?;
+        let bedrock = peaks.next().unwrap_or(f64::NAN);
+        writeln!(f, "{:>9.2} {:>60} {bedrock:>8.3}", self.profile.depth(), "bedrock, within")?;
         let (count, change) = (self.iterations, 100.0 * self.last_change);
         write!(f, "{count} iterations, to {change:.2} % of strain-compatible properties")?;
         self.warnings.iter().try_for_each(|warning| write!(f, "\n{warning}"))

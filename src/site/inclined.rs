@@ -10,7 +10,7 @@ use super::transform::{Contour, ContourPoint};
 use crate::error::{LayeredError, Observer, Result, Watch, finite, not_negative, positive};
 use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
-use crate::soil::{Base, Soil, SoilProfile};
+use crate::soil::{Bedrock, Soil, SoilProfile};
 
 /// A plane SV, P or SH wave at an angle below a soil profile.
 ///
@@ -28,7 +28,7 @@ use crate::soil::{Base, Soil, SoilProfile};
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 /// let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
 /// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?)
-///     .with_base_damping(damping(0.01)?)
+///     .with_bedrock_damping(damping(0.01)?)
 ///     .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 12.0)?
 ///     .with_damping(damping(0.05)?);
 /// // SV at 20° in the rock, whose outcrop moves as El Centro; x = −5 m is reached first.
@@ -102,7 +102,7 @@ impl InclinedWave {
     }
 
     fn new(profile: SoilProfile, angle: f64, kind: WaveKind) -> Result<Self> {
-        let Base::HalfPlane { soil: base, .. } = *profile.base() else {
+        let Bedrock::HalfPlane { soil: base, .. } = *profile.bedrock() else {
             return Err(LayeredError::InclinedOverRigidBase.into());
         };
         let (outcrop, speed) = match kind {

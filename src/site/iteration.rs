@@ -10,7 +10,7 @@ use super::vertical::{ControlPoint, Sought, VerticalWave};
 use crate::error::{Error, LayeredError, Result, SiteError, Watch, positive, require};
 use crate::motion::Record;
 use crate::soil::{
-    Base, GeneralizedMaxwell, Hysteretic, Relaxation, Resolved, Soil, SoilLayer, SoilProfile,
+    Bedrock, GeneralizedMaxwell, Hysteretic, Relaxation, Resolved, Soil, SoilLayer, SoilProfile,
     StrainCurves,
 };
 
@@ -122,7 +122,7 @@ impl SoilColumn {
             Ok(SoilLayer { soil, thickness: *thickness, damping: Arc::new(damping) })
         };
         let layers = self.profile.layers().iter().zip(properties).enumerate().map(layer);
-        SoilProfile::new(layers.collect::<Result<_>>()?, self.profile.base().clone())
+        SoilProfile::new(layers.collect::<Result<_>>()?, self.profile.bedrock().clone())
     }
 }
 
@@ -159,13 +159,13 @@ impl<'a> Iteration<'a> {
         if curves.len() != layers {
             return Err(SiteError::Curves { curves: curves.len(), layers }.into());
         }
-        let base = column.profile.base();
-        let reflects = matches!(base, Base::Rigid) || options.control == ControlPoint::Within;
+        let base = column.profile.bedrock();
+        let reflects = matches!(base, Bedrock::Rigid) || options.control == ControlPoint::Within;
         let resolved = |(index, curves): (usize, &StrainCurves)| {
             let resolved = curves.resolved().map_err(|error| of_layer(index, error))?;
             if reflects && resolved.at(0.0)[1] == 0.0 {
                 let (quantity, layer) = ("damping ratio at small strain", index + 1);
-                let needed = "above 0 on a rigid base or under a motion within: nothing leaves";
+                let needed = "above 0 on rigid bedrock or under a motion within: nothing leaves";
                 return Err(SiteError::Layer { layer, quantity, value: 0.0, needed }.into());
             }
             Ok(resolved)

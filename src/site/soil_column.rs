@@ -25,7 +25,7 @@ const BLOCK: usize = 256;
 /// use basemat::site::{SoilColumn, ControlPoint, VerticalWave};
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 /// let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0)?;
-/// let profile = SoilProfile::on_rigid_base()
+/// let profile = SoilProfile::on_rigid_bedrock()
 ///     .with_layer(soil, 10.0)?
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.5, 50.0], 5.0)?);
 /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
@@ -44,7 +44,7 @@ impl SoilColumn {
     /// Column of `profile` for one kind of wave.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers.
+    /// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
     pub fn new(profile: SoilProfile, wave: VerticalWave) -> Result<Self> {
         profile.check()?;
         Ok(Self { profile, wave })
@@ -73,7 +73,7 @@ impl SoilColumn {
     /// # use basemat::soil::SoilProfile;
     /// use std::ops::ControlFlow::Continue;
     /// let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0)?;
-    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 10.0)?;
+    /// let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 10.0)?;
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// let found = column.transfers(ControlPoint::Within, &[1.0, 2.5], &mut |_| Continue(()))?;
     /// // 1/cos(ωh/c), at 2.5 Hz with ωh/c = π/4.

@@ -13,7 +13,7 @@
 use super::sampled::{At, Functions, Highest};
 use crate::error::Result;
 use crate::linalg::{Complex, Number};
-use crate::soil::{Base, Soil, SoilProfile};
+use crate::soil::{Bedrock, Soil, SoilProfile};
 
 /// Kind of wave that travels along a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -120,7 +120,7 @@ impl<'a> Column<'a> {
         let ([up, down], layers) = (waves, self.profile.layers().len());
         // A rigid base moves like the bottom of the lowest layer.
         let is_outcrop = self.control == ControlPoint::Outcrop
-            && matches!(self.profile.base(), Base::HalfPlane { .. });
+            && matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
         let value = if is_outcrop { up } else { (up + down).scale(0.5) };
         let mut decay = value.inverse().scale(0.5);
         match self.sought {

@@ -8,7 +8,7 @@ mod relaxation;
 mod strain_curves;
 
 pub use maxwell::GeneralizedMaxwell;
-pub use profile::{Base, SoilLayer, SoilProfile};
+pub use profile::{Bedrock, SoilLayer, SoilProfile};
 pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
 pub(crate) use strain_curves::Resolved;
 pub use strain_curves::StrainCurves;

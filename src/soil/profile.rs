@@ -28,7 +28,7 @@ pub struct SoilLayer {
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-pub enum Base {
+pub enum Bedrock {
     /// A half-plane, into which waves radiate.
     HalfPlane {
         /// Elastic constants of the half-plane.
@@ -37,11 +37,11 @@ pub enum Base {
         #[cfg_attr(feature = "serde", serde(with = "super::damping_form"))]
         damping: Arc<dyn Relaxation>,
     },
-    /// A base that does not move and reflects all waves.
+    /// Bedrock that does not move and reflects all waves.
     Rigid,
 }
 
-/// Horizontal layers, from the surface down, on a half-plane or a rigid base.
+/// Horizontal layers, from the surface down, on a half-plane or rigid bedrock.
 ///
 /// With the feature `serde`, profiles with the crate's damping laws can be written and read. Writing a
 /// damping law of your own returns an error.
@@ -51,7 +51,7 @@ pub enum Base {
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 /// let band = [0.1, 30.0];
 /// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(500.0, 0.3, 2200.0)?)
-///     .with_base_damping(GeneralizedMaxwell::constant_q(0.01, band, 1.0)?)
+///     .with_bedrock_damping(GeneralizedMaxwell::constant_q(0.01, band, 1.0)?)
 ///     .with_layer(Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?, 6.0)?
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, band, 1.0)?);
 /// assert_eq!(profile.depth(), 6.0);
@@ -64,15 +64,15 @@ pub enum Base {
 #[cfg_attr(feature = "serde", serde(try_from = "SoilProfileForm"))]
 pub struct SoilProfile {
     layers: Vec<SoilLayer>,
-    base: Base,
+    bedrock: Bedrock,
     /// Whether a damping came before any layer.
     #[cfg_attr(feature = "serde", serde(skip))]
     damped_first: bool,
 }
 
 validated! {
-    SoilProfile as SoilProfileForm { layers: Vec<SoilLayer>, base: Base }
-    => SoilProfile::new(layers, base)
+    SoilProfile as SoilProfileForm { layers: Vec<SoilLayer>, bedrock: Bedrock }
+    => SoilProfile::new(layers, bedrock)
 }
 
 /// |Re(μ/s)|/|μ/s| below which the real part counts as zero.
@@ -83,22 +83,22 @@ const MOST_LAYERS: usize = 1000;
 impl SoilProfile {
     /// A half-plane of an elastic soil, without layers so far.
     pub fn on_half_plane(soil: Soil) -> Self {
-        let base = Base::HalfPlane { soil, damping: Arc::new(Elastic) };
-        Self { layers: vec![], base, damped_first: false }
+        let bedrock = Bedrock::HalfPlane { soil, damping: Arc::new(Elastic) };
+        Self { layers: vec![], bedrock, damped_first: false }
     }
 
-    /// A rigid base without layers so far; add at least one.
-    pub fn on_rigid_base() -> Self {
-        Self { layers: vec![], base: Base::Rigid, damped_first: false }
+    /// Rigid bedrock without layers so far; add at least one.
+    pub fn on_rigid_bedrock() -> Self {
+        Self { layers: vec![], bedrock: Bedrock::Rigid, damped_first: false }
     }
 
-    /// Profile from its layers, from the surface down, and its base.
+    /// Profile from its layers, from the surface down, and its bedrock.
     ///
     /// # Errors
     /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
-    /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for a rigid base without layers.
-    pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self> {
-        let profile = Self { layers, base, damped_first: false };
+    /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
+    pub fn new(layers: Vec<SoilLayer>, bedrock: Bedrock) -> Result<Self> {
+        let profile = Self { layers, bedrock, damped_first: false };
         profile.check_depth()?;
         profile.check()?;
         Ok(profile)
@@ -113,27 +113,27 @@ impl SoilProfile {
     /// more than 1000 layers, [`Error::Scene`](crate::Error::Scene) for the first layer after
     /// [`with_damping`](SoilProfile::with_damping), which does not damp it.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
-        let needed = "it damps the layer before it: call it after `with_layer`, or `with_base_damping` for the base";
+        let needed = "it damps the layer before it: call it after `with_layer`, or `with_bedrock_damping` for the bedrock";
         require_part("`with_damping` before the first soil layer", !self.damped_first, needed)?;
         self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
         self.check_depth()?;
         Ok(self)
     }
 
-    /// Sets the damping of the layer added last, or of the base if no layer follows either.
+    /// Sets the damping of the layer added last, or of the bedrock if no layer follows either.
     #[must_use]
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
             Some(layer) => layer.damping = Arc::new(damping),
-            None => return Self { damped_first: true, ..self.with_base_damping(damping) },
+            None => return Self { damped_first: true, ..self.with_bedrock_damping(damping) },
         }
         self
     }
 
-    /// Sets the damping of the half-plane below; has no effect on a rigid base.
+    /// Sets the damping of the half-plane below; has no effect on rigid bedrock.
     #[must_use]
-    pub fn with_base_damping(mut self, law: impl Relaxation + 'static) -> Self {
-        if let Base::HalfPlane { damping, .. } = &mut self.base {
+    pub fn with_bedrock_damping(mut self, law: impl Relaxation + 'static) -> Self {
+        if let Bedrock::HalfPlane { damping, .. } = &mut self.bedrock {
             *damping = Arc::new(law);
         }
         self
@@ -144,9 +144,9 @@ impl SoilProfile {
         &self.layers
     }
 
-    /// Base under the layers.
-    pub fn base(&self) -> &Base {
-        &self.base
+    /// Bedrock under the layers.
+    pub fn bedrock(&self) -> &Bedrock {
+        &self.bedrock
     }
 
     /// Thickness of all layers, m.
@@ -154,12 +154,12 @@ impl SoilProfile {
         self.layers.iter().map(|layer| layer.thickness).sum()
     }
 
-    /// The soil at the surface; `None` for a rigid base without layers.
+    /// The soil at the surface; `None` for rigid bedrock without layers.
     pub(crate) fn surface(&self) -> Option<Soil> {
         self.soils().next().map(|(soil, _)| soil)
     }
 
-    /// First natural frequency of the layers in shear on a rigid base, Hz.
+    /// First natural frequency of the layers in shear on rigid bedrock, Hz.
     ///
     /// Estimated from the travel time: 1/(4 Σ h/`c_S`). `None` without layers.
     pub fn first_frequency(&self) -> Option<f64> {
@@ -175,7 +175,7 @@ impl SoilProfile {
     pub(crate) fn is_elastic_half_plane(&self) -> bool {
         let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Elastic.identity();
         self.layers.is_empty()
-            && matches!(&self.base, Base::HalfPlane { damping, .. } if elastic(damping))
+            && matches!(&self.bedrock, Bedrock::HalfPlane { damping, .. } if elastic(damping))
     }
 
     /// Numbers that are equal only for equal profiles; `None` if a damping law has no identity.
@@ -195,14 +195,14 @@ impl SoilProfile {
 
     /// Soils and damping laws from the surface down; the half-plane comes last.
     pub(crate) fn soils(&self) -> impl Iterator<Item = (Soil, &dyn Relaxation)> {
-        let base = match &self.base {
-            Base::HalfPlane { soil, damping } => Some((*soil, &**damping)),
-            Base::Rigid => None,
+        let bedrock = match &self.bedrock {
+            Bedrock::HalfPlane { soil, damping } => Some((*soil, &**damping)),
+            Bedrock::Rigid => None,
         };
-        self.layers.iter().map(|layer| (layer.soil, &*layer.damping)).chain(base)
+        self.layers.iter().map(|layer| (layer.soil, &*layer.damping)).chain(bedrock)
     }
 
-    /// Error for a rigid base without layers.
+    /// Error for rigid bedrock without layers.
     pub(crate) fn check(&self) -> Result<()> {
         at_least("list of soil layers", self.soils().count(), 1)
     }
@@ -305,7 +305,7 @@ impl From<Soil> for SoilProfile {
     }
 }
 
-/// A table: one line per layer, then the base and the first frequency of the layers.
+/// A table: one line per layer, then the bedrock and the first frequency of the layers.
 impl fmt::Display for SoilProfile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
@@ -322,8 +322,8 @@ impl fmt::Display for SoilProfile {
             let line = constants(soil);
             writeln!(f, "{thickness:>10.3} {line} {frequency:>9.3}  {}", damping.describe())?;
         }
-        match &self.base {
-            Base::HalfPlane { soil, damping } => {
+        match &self.bedrock {
+            Bedrock::HalfPlane { soil, damping } => {
                 write!(
                     f,
                     "{:>10} {} {:>9}  {}",
@@ -333,7 +333,7 @@ impl fmt::Display for SoilProfile {
                     damping.describe()
                 )?;
             }
-            Base::Rigid => write!(f, "rigid base")?,
+            Bedrock::Rigid => write!(f, "rigid bedrock")?,
         }
         if let Some(frequency) = self.first_frequency() {
             write!(f, "\nfirst frequency of the layers: {frequency:.3} Hz")?;

@@ -5,8 +5,7 @@ use crate::text::column::{excerpt, finite};
 
 /// Implements `Display`, `FromStr` and the list `ALL` (with the given visibility) for an enum without fields.
 ///
-/// The macro lists each variant and its word. Reading accepts upper and lower case, and spaces or hyphens in
-/// place of underscores.
+/// The macro lists each variant and its word. The error for another spelling states the right one.
 macro_rules! words {
     ($all:vis $type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
         impl $type {
@@ -33,8 +32,7 @@ macro_rules! words {
             type Err = crate::error::Error;
 
             fn from_str(text: &str) -> crate::error::Result<Self> {
-                let word = crate::text::words::plain(text);
-                let found = Self::ALL.into_iter().find(|own| own.word() == word);
+                let found = Self::ALL.into_iter().find(|own| own.word() == text);
                 found.ok_or_else(|| crate::text::words::unknown($quantity, text, &[$($word),+]))
             }
         }
@@ -71,7 +69,7 @@ macro_rules! words_with_numbers {
                 use crate::text::words::{Bracketed, unknown, with_number};
                 let known =
                     &[$($word,)+ $(concat!($numbered, "(", stringify!($field), ")")),+];
-                let read = with_number(text).and_then(|(word, number)| match (&word[..], number) {
+                let read = with_number(text).and_then(|(word, number)| match (word, number) {
                     $(($word, None) => Some(Self::$plain),)+
                     $(($numbered, Some(number)) => {
                         Bracketed::read(number).map(|$field| Self::$variant { $field })
@@ -84,23 +82,21 @@ macro_rules! words_with_numbers {
     };
 }
 
-/// Converts to lower case without surrounding blanks, with underscores for spaces and hyphens.
-pub(crate) fn plain(text: &str) -> String {
-    text.trim().to_lowercase().replace([' ', '-'], "_")
-}
-
-/// Error for a word that is not known.
+/// Error for a word that is not known; of a known word in another spelling it has the right spelling only.
 pub(crate) fn unknown(quantity: &'static str, text: &str, known: &'static [&'static str]) -> Error {
+    let spelled = text.trim().to_lowercase().replace([' ', '-'], "_");
+    let right = known.iter().position(|word| *word == spelled);
+    let known = right.map_or(known, |place| &known[place..=place]);
     Error::Word { quantity, text: excerpt(text), known }
 }
 
 /// Splits a word from the number that may follow it in brackets: `reduced(1e-6)`.
-pub(crate) fn with_number(text: &str) -> Option<(String, Option<f64>)> {
-    match text.trim().strip_suffix(')') {
-        None => Some((plain(text), None)),
+pub(crate) fn with_number(text: &str) -> Option<(&str, Option<f64>)> {
+    match text.strip_suffix(')') {
+        None => Some((text, None)),
         Some(rest) => {
             let (word, number) = rest.split_once('(')?;
-            Some((plain(word), Some(finite(number.trim())?)))
+            Some((word, Some(finite(number)?)))
         }
     }
 }

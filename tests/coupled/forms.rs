@@ -27,7 +27,7 @@ use basemat::motion::{
 use basemat::results::{Criterion, Peak, Quantity, Recorder, Run, Serviceability, TimeSeries};
 use basemat::site::{ControlPoint, VerticalWave};
 use basemat::soil::{
-    Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation,
+    Bedrock, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation,
     SoilProfile,
 };
 use basemat::structure::{
@@ -140,21 +140,23 @@ impl Relaxation for Own {
 fn profiles_with_every_law_of_the_crate() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     let layer = |profile: SoilProfile| profile.with_layer(soil, 3.0).unwrap();
-    let base =
-        layer(SoilProfile::on_half_plane(soil).with_base_damping(Hysteretic::new(0.02).unwrap()));
+    let base = layer(
+        SoilProfile::on_half_plane(soil).with_bedrock_damping(Hysteretic::new(0.02).unwrap()),
+    );
     let profile = layer(base.with_damping(KelvinVoigt::with_ratio(0.05, 3.0).unwrap()));
     let profile = layer(profile.with_damping(Kjartansson::new(0.05, 3.0).unwrap()));
     let maxwell = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
     let profile = layer(profile.with_damping(maxwell));
-    for profile in [profile, layer(SoilProfile::on_rigid_base()), SoilProfile::on_half_plane(soil)]
+    for profile in
+        [profile, layer(SoilProfile::on_rigid_bedrock()), SoilProfile::on_half_plane(soil)]
     {
         let text = serde_json::to_string(&profile).unwrap();
         let read: SoilProfile = serde_json::from_str(&text).unwrap();
         let laws = |profile: &SoilProfile| {
             let layers = profile.layers().iter().map(|layer| Some(&layer.damping));
-            let base = match profile.base() {
-                Base::HalfPlane { damping, .. } => Some(damping),
-                Base::Rigid => None,
+            let base = match profile.bedrock() {
+                Bedrock::HalfPlane { damping, .. } => Some(damping),
+                Bedrock::Rigid => None,
             };
             layers
                 .chain([base])
@@ -166,15 +168,15 @@ fn profiles_with_every_law_of_the_crate() {
         assert_eq!(serde_json::to_string(&read).unwrap(), text);
         assert!(closed::<SoilProfile>(&serde_json::to_value(&profile).unwrap()) > 2);
     }
-    let rigid = json!({"layers": [], "base": "rigid"});
+    let rigid = json!({"layers": [], "bedrock": "rigid"});
     refused::<SoilProfile>(rigid, "list of soil layers has length 0");
     let constants = json!({"shear_modulus": 1e8, "poisson": 0.3, "density": 2e3});
     let layer = json!({"soil": constants, "thickness": -1.0, "damping": "elastic"});
-    refused::<SoilProfile>(json!({"layers": [layer], "base": "rigid"}), "thickness");
+    refused::<SoilProfile>(json!({"layers": [layer], "bedrock": "rigid"}), "thickness");
 
     for numbers in [None, Some(vec![]), Some(vec![17.0]), Some(vec![4.0, 1.0, 3.0, 0.1, 0.2, 0.3])]
     {
-        let own = SoilProfile::on_half_plane(soil).with_base_damping(Own(numbers));
+        let own = SoilProfile::on_half_plane(soil).with_bedrock_damping(Own(numbers));
         let error = serde_json::to_string(&own).unwrap_err().to_string();
         assert!(error.contains("damping law 'own law'"), "{error}");
     }

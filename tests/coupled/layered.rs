@@ -21,7 +21,7 @@ use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, soil, stat
 /// The soil of the scenes, 3 m of it on rock, with 5 % damping.
 fn profile() -> SoilProfile {
     SoilProfile::on_half_plane(Soil::from_shear_wave_speed(600.0, 0.3, 2200.0).unwrap())
-        .with_base_damping(constant_q(0.01))
+        .with_bedrock_damping(constant_q(0.01))
         .with_layer(soil(SI), 3.0)
         .unwrap()
         .with_damping(constant_q(0.05))
@@ -126,7 +126,7 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
         layered(6).with_stages(Stages::Three),
         layered(6).with_tolerance(1e-8).unwrap(),
         ElasticGround::new(
-            profile().with_base_damping(constant_q(0.02)),
+            profile().with_bedrock_damping(constant_q(0.02)),
             Strip::graded(-2.0..2.0, 6).unwrap(),
         )
         .unwrap(),
@@ -220,7 +220,8 @@ fn a_layer_on_rock_uplifts_more_than_the_half_plane() {
     let rock = Soil::from_shear_wave_speed(500.0, 0.3, 2200.0).unwrap();
     let plane = SoilProfile::on_half_plane(soft);
     let elastic = SoilProfile::on_half_plane(rock).with_layer(soft, 6.0).unwrap();
-    let damped = elastic.clone().with_damping(constant_q(0.05)).with_base_damping(constant_q(0.01));
+    let damped =
+        elastic.clone().with_damping(constant_q(0.05)).with_bedrock_damping(constant_q(0.01));
     // Base shear (kN/m) and elements open of 12, of another program's coefficients.
     for (name, profile, sliding, shear, open) in [
         ("half-plane", &plane, false, 224.9, 7.0),

@@ -32,7 +32,7 @@ fn run(seed: u64) -> Result<(f64, bool, bool)> {
     };
     let top = Soil::from_shear_wave_speed(random.log_within(80.0, 400.0), poisson, 1900.0)?;
     let mut profile = if random.chance(0.3) {
-        SoilProfile::on_rigid_base()
+        SoilProfile::on_rigid_bedrock()
     } else {
         let contrast =
             if seed % 5 == 1 { random.pick(&[1.0, 100.0]) } else { random.log_within(1.0, 100.0) };

@@ -11,8 +11,8 @@ use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::Bonded;
 use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{
-    Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,
-    SoilProfile,
+    Bedrock, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation,
+    SoilLayer, SoilProfile,
 };
 use basemat::structure::RigidBlock;
 use basemat::{Complex, Error, LayeredError, SiteError, Soil, unobserved};
@@ -32,7 +32,7 @@ fn hysteretic_damping_is_refused_in_time() {
     let profile = SoilProfile::on_half_plane(soil())
         .with_layer(soil(), 3.0)
         .unwrap()
-        .with_base_damping(Hysteretic::new(0.05).unwrap());
+        .with_bedrock_damping(Hysteretic::new(0.05).unwrap());
     let found = two_stages(profile, &strip()).weights(0.01).err().unwrap();
     assert!(matches!(found, Error::Layered(LayeredError::NotCausal { layer: 2, .. })), "{found}");
     assert!(
@@ -63,20 +63,21 @@ fn hysteretic_damping_is_refused_in_time() {
 #[test]
 fn profiles_are_validated() {
     for thickness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let good = SoilProfile::on_rigid_base().with_layer(soil(), 1.0).unwrap();
+        let good = SoilProfile::on_rigid_bedrock().with_layer(soil(), 1.0).unwrap();
         let layer = |thickness| SoilLayer { soil: soil(), thickness, damping: Arc::new(Elastic) };
         let layers = vec![layer(1.0), layer(thickness)];
-        for found in [good.with_layer(soil(), thickness), SoilProfile::new(layers, Base::Rigid)] {
+        for found in [good.with_layer(soil(), thickness), SoilProfile::new(layers, Bedrock::Rigid)]
+        {
             let Err(Error::Site(SiteError::Layer { layer: 2, value, quantity, .. })) = found else {
                 panic!("{thickness}: {found:?}");
             };
             assert_eq!((quantity, value.to_bits()), ("thickness (m)", thickness.to_bits()));
         }
     }
-    assert!(SoilProfile::new(vec![], Base::Rigid).is_err());
-    let huge = SoilProfile::on_rigid_base().with_layer(soil(), 1e308).unwrap();
+    assert!(SoilProfile::new(vec![], Bedrock::Rigid).is_err());
+    let huge = SoilProfile::on_rigid_bedrock().with_layer(soil(), 1e308).unwrap();
     assert!(huge.with_layer(soil(), 1e308).is_err());
-    let bare = SoilProfile::on_rigid_base();
+    let bare = SoilProfile::on_rigid_bedrock();
     assert!(ElasticGround::new(bare.clone(), strip()).is_err());
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(KelvinVoigt::new(bad).is_err() && KelvinVoigt::with_ratio(bad, 1.0).is_err());
@@ -341,11 +342,11 @@ fn two_kernels_have_the_same_bits() {
 fn damping_comes_after_its_layer() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
     let damping = || Hysteretic::new(0.05).unwrap();
-    for profile in [SoilProfile::on_half_plane(soil), SoilProfile::on_rigid_base()] {
+    for profile in [SoilProfile::on_half_plane(soil), SoilProfile::on_rigid_bedrock()] {
         let found = profile.clone().with_damping(damping()).with_layer(soil, 6.0);
         assert!(matches!(found, Err(Error::Scene { .. })), "{found:?}");
-        assert!(found.err().unwrap().to_string().contains("with_base_damping"));
-        let layered = profile.with_base_damping(damping()).with_layer(soil, 6.0).unwrap();
+        assert!(found.err().unwrap().to_string().contains("with_bedrock_damping"));
+        let layered = profile.with_bedrock_damping(damping()).with_layer(soil, 6.0).unwrap();
         assert!(layered.with_damping(damping()).with_layer(soil, 6.0).is_ok());
     }
     let bare = SoilProfile::on_half_plane(soil).with_damping(damping());

@@ -58,7 +58,7 @@ fn site(name: &str) -> (Vec<Layer>, [f64; 3]) {
 fn column(layers: &[Layer], [speed, density, damping]: [f64; 3]) -> SoilColumn {
     let rock = Soil::from_shear_wave_speed(speed, 0.25, density).unwrap();
     let mut profile =
-        SoilProfile::on_half_plane(rock).with_base_damping(Hysteretic::new(damping).unwrap());
+        SoilProfile::on_half_plane(rock).with_bedrock_damping(Hysteretic::new(damping).unwrap());
     for (thickness, speed, density, _) in layers {
         let soil = Soil::from_shear_wave_speed(*speed, 0.4, *density).unwrap();
         profile = profile.with_layer(soil, *thickness).unwrap();
@@ -217,7 +217,7 @@ fn sites_respond_as_in_another_program() {
 
 fn uniform(damping: f64) -> SoilProfile {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
-    let profile = SoilProfile::on_rigid_base();
+    let profile = SoilProfile::on_rigid_bedrock();
     let profile = (0..4).fold(profile, |profile, _| profile.with_layer(soil, 5.0).unwrap());
     profile.with_damping(Hysteretic::new(damping).unwrap())
 }
@@ -279,7 +279,7 @@ fn small_motions_pass_a_linear_column() {
     let damping = curves[0].at(0.0).unwrap()[1];
     let column = SoilColumn::new(uniform(0.5), VerticalWave::Shear).unwrap();
     let linear = uniform(0.5);
-    let linear = linear.layers().iter().fold(SoilProfile::on_rigid_base(), |profile, layer| {
+    let linear = linear.layers().iter().fold(SoilProfile::on_rigid_bedrock(), |profile, layer| {
         let law = Hysteretic::new(damping).unwrap();
         profile.with_layer(layer.soil, layer.thickness).unwrap().with_damping(law)
     });
@@ -398,7 +398,7 @@ fn strained_assumptions_are_told() {
 #[allow(clippy::too_many_lines, reason = "a table of bad sites")]
 fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
-    let profile = SoilProfile::on_rigid_base().with_layer(soil, 5.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 5.0).unwrap();
     let profile = profile.with_layer(soil, 5.0).unwrap();
     let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();
     let quiet = Record::new(0.01, vec![0.0, 1.0, 0.0]).unwrap();

@@ -289,7 +289,7 @@ fn incident_waves_say_how_much_a_surface_load_radiates() {
 #[test]
 fn thin_slices_high_frequencies_and_long_waves() {
     let stiff = Soil::from_shear_wave_speed(900.0, 0.2, 2300.0).unwrap();
-    let base = |law| SoilProfile::on_half_plane(soft()).with_base_damping(law);
+    let base = |law| SoilProfile::on_half_plane(soft()).with_bedrock_damping(law);
     let whole =
         base(constant_q(0.02)).with_layer(stiff, 60.0).unwrap().with_damping(constant_q(0.01));
     let mut cut = base(constant_q(0.02));
@@ -397,7 +397,7 @@ fn bad_waves_are_refused() {
             let found = make(elastic.clone(), angle);
             assert!(matches!(found, Err(Error::Input { .. })), "{angle} {found:?}");
         }
-        let rigid = SoilProfile::on_rigid_base().with_layer(soft(), 3.0).unwrap();
+        let rigid = SoilProfile::on_rigid_bedrock().with_layer(soft(), 3.0).unwrap();
         let found = make(rigid, 0.2).unwrap_err();
         assert!(matches!(found, Error::Layered(LayeredError::InclinedOverRigidBase)), "{found}");
         let wave = make(elastic.clone(), 0.3).unwrap();

@@ -117,7 +117,7 @@ fn static_strips_match_the_table() {
     let mut before = [0.0_f64; 2];
     for row in rows(table) {
         let soil = Soil::new(1.0, row[0], 1.0).unwrap();
-        let profile = SoilProfile::on_rigid_base().with_layer(soil, row[1]).unwrap();
+        let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, row[1]).unwrap();
         // As the table was made: 12 and 24 elements, extrapolated.
         let [a, b] = [12, 24].map(|count| all(&profile, count, 0.0));
         for (component, column) in [(0, 2), (1, 3), (2, 4), (3, 5), (5, 6), (6, 7)] {
@@ -200,12 +200,12 @@ fn bad_frequencies_and_resonances_are_refused() {
         )
     };
     // An undamped layer 2 m thick begins to guide waves at 1/8 Hz.
-    let layer = SoilProfile::on_rigid_base().with_layer(soil, 2.0).unwrap();
+    let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();
     let found = at(&layer, 0.125);
     assert!(matches!(found, Err(Error::Layered(LayeredError::Unresolved { .. }))), "{found:?}");
     for frequency in [-1.0, f64::NAN, f64::INFINITY, 0.0] {
         let found = at(&SoilProfile::on_half_plane(soil), frequency);
         assert!(matches!(found, Err(Error::Input { .. })), "{found:?}");
     }
-    assert!(at(&SoilProfile::on_rigid_base(), 1.0).is_err());
+    assert!(at(&SoilProfile::on_rigid_bedrock(), 1.0).is_err());
 }

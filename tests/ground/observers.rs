@@ -141,7 +141,7 @@ fn response_spectra_are_watched_and_stopped() {
 #[test]
 fn site_response_is_watched_and_stopped() {
     let soil = |speed| Soil::from_shear_wave_speed(speed, 0.3, 1900.0).unwrap();
-    let rock = SoilProfile::on_half_plane(soil(800.0)).with_base_damping(gmb(1));
+    let rock = SoilProfile::on_half_plane(soil(800.0)).with_bedrock_damping(gmb(1));
     let mut profile = rock;
     for k in 0..12 {
         let layer = soil(180.0 + 10.0 * f64::from(k));

@@ -143,8 +143,14 @@ fn impedances_say_what_they_cannot() {
         assert!(at(frequency).is_err());
     }
     assert!(
-        impedances_in_plan(&SoilProfile::on_rigid_base(), &plan, &[1.0], bonded, &mut unobserved)
-            .is_err()
+        impedances_in_plan(
+            &SoilProfile::on_rigid_bedrock(),
+            &plan,
+            &[1.0],
+            bonded,
+            &mut unobserved
+        )
+        .is_err()
     );
     assert!(impedances_in_plan(&profile, &plan, &[], bonded, &mut unobserved).unwrap().is_empty());
     let skin = profile.clone().with_layer(soil, 1e-4).unwrap();

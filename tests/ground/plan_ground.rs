@@ -117,7 +117,7 @@ fn step_compliance_and_history_add_up_to_statics() {
 #[test]
 fn tractions_never_take_energy_from_a_ground_in_plan() {
     let steps = std::env::var("PLAN_STEPS").map_or(60, |number| number.parse().unwrap());
-    let thin = SoilProfile::on_rigid_base().with_layer(Soil::new(1.0, 0.45, 1.0).unwrap(), 0.4);
+    let thin = SoilProfile::on_rigid_bedrock().with_layer(Soil::new(1.0, 0.45, 1.0).unwrap(), 0.4);
     let mut least = f64::INFINITY;
     for profile in [half_space(), p1(gmb(5), gmb(1)), p3(gmb(5)), thin.unwrap()] {
         for plan in [Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap(), l_shape()] {

@@ -78,7 +78,7 @@ fn reflections_in_an_elastic_layer() {
 #[test]
 fn reflections_on_a_rigid_base_never_end() {
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
-    let profile = SoilProfile::on_rigid_base().with_layer(layer, 35.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(layer, 35.0).unwrap();
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
     let (dt, count, travel) = (0.01, 1500, 35.0 / 200.0);
     let motion: Vec<f64> = (0..count).map(|i| ricker(dt * f64::from(i))).collect();
@@ -101,7 +101,7 @@ fn deconvolution_undoes_convolution() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
     let rock = Soil::from_shear_wave_speed(800.0, 0.25, 2300.0).unwrap();
     let on_rock = SoilProfile::on_half_plane(rock);
-    for base in [on_rock, SoilProfile::on_rigid_base()] {
+    for base in [on_rock, SoilProfile::on_rigid_bedrock()] {
         let profile = base
             .with_layer(soil, 5.0)
             .unwrap()
@@ -134,7 +134,7 @@ fn deconvolution_undoes_convolution() {
 #[test]
 fn bad_motions_are_refused() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
-    let profile = SoilProfile::on_rigid_base().with_layer(soil, 5.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 5.0).unwrap();
     let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();
     let control = ControlPoint::Within;
     for (step, motion) in [
@@ -151,7 +151,7 @@ fn bad_motions_are_refused() {
     }
     assert!(column.transfer(control, -1.0).is_err());
     assert!(column.transfer(control, f64::NAN).is_err());
-    assert!(SoilColumn::new(SoilProfile::on_rigid_base(), VerticalWave::Shear).is_err());
+    assert!(SoilColumn::new(SoilProfile::on_rigid_bedrock(), VerticalWave::Shear).is_err());
     let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
     let found = column.to_surface(control, 0.1, &[1.0], &mut unobserved);

@@ -18,7 +18,7 @@ use basemat_problems::random::Random;
 fn profile() -> SoilProfile {
     let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap();
     let rock = Soil::from_shear_wave_speed(1000.0, 0.25, 2300.0).unwrap();
-    let mut profile = SoilProfile::on_half_plane(rock).with_base_damping(damping(0.01));
+    let mut profile = SoilProfile::on_half_plane(rock).with_bedrock_damping(damping(0.01));
     for (speed, height, ratio) in [(180.0, 6.0, 0.05), (260.0, 9.0, 0.04), (400.0, 15.0, 0.03)] {
         let soil = Soil::from_shear_wave_speed(speed, 0.35, 1900.0).unwrap();
         profile = profile.with_layer(soil, height).unwrap().with_damping(damping(ratio));

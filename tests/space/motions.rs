@@ -207,7 +207,7 @@ fn a_column_carries_three_components_each_by_its_wave() {
     assert_eq!(none.unwrap(), Triaxial::default());
     // A layer of 10 m on a rigid base under long sines: 1/cos(ω h/c) of each wave.
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
-    let profile = SoilProfile::on_rigid_base().with_layer(layer, 10.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(layer, 10.0).unwrap();
     let omega = TAU * 2.0;
     let start = |time: f64| (1.0 - (-0.5 * time * time).exp()) * (omega * time).sin();
     let sine = basemat::motion::Record::new(

@@ -80,7 +80,7 @@ fn layered(criterion: &mut Criterion) {
     let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).expect("valid soil");
     let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).expect("a fit");
     let profile = SoilProfile::on_half_plane(soil(500.0))
-        .with_base_damping(damping(0.01))
+        .with_bedrock_damping(damping(0.01))
         .with_layer(soil(150.0), 6.0)
         .and_then(|profile| profile.with_damping(damping(0.05)).with_layer(soil(300.0), 8.0))
         .expect("a valid profile")

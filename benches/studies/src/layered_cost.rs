@@ -30,12 +30,12 @@ fn damping(ratio: f64) -> Result<GeneralizedMaxwell> {
 /// rigid base.
 fn profile(layers: &[(f64, f64)], damped: bool, rigid: bool) -> Result<SoilProfile> {
     let mut profile = if rigid {
-        SoilProfile::on_rigid_base()
+        SoilProfile::on_rigid_bedrock()
     } else {
         SoilProfile::on_half_plane(Soil::from_shear_wave_speed(600.0, 0.3, 2200.0)?)
     };
     if damped {
-        profile = profile.with_base_damping(damping(0.01)?);
+        profile = profile.with_bedrock_damping(damping(0.01)?);
     }
     for (speed, thickness) in layers {
         let soil = Soil::from_shear_wave_speed(*speed, 0.33, 1800.0)?;

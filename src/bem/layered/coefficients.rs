@@ -23,7 +23,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use realfft::RealFftPlanner;
 
-use super::contour::{Circle, POINTS, Panel, Panels, Polynomials, evaluate, factor, own_classes};
+use super::contour::{
+    Circle, CirclePanel, POINTS, Panels, Polynomials, evaluate, factor, own_classes,
+};
 use super::runge_kutta::{Node, Stages, on_circle};
 use super::wavenumber::{Compliances, OUTLOOK, Wavenumbers};
 use crate::error::{Error, Result, Watch};
@@ -292,7 +294,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     pub(super) fn looks(
         &self,
         node: usize,
-        place: Panel,
+        place: CirclePanel,
         work: &mut I::Workspace,
     ) -> Result<impl Fn(f64) -> bool> {
         let mut values = vec![];
@@ -314,7 +316,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         &self,
         node: usize,
         panels: &Panels,
-        places: &[Panel],
+        places: &[CirclePanel],
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {

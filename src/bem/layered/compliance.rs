@@ -12,7 +12,7 @@
 //! Waves polarised across the wavenumber have the impedance Z = σ/u alone. It is μβ in a half-space. Through
 //! a layer of thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom, Z ←
 //! z₀ (1 − R)/(1 + R). With E = 1 − e^(−2βh) the result is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps
-//! its digits in thin layers; a rigid base is Z = ∞.
+//! its digits in thin layers; rigid bedrock is Z = ∞.
 //!
 //! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
 //! |s|/(c k) → 0; all differences are formed as products.
@@ -28,7 +28,7 @@
 
 use crate::error::Result;
 use crate::linalg::Complex;
-use crate::soil::{Base, SoilProfile};
+use crate::soil::{Bedrock, SoilProfile};
 
 /// C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -116,7 +116,7 @@ impl Compliance {
     pub(crate) fn set(&mut self, profile: &SoilProfile, s: Complex) -> Result<()> {
         profile.check()?;
         profile.moduli(s, &mut self.moduli)?;
-        self.rigid = matches!(profile.base(), Base::Rigid);
+        self.rigid = matches!(profile.bedrock(), Bedrock::Rigid);
         self.layers.clear();
         let thicknesses = profile.layers().iter().map(|layer| layer.thickness);
         let thicknesses = thicknesses.chain(std::iter::once(f64::INFINITY));
@@ -137,7 +137,7 @@ impl Compliance {
         (top.modulus, top.q2, top.a2)
     }
 
-    /// μ(s), q₂ and a² of the half-plane below; `None` on a rigid base.
+    /// μ(s), q₂ and a² of the half-plane below; `None` on rigid bedrock.
     pub(crate) fn half_plane(&self) -> Option<(Complex, Complex, f64)> {
         let last = self.layers.last().filter(|_| !self.rigid)?;
         Some((last.modulus, last.q2, last.a2))

@@ -80,7 +80,7 @@ pub(crate) fn factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
 /// Panels tested so far, with polynomials on the resolved ones.
 #[derive(Debug)]
 pub(crate) struct Panels {
-    stored: Mutex<HashMap<Panel, Option<Arc<Polynomials>>>>,
+    stored: Mutex<HashMap<CirclePanel, Option<Arc<Polynomials>>>>,
     /// For each class: the classes of the pairs of its two elements with themselves.
     pub(super) own: Arc<[[usize; 2]]>,
 }
@@ -121,12 +121,12 @@ impl Polynomials {
 
 /// A panel of the half circle: the `index`-th of 2^`depth` equal panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Panel {
+pub(crate) struct CirclePanel {
     depth: u32,
     index: usize,
 }
 
-impl Panel {
+impl CirclePanel {
     fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { depth: self.depth + 1, index: 2 * self.index + half })
     }
@@ -175,12 +175,12 @@ impl Panels {
         Self { stored: Mutex::default(), own: Arc::clone(own) }
     }
 
-    pub(super) fn stored(&self) -> MutexGuard<'_, HashMap<Panel, Option<Arc<Polynomials>>>> {
+    pub(super) fn stored(&self) -> MutexGuard<'_, HashMap<CirclePanel, Option<Arc<Polynomials>>>> {
         self.stored.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether the panel at `place` is resolved; `None` if it has not been tested.
-    pub(crate) fn known(&self, place: Panel) -> Option<bool> {
+    pub(crate) fn known(&self, place: CirclePanel) -> Option<bool> {
         self.stored().get(&place).map(Option::is_some)
     }
 }
@@ -235,12 +235,12 @@ impl Circle {
     pub(crate) fn covered(
         self,
         node: usize,
-        mut resolved: impl FnMut(&[Panel]) -> Result<Vec<bool>>,
-    ) -> Result<(Vec<Panel>, Vec<usize>)> {
+        mut resolved: impl FnMut(&[CirclePanel]) -> Result<Vec<bool>>,
+    ) -> Result<(Vec<CirclePanel>, Vec<usize>)> {
         let mut covering = vec![];
         let mut panels: Vec<_> =
-            (0..1 << COARSEST).map(|index| Panel { depth: COARSEST, index }).collect();
-        let serves = |panel: &Panel| {
+            (0..1 << COARSEST).map(|index| CirclePanel { depth: COARSEST, index }).collect();
+        let serves = |panel: &CirclePanel| {
             let beside = -self.logarithm <= 2.0 * ASIDE * panel.width();
             beside && panel.points_of(self).len() > POINTS
         };
@@ -252,7 +252,7 @@ impl Circle {
             for (panel, resolved) in rest.iter().zip(resolved(rest)?) {
                 if resolved { &mut covering } else { &mut halves }.push(*panel);
             }
-            panels = halves.into_iter().flat_map(Panel::halves).collect();
+            panels = halves.into_iter().flat_map(CirclePanel::halves).collect();
         }
         let mut alone: Vec<_> =
             panels.into_iter().flat_map(|panel| panel.points_of(self)).collect();
@@ -282,7 +282,7 @@ fn chebyshev(x: [f64; LANES]) -> [[f64; LANES]; POINTS] {
 pub(super) fn evaluate(
     node: usize,
     panel: &Polynomials,
-    place: Panel,
+    place: CirclePanel,
     circle: Circle,
     spectra: &mut [Complex],
     mut heard: impl FnMut() -> Result<()>,

@@ -17,7 +17,7 @@ use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::linalg::DenseFactor;
-use crate::soil::{Base, SoilProfile};
+use crate::soil::{Bedrock, SoilProfile};
 
 /// Dynamic stiffness of a rigid, massless strip for motions e^(iωt), per metre of its length.
 ///
@@ -101,7 +101,7 @@ pub(in crate::bem) fn strip_impedances(
     let strip = RigidStrip::new(profile, elements, contact)?;
     let mut lists = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
-        let exists = *frequency != 0.0 || matches!(profile.base(), Base::Rigid);
+        let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
         require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
         lists.push(points(profile, strip.classes.span(), *frequency)?);
     }

@@ -7,7 +7,7 @@
 //! `F_zz`, `F_xx` += (1−`ν_b`)/(π`μ_b`) ∫∫ −½ ln(((x−ξ)² + a²)/L₀²),
 //! `F_zx` += (1−2`ν_b`)/(2π`μ_b`) ∫∫ atan((x−ξ)/a)
 //!
-//! with an arbitrary datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). On a rigid base displacements are absolute.
+//! with an arbitrary datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). On rigid bedrock displacements are absolute.
 
 use super::compliance::{Compliance, SurfaceCompliance};
 use super::wavenumber::{Scratch, Wavenumbers, deep};
@@ -28,7 +28,7 @@ const DATUM: f64 = 10.0;
 /// Overwrites `matrix` with the mean static displacements of `elements` due to unit tractions.
 ///
 /// `matrix` is 2Q × 2Q, row-major, m/Pa, with 2Q numbers as in [`crate::bem`]. Displacements are absolute on
-/// a rigid base, and determined up to a rigid settlement on a half-plane.
+/// rigid bedrock, and determined up to a rigid settlement on a half-plane.
 ///
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length,
@@ -162,7 +162,7 @@ mod tests {
     fn statics_are_the_limit_of_slow_motions() {
         let layer = Soil::new(1.0, 0.4, 1.0).unwrap();
         let on_rock = SoilProfile::on_half_plane(Soil::new(7.0, 0.2, 1.2).unwrap());
-        for (base, tolerance) in [(on_rock, 1e-6), (SoilProfile::on_rigid_base(), 1e-8)] {
+        for (base, tolerance) in [(on_rock, 1e-6), (SoilProfile::on_rigid_bedrock(), 1e-8)] {
             let rigid = tolerance < 1e-7;
             let profile = base.with_layer(layer, 0.8).unwrap().with_layer(layer, 0.5).unwrap();
             let strip = Strip::new(-1.0..1.0, 5, Grading::Cosine).unwrap();

@@ -1,4 +1,4 @@
-//! Profiles of the tables for unit tests: P1, a layer on rock; P3, the same layer on a rigid base.
+//! Profiles of the tables for unit tests: P1, a layer on rock; P3, the same layer on rigid bedrock.
 
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 
@@ -18,9 +18,9 @@ pub(in crate::bem) fn p1(
     rock_damping: impl Relaxation + 'static,
 ) -> SoilProfile {
     let rock = Soil::from_shear_wave_speed(3.0, 0.3, 1.2).unwrap();
-    with_layer(SoilProfile::on_half_plane(rock).with_base_damping(rock_damping), layer_damping)
+    with_layer(SoilProfile::on_half_plane(rock).with_bedrock_damping(rock_damping), layer_damping)
 }
 
 pub(in crate::bem) fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
-    with_layer(SoilProfile::on_rigid_base(), damping)
+    with_layer(SoilProfile::on_rigid_bedrock(), damping)
 }

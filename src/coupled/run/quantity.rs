@@ -12,7 +12,7 @@ use crate::coupled::run::peak::Peak;
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::{column, of_body, printed};
-use crate::text::words::{plain, unknown};
+use crate::text::words::unknown;
 
 /// Row of the table: name of a quantity, and where it is shown in addition to its time series.
 struct Row {
@@ -327,17 +327,13 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// Parses the word of `Display`, the name, or the column, in upper or lower case.
+/// Parses the word of `Display`: `base_shear`.
 impl FromStr for Quantity {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let word = plain(text);
-        let is = |own: &Self| {
-            let columns = [false, true].map(|in_plan| own.column(in_plan));
-            own.row().word == word || columns.contains(&word) || plain(own.name()) == word
-        };
-        Self::ALL.into_iter().find(is).ok_or_else(|| unknown("quantity", text, WORDS))
+        let found = Self::ALL.into_iter().find(|own| own.row().word == text);
+        found.ok_or_else(|| unknown("quantity", text, WORDS))
     }
 }
 

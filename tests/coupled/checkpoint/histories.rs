@@ -169,7 +169,7 @@ fn steps_beyond_the_memory_are_refused() {
         base.ground(ground).coordinates(Coordinates::Physical)
     };
     let layers = |memory| {
-        let profile = SoilProfile::on_rigid_base().with_layer(soil(SI), 6.0).unwrap();
+        let profile = SoilProfile::on_rigid_bedrock().with_layer(soil(SI), 6.0).unwrap();
         let ground = ElasticGround::new(profile, Strip::uniform(-2.0..2.0, 2).unwrap()).unwrap();
         over(Box::new(ground.with_history(within(memory)).unwrap()))
     };

@@ -37,14 +37,14 @@ pub fn p1(
     rock_damping: impl Relaxation + 'static,
 ) -> SoilProfile {
     SoilProfile::on_half_plane(Soil::from_shear_wave_speed(3.0, 0.3, 1.2).unwrap())
-        .with_base_damping(rock_damping)
+        .with_bedrock_damping(rock_damping)
         .with_layer(layer(), 2.0)
         .unwrap()
         .with_damping(layer_damping)
 }
 
 pub fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
-    SoilProfile::on_rigid_base().with_layer(layer(), 2.0).unwrap().with_damping(damping)
+    SoilProfile::on_rigid_bedrock().with_layer(layer(), 2.0).unwrap().with_damping(damping)
 }
 
 /// Soft soil, shear waves of 150 m/s.
@@ -68,7 +68,7 @@ pub fn two_layers(
     lower: impl Relaxation + 'static,
 ) -> SoilProfile {
     SoilProfile::on_half_plane(rock())
-        .with_base_damping(lower)
+        .with_bedrock_damping(lower)
         .with_layer(soft(), 6.0)
         .unwrap()
         .with_damping(upper)
@@ -87,7 +87,7 @@ pub fn one_layer(
         height: f64,
         [upper, lower]: [L; 2],
     ) -> (SoilProfile, [Box<dyn Relaxation>; 2]) {
-        let base = SoilProfile::on_half_plane(below).with_base_damping(lower.clone());
+        let base = SoilProfile::on_half_plane(below).with_bedrock_damping(lower.clone());
         let profile = base.with_layer(above, height).unwrap().with_damping(upper.clone());
         (profile, [Box::new(upper), Box::new(lower)])
     }

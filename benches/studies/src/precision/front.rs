@@ -130,7 +130,7 @@ impl Case {
         let law = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.2, 25.0], 2.0);
         let rock = Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?;
         let profile = SoilProfile::on_half_plane(rock)
-            .with_base_damping(law(0.01)?)
+            .with_bedrock_damping(law(0.01)?)
             .with_layer(Self::soil()?, 12.0)?
             .with_damping(law(0.03)?);
         Ok(Box::new(ElasticGround::new(profile, strip)?))

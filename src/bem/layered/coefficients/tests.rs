@@ -25,8 +25,8 @@ fn panels_give_what_points_give() {
     for (name, profile) in [
         ("damped", p1(gmb(5), gmb(1))),
         ("elastic", p1(Elastic, Elastic)),
-        ("rigid base", p3(gmb(5))),
-        ("rigid base, elastic", p3(Elastic)),
+        ("rigid bedrock", p3(gmb(5))),
+        ("rigid bedrock, elastic", p3(Elastic)),
     ] {
         for stages in [Stages::Two, Stages::Three] {
             let quadrature = quadrature(profile.clone(), stages);
@@ -65,7 +65,7 @@ fn panels_give_what_points_give() {
 /// In short runs of undamped layers, panels need at least a quarter fewer samples: few samples are in vain.
 #[test]
 fn panels_take_fewer_samples_than_points() {
-    for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", p3(Elastic))] {
+    for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on rigid bedrock", p3(Elastic))] {
         for stages in [Stages::Two, Stages::Three] {
             let quadrature = quadrature(profile.clone(), stages);
             let [mut taken, mut points] = [0; 2];
@@ -89,7 +89,7 @@ fn lags_are_those_of_all_points() {
     for (name, profile) in [
         ("damped", p1(gmb(5), gmb(1))),
         ("elastic", p1(Elastic, Elastic)),
-        ("rigid base, elastic", p3(Elastic)),
+        ("rigid bedrock, elastic", p3(Elastic)),
     ] {
         let panels = quadrature(profile.clone(), Stages::Two);
         let points = quadrature(profile, Stages::Two);
@@ -98,7 +98,7 @@ fn lags_are_those_of_all_points() {
         for number in 0..4 {
             // All panels are marked as unresolved.
             for (node, panels) in points.panels.iter().enumerate() {
-                let unresolved = |places: &[Panel]| {
+                let unresolved = |places: &[CirclePanel]| {
                     panels.stored().extend(places.iter().map(|place| (*place, None)));
                     Ok(vec![false; places.len()])
                 };

@@ -19,10 +19,10 @@ fn profile(layers: &str, rigid: bool) -> SoilProfile {
     let soil = |l: &[f64]| Soil::new(l[1], l[3], l[0]).unwrap();
     let last = layers.last().unwrap();
     let (mut profile, above) = if rigid {
-        (SoilProfile::on_rigid_base(), &layers[..])
+        (SoilProfile::on_rigid_bedrock(), &layers[..])
     } else {
         let base =
-            SoilProfile::on_half_plane(soil(last)).with_base_damping(Loss(last[2] / last[1]));
+            SoilProfile::on_half_plane(soil(last)).with_bedrock_damping(Loss(last[2] / last[1]));
         (base, &layers[..layers.len() - 1])
     };
     for l in above {
@@ -132,7 +132,7 @@ fn extremes_are_finite() {
             .unwrap()
             .with_layer(stiff, 1e5)
             .unwrap(),
-        SoilProfile::on_rigid_base().with_layer(soft, 2.0).unwrap(),
+        SoilProfile::on_rigid_bedrock().with_layer(soft, 2.0).unwrap(),
     ] {
         for s in [0.0, 1e-9, 1e-3, 1.0, 1e4] {
             for im in [0.0, 1e-6, 1.0, 1e5] {
@@ -153,11 +153,11 @@ fn extremes_are_finite() {
     }
 }
 
-/// k → 0 on a rigid base: shear and pressure columns, tanh(sh/c)/(ρcs).
+/// k → 0 on rigid bedrock: shear and pressure columns, tanh(sh/c)/(ρcs).
 #[test]
 fn long_waves_see_a_column() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
-    let profile = SoilProfile::on_rigid_base().with_layer(soil, 2.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();
     for s in [0.1, 1.0, 5.0] {
         let mut compliance = Compliance::default();
         compliance.set(&profile, Complex::real(s)).unwrap();
@@ -184,13 +184,13 @@ fn damped() -> GeneralizedMaxwell {
 
 fn damped_profiles() -> [SoilProfile; 3] {
     let soil = |mu, nu, rho| Soil::new(mu, nu, rho).unwrap();
-    let on_rock = SoilProfile::on_half_plane(soil(9.0, 0.3, 1.2)).with_base_damping(damped());
+    let on_rock = SoilProfile::on_half_plane(soil(9.0, 0.3, 1.2)).with_bedrock_damping(damped());
     let layers = |profile: SoilProfile| {
         let profile = profile.with_layer(soil(1.0, 0.33, 1.0), 0.7).unwrap();
         profile.with_layer(soil(0.3, 0.4, 1.1), 1.1).unwrap().with_damping(damped())
     };
-    let thin = SoilProfile::on_rigid_base().with_layer(soil(1.0, 0.3, 1.0), 1e-4).unwrap();
-    [layers(on_rock), layers(SoilProfile::on_rigid_base()), thin]
+    let thin = SoilProfile::on_rigid_bedrock().with_layer(soil(1.0, 0.3, 1.0), 1e-4).unwrap();
+    [layers(on_rock), layers(SoilProfile::on_rigid_bedrock()), thin]
 }
 
 /// Identical layers, thick or thin, equal one half-space.
@@ -229,13 +229,13 @@ fn long_waves_are_those_along_the_wavenumber() {
     }
 }
 
-/// μβ u = τ cosh/sinh of a layer on a rigid base, by the differential equation: u″ = β²u through its power series.
+/// μβ u = τ cosh/sinh of a layer on rigid bedrock, by the differential equation: u″ = β²u through its power series.
 #[test]
 fn layer_on_rigid_base_solves_its_equation() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
     for (k, h) in [(0.3, 0.5), (2.0, 1.3), (0.7, 1e-3)] {
         let s = Complex::new(0.2, 1.4);
-        let profile = SoilProfile::on_rigid_base().with_layer(soil, h).unwrap();
+        let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, h).unwrap();
         let square = Complex::real(k * k) + (s * s).scale(0.75);
         // sinh(βh)/β and cosh(βh).
         let (mut term, mut u, mut slope) =

@@ -57,9 +57,9 @@ proptest! {
         let mut layers = layers;
         let last = layers.pop().unwrap();
         let base = if rigid && !layers.is_empty() {
-            crate::soil::Base::Rigid
+            crate::soil::Bedrock::Rigid
         } else {
-            crate::soil::Base::HalfPlane { soil: last.soil, damping: last.damping }
+            crate::soil::Bedrock::HalfPlane { soil: last.soil, damping: last.damping }
         };
         let profile = SoilProfile::new(layers, base).unwrap();
         let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine).unwrap();

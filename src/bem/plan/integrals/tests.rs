@@ -131,7 +131,7 @@ fn mobility_is_passive() {
             Soil::new(random(0.1, 10.0), random(0.05, 0.49), random(0.8, 1.25)).unwrap()
         };
         let mut profile = if case % 4 == 0 {
-            SoilProfile::on_rigid_base()
+            SoilProfile::on_rigid_bedrock()
         } else {
             SoilProfile::on_half_plane(soil(&mut random))
         };
