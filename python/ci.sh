@@ -12,7 +12,7 @@ mkdir -p "$CARGO_TARGET_DIR"
 
 cargo fmt --check
 cargo clippy --locked --all-targets -- -D warnings
-# No file of the package above 400 lines, but for the one stub file of the compiled module.
+# No file of the package above 400 lines, but for the stubs, which are generated.
 long="$(find src python tests examples tools -name '*.rs' -o -name '*.py' | xargs wc -l | awk '$2 != "total" && $1 > 400')"
 [[ -z "$long" ]] || { echo "above 400 lines: $long"; exit 1; }
 
@@ -22,7 +22,7 @@ long="$(find src python tests examples tools -name '*.rs' -o -name '*.py' | xarg
 wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
 "$programs/pip" install -q --force-reinstall --no-deps "$wheel"
 "$programs/pip" install -q "$wheel[test]"
-# Texts of the stubs are those of the module, cells of the notebook those of the walkthrough.
+# The stubs are what the tool writes of the module, cells of the notebook those of the walkthrough.
 "$programs/python" tools/stubs.py --check
 "$programs/python" tools/notebook.py --check
 "$programs/python" -m pytest -q

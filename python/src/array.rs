@@ -181,7 +181,7 @@ extracts!(Numbers, object => Ok(Self(reals::<Ix1>(&object, "(n,)")?.as_array().t
 pub(crate) struct Pairs(pub(crate) Vec<[f64; 2]>);
 
 extracts!(Pairs, object => {
-    let Table { columns, rows } = Table::of(&object, "(n, 2)")?;
+    let Table { columns, rows } = Table::read(&object, "(n, 2)")?;
     let pairs = rows.into_iter().map(<[f64; 2]>::try_from).collect::<Result<Vec<_>, _>>();
     Ok(Self(pairs.map_err(|row| {
         refuse(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
@@ -195,7 +195,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    pub(crate) fn of(object: &Bound<'_, PyAny>, shape: &str) -> PyResult<Self> {
+    pub(crate) fn read(object: &Bound<'_, PyAny>, shape: &str) -> PyResult<Self> {
         let array = reals::<Ix2>(object, shape)?;
         let array = array.as_array();
         let rows = array.rows().into_iter().map(|row| row.to_vec()).collect();

@@ -19,26 +19,39 @@ impl From<ContactNode> for PyContactNode {
     }
 }
 
-members! {
-    PyContactNode, own;
-    new(x: f64, horizontal: RowLike, vertical: RowLike) = {
-        let order = horizontal.1.and(vertical.1)?;
-        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
-    };
-    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
-    /// numbers ``dofs`` (horizontal, vertical, rotation).
-    rigid(x: f64, center: f64, #[pyo3(from_py_with = wholes)] dofs: [usize; 3]) =
-        Ok(ContactNode::rigid(x, center, dofs).into());
-    /// Coordinate to the right, m.
-    x: f64 = own.0.x;
-    /// The :class:`DofCombination` of its displacement to the right.
-    horizontal: PyDofCombination = PyDofCombination(own.0.horizontal.clone(), own.1);
-    /// The :class:`DofCombination` of its displacement up.
-    vertical: PyDofCombination = PyDofCombination(own.0.vertical.clone(), own.1);
-}
-
 #[pymethods]
 impl PyContactNode {
+    #[new]
+    fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
+        let order = horizontal.1.and(vertical.1)?;
+        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
+    }
+
+    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+    /// numbers ``dofs`` (horizontal, vertical, rotation).
+    #[staticmethod]
+    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = wholes)] dofs: [usize; 3]) -> Self {
+        ContactNode::rigid(x, center, dofs).into()
+    }
+
+    /// Coordinate to the right, m.
+    #[getter]
+    fn x(&self) -> f64 {
+        self.0.x
+    }
+
+    /// The :class:`DofCombination` of its displacement to the right.
+    #[getter]
+    fn horizontal(&self) -> PyDofCombination {
+        PyDofCombination(self.0.horizontal.clone(), self.1)
+    }
+
+    /// The :class:`DofCombination` of its displacement up.
+    #[getter]
+    fn vertical(&self) -> PyDofCombination {
+        PyDofCombination(self.0.vertical.clone(), self.1)
+    }
+
     /// The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
     /// at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
@@ -69,33 +82,51 @@ impl From<FaceNode> for PyFaceNode {
     }
 }
 
-members! {
-    PyFaceNode, own;
-    new(
+#[pymethods]
+impl PyFaceNode {
+    #[new]
+    fn new(
         x: f64,
         y: f64,
         horizontal: RowLike,
         across: RowLike,
         vertical: RowLike,
-    ) = {
+    ) -> PyResult<Self> {
         let order = horizontal.1.and(across.1)?.and(vertical.1)?;
         let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
         Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
-    };
-    /// Coordinate to the right, m.
-    x: f64 = own.0.x;
-    /// Coordinate away from the reader, m.
-    y: f64 = own.0.y;
-    /// The :class:`DofCombination` of its displacement along x.
-    horizontal: PyDofCombination = PyDofCombination(own.0.horizontal.clone(), own.1);
-    /// The :class:`DofCombination` of its displacement along y.
-    across: PyDofCombination = PyDofCombination(own.0.across.clone(), own.1);
-    /// The :class:`DofCombination` of its displacement up.
-    vertical: PyDofCombination = PyDofCombination(own.0.vertical.clone(), own.1);
-}
+    }
 
-#[pymethods]
-impl PyFaceNode {
+    /// Coordinate to the right, m.
+    #[getter]
+    fn x(&self) -> f64 {
+        self.0.x
+    }
+
+    /// Coordinate away from the reader, m.
+    #[getter]
+    fn y(&self) -> f64 {
+        self.0.y
+    }
+
+    /// The :class:`DofCombination` of its displacement along x.
+    #[getter]
+    fn horizontal(&self) -> PyDofCombination {
+        PyDofCombination(self.0.horizontal.clone(), self.1)
+    }
+
+    /// The :class:`DofCombination` of its displacement along y.
+    #[getter]
+    fn across(&self) -> PyDofCombination {
+        PyDofCombination(self.0.across.clone(), self.1)
+    }
+
+    /// The :class:`DofCombination` of its displacement up.
+    #[getter]
+    fn vertical(&self) -> PyDofCombination {
+        PyDofCombination(self.0.vertical.clone(), self.1)
+    }
+
     /// The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
     /// whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
     #[staticmethod]
@@ -131,7 +162,7 @@ extracts!(Contact<'py>, object => {
 
 impl Contact<'_> {
     /// Nodes and faces, one of them empty, of a structure of so many degrees of freedom.
-    pub(crate) fn of(&self, dofs: usize) -> PyResult<(Vec<ContactNode>, Vec<Vec<FaceNode>>)> {
+    pub(crate) fn nodes(&self, dofs: usize) -> PyResult<(Vec<ContactNode>, Vec<Vec<FaceNode>>)> {
         let check = |order: Order, x: f64| order.check(&format!("the contact node at {x} m"), dofs);
         let node = |node: &Bound<'_, PyContactNode>| {
             let PyContactNode(node, order) = node.get();

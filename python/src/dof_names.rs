@@ -31,7 +31,10 @@ impl DofNames {
     }
 
     /// The attribute `dof_names` of a structure of so many degrees of freedom, if it has one.
-    pub(crate) fn of(structure: &Bound<'_, PyAny>, dofs: usize) -> PyResult<Option<Self>> {
+    pub(crate) fn from_structure(
+        structure: &Bound<'_, PyAny>,
+        dofs: usize,
+    ) -> PyResult<Option<Self>> {
         let found = structure.getattr_opt("dof_names")?.filter(|names| !names.is_none());
         let names = found.map(|names| crate::error::returned("dof_names of the structure", &names));
         names.transpose()?.map(|names| Self::new(names, dofs)).transpose()

@@ -1,53 +1,6 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-/// Members of a `$class`: its constructor `new(arguments) = value;`, static methods `name(arguments) = value;` that make
-/// an object of it, and getters `name: type = value;`, whose values may ask for the object by the name `$own`.
-macro_rules! members {
-    (@ $class:ident $own:ident { $($made:tt)* }) => {
-        #[pyo3::pymethods]
-        impl $class { $($made)* }
-    };
-    (
-        @ $class:ident $own:ident { $($made:tt)* }
-        $(#[$($attribute:tt)*])* new($($arguments:tt)*) = $value:expr; $($others:tt)*
-    ) => {
-        members! { @ $class $own { $($made)*
-            $(#[$($attribute)*])*
-            #[new]
-            #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
-            fn new($($arguments)*) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
-                let made: pyo3::PyResult<_> = $value;
-                made.map(Into::into)
-            }
-        } $($others)* }
-    };
-    (
-        @ $class:ident $own:ident { $($made:tt)* }
-        $(#[$($attribute:tt)*])* $name:ident($($arguments:tt)*) = $value:expr; $($others:tt)*
-    ) => {
-        members! { @ $class $own { $($made)*
-            $(#[$($attribute)*])*
-            #[staticmethod]
-            #[allow(clippy::unnecessary_wraps, reason = "some cannot fail")]
-            fn $name($($arguments)*) -> pyo3::PyResult<Self> { $value }
-        } $($others)* }
-    };
-    (
-        @ $class:ident $own:ident { $($made:tt)* }
-        $(#[$($attribute:tt)*])* $name:ident: $type:ty = $value:expr; $($others:tt)*
-    ) => {
-        members! { @ $class $own { $($made)*
-            $(#[$($attribute)*])*
-            #[getter]
-            pub(crate) fn $name(&self) -> $type { let $own = self; $value }
-        } $($others)* }
-    };
-    ($class:ident, $own:ident; $($members:tt)+) => {
-        members! { @ $class $own {} $($members)+ }
-    };
-}
-
 /// Objects of a `$class` with that of the class it extends, which follows from its own by the name `$own`.
 macro_rules! extends {
     ($class:ty, $own:ident => $base:expr) => {
@@ -144,7 +97,8 @@ mod _core {
         },
         row::{PyDofCombination, PySectionRows},
         simulation::{
-            PyCheckpoint, PyFoundation, PyLoad, PySimulation, PyState, PySteps, PyTimeScheme,
+            PyCheckpoint, PyFoundation, PyInitialConditions, PyLoad, PyResultOptions,
+            PyServiceLimits, PySimulation, PySolverOptions, PyState, PySteps, PyTimeScheme,
         },
         site::{PyEquivalentLinear, PyStrainCurves},
         soil::PySoil,

@@ -25,40 +25,64 @@ fn labelled(probe: Probe, order: Order, unit: Option<String>) -> PyProbe {
     PyProbe(probe, order)
 }
 
-members! {
-    PyProbe, own;
+#[pymethods]
+impl PyProbe {
     /// Displacement (m, or rad of a rotation) of the ``row`` relative to the free field, as the time
     /// series ``name``; ``unit``: its label, "m" unless given.
     #[pyo3(signature = (name, row, *, unit=None))]
-    displacement(name: String, row: RowLike, unit: Option<String>) =
-        Ok(labelled(Probe::displacement(name, row.0), row.1, unit));
+    #[staticmethod]
+    fn displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
+        labelled(Probe::displacement(name, row.0), row.1, unit)
+    }
+
     /// Displacement (m) of the ``row`` with the translation of the free field, as the time series
     /// ``name``; ``unit``: its label, "m" unless given.
     #[pyo3(signature = (name, row, *, unit=None))]
-    absolute_displacement(name: String, row: RowLike, unit: Option<String>) =
-        Ok(labelled(Probe::absolute_displacement(name, row.0), row.1, unit));
+    #[staticmethod]
+    fn absolute_displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
+        labelled(Probe::absolute_displacement(name, row.0), row.1, unit)
+    }
+
     /// Total velocity of the ``row``, m/s, as the time series ``name``; ``unit``: its label, "m/s" unless
     /// given.
     #[pyo3(signature = (name, row, *, unit=None))]
-    velocity(name: String, row: RowLike, unit: Option<String>) =
-        Ok(labelled(Probe::velocity(name, row.0), row.1, unit));
+    #[staticmethod]
+    fn velocity(name: String, row: RowLike, unit: Option<String>) -> Self {
+        labelled(Probe::velocity(name, row.0), row.1, unit)
+    }
+
     /// Total acceleration of the ``row``, m/s², as the time series ``name``; ``unit``: its label, "m/s²"
     /// unless given.
     #[pyo3(signature = (name, row, *, unit=None))]
-    acceleration(name: String, row: RowLike, unit: Option<String>) =
-        Ok(labelled(Probe::acceleration(name, row.0), row.1, unit));
+    #[staticmethod]
+    fn acceleration(name: String, row: RowLike, unit: Option<String>) -> Self {
+        labelled(Probe::acceleration(name, row.0), row.1, unit)
+    }
+
     /// Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
     /// series ``name``; ``unit``: its label, that of the section unless given.
     #[pyo3(signature = (name, section, *, unit=None))]
-    section(name: String, section: &PySectionRows, unit: Option<String>) =
-        Ok(labelled(Probe::section(name, &section.0), section.1, unit));
+    #[staticmethod]
+    fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
+        labelled(Probe::section(name, &section.0), section.1, unit)
+    }
+
     /// Name of the probe and of its time series.
-    name: &str = &own.0.name;
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
     /// Label of its unit; values are what the weights make of SI units.
-    unit: &str = &own.0.unit;
+    #[getter]
+    fn unit(&self) -> &str {
+        &self.0.unit
+    }
+
     /// The :class:`DofCombination` of displacements, that of velocities and that of accelerations.
-    rows: [PyDofCombination; 3] = {
-        let Probe { displacement, velocity, acceleration, .. } = &own.0;
-        [displacement, velocity, acceleration].map(|row| PyDofCombination(row.clone(), own.1))
-    };
+    #[getter]
+    fn rows(&self) -> [PyDofCombination; 3] {
+        let Probe { displacement, velocity, acceleration, .. } = &self.0;
+        [displacement, velocity, acceleration].map(|row| PyDofCombination(row.clone(), self.1))
+    }
 }

@@ -101,35 +101,71 @@ pub(crate) fn sensitivity(
         .map(PySensitivity)
 }
 
-members! {
-    PyRefinement, own;
-    /// Results of the settings, in the units of the scene: list of 6 arrays of shape (results,).
-    results: Vec<Array> = own.0.settings.iter().map(|setting| setting.results.as_slice().into()).collect();
-    /// Time steps of the settings: array of shape (6,), s.
-    time_steps: Array = own.0.settings.iter().map(|setting| setting.time_step).collect();
-    /// Estimated errors of the settings, relative to the size of the results: array of shape (6,).
-    errors: Array = own.0.settings.iter().map(|setting| setting.error).collect();
-    /// Wall times of the settings: array of shape (6,), s.
-    wall_times: Array = own.0.settings.iter().map(|setting| setting.wall.as_secs_f64()).collect();
-    /// Numbers of elements of the settings: list of 6.
-    elements: Vec<usize> = own.0.settings.iter().map(|setting| setting.elements).collect();
-    /// Results extrapolated to infinitely many elements and steps: array of shape (results,), in the
-    /// units of the scene.
-    extrapolated: Array = own.0.extrapolated.as_slice().into();
-    /// Observed order of convergence in the element length; NaN if nothing depends on it.
-    mesh_order: f64 = own.0.mesh_order;
-    /// Observed order of convergence in the time step; NaN if nothing depends on it.
-    step_order: f64 = own.0.step_order;
-    /// Distance of the last setting's results from those that the other errors foretell, relative to
-    /// the size of the results.
-    mismatch: f64 = own.0.mismatch;
-    /// Whether the estimate can be trusted: regular orders, and the coarsest error above the
-    /// mismatch.
-    is_regular: bool = own.0.is_regular();
-}
-
 #[pymethods]
 impl PyRefinement {
+    /// Results of the settings, in the units of the scene: list of 6 arrays of shape (results,).
+    #[getter]
+    fn results(&self) -> Vec<Array> {
+        self.0.settings.iter().map(|setting| setting.results.as_slice().into()).collect()
+    }
+
+    /// Time steps of the settings: array of shape (6,), s.
+    #[getter]
+    fn time_steps(&self) -> Array {
+        self.0.settings.iter().map(|setting| setting.time_step).collect()
+    }
+
+    /// Estimated errors of the settings, relative to the size of the results: array of shape (6,).
+    #[getter]
+    fn errors(&self) -> Array {
+        self.0.settings.iter().map(|setting| setting.error).collect()
+    }
+
+    /// Wall times of the settings: array of shape (6,), s.
+    #[getter]
+    fn wall_times(&self) -> Array {
+        self.0.settings.iter().map(|setting| setting.wall.as_secs_f64()).collect()
+    }
+
+    /// Numbers of elements of the settings: list of 6.
+    #[getter]
+    fn elements(&self) -> Vec<usize> {
+        self.0.settings.iter().map(|setting| setting.elements).collect()
+    }
+
+    /// Results extrapolated to infinitely many elements and steps: array of shape (results,), in the
+    /// units of the scene.
+    #[getter]
+    fn extrapolated(&self) -> Array {
+        self.0.extrapolated.as_slice().into()
+    }
+
+    /// Observed order of convergence in the element length; NaN if nothing depends on it.
+    #[getter]
+    fn mesh_order(&self) -> f64 {
+        self.0.mesh_order
+    }
+
+    /// Observed order of convergence in the time step; NaN if nothing depends on it.
+    #[getter]
+    fn step_order(&self) -> f64 {
+        self.0.step_order
+    }
+
+    /// Distance of the last setting's results from those that the other errors foretell, relative to
+    /// the size of the results.
+    #[getter]
+    fn mismatch(&self) -> f64 {
+        self.0.mismatch
+    }
+
+    /// Whether the estimate can be trusted: regular orders, and the coarsest error above the
+    /// mismatch.
+    #[getter]
+    fn is_regular(&self) -> bool {
+        self.0.is_regular()
+    }
+
     fn __str__(&self) -> String {
         in_python(self.0.to_string())
     }
@@ -141,14 +177,14 @@ impl PyRefinement {
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRefinements(Refinements);
 
-members! {
-    PyRefinements, own;
-    /// Names of the peaks, in the order of the scene.
-    names: Vec<String> = own.0.peaks.iter().map(|(name, _)| name.clone()).collect();
-}
-
 #[pymethods]
 impl PyRefinements {
+    /// Names of the peaks, in the order of the scene.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.0.peaks.iter().map(|(name, _)| name.clone()).collect()
+    }
+
     /// The :class:`Refinement` of the peak called ``name``.
     fn __getitem__(&self, name: &str) -> PyResult<PyRefinement> {
         self.0.peak(name).cloned().or_raise().map(PyRefinement)
@@ -164,26 +200,50 @@ impl PyRefinements {
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyPeakTwins(PeakTwins);
 
-members! {
-    PyPeakTwins, own;
-    /// Name of the peak.
-    name: &str = &own.0.name;
-    /// Value of the run, in the unit of the peak.
-    value: f64 = own.0.value;
-    /// Value with a time step shorter by 1 %, in the unit of the peak.
-    shorter_step: f64 = own.0.shorter_step;
-    /// Value on three quarters of the elements, rounded up, in the unit of the peak.
-    three_quarters: f64 = own.0.three_quarters;
-    /// Value on half the elements, rounded up, in the unit of the peak.
-    half: f64 = own.0.half;
-    /// Largest difference between a twin and the run, in the unit of the peak.
-    spread: f64 = own.0.spread();
-    /// Significant digits that hold, six at most: half a unit of the last one is the spread or more.
-    digits: u32 = own.0.digits();
-}
-
 #[pymethods]
 impl PyPeakTwins {
+    /// Name of the peak.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Value of the run, in the unit of the peak.
+    #[getter]
+    fn value(&self) -> f64 {
+        self.0.value
+    }
+
+    /// Value with a time step shorter by 1 %, in the unit of the peak.
+    #[getter]
+    fn shorter_step(&self) -> f64 {
+        self.0.shorter_step
+    }
+
+    /// Value on three quarters of the elements, rounded up, in the unit of the peak.
+    #[getter]
+    fn three_quarters(&self) -> f64 {
+        self.0.three_quarters
+    }
+
+    /// Value on half the elements, rounded up, in the unit of the peak.
+    #[getter]
+    fn half(&self) -> f64 {
+        self.0.half
+    }
+
+    /// Largest difference between a twin and the run, in the unit of the peak.
+    #[getter]
+    fn spread(&self) -> f64 {
+        self.0.spread()
+    }
+
+    /// Significant digits that hold, six at most: half a unit of the last one is the spread or more.
+    #[getter]
+    fn digits(&self) -> u32 {
+        self.0.digits()
+    }
+
     fn __repr__(&self) -> String {
         format!("PeakTwins({:?}, {:?} ± {:?})", self.0.name, self.0.value, self.0.spread())
     }
@@ -194,14 +254,14 @@ impl PyPeakTwins {
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySensitivity(Sensitivity);
 
-members! {
-    PySensitivity, own;
-    /// The peaks, in the order of the scene: list of :class:`PeakTwins`.
-    peaks: Vec<PyPeakTwins> = own.0.peaks.iter().cloned().map(PyPeakTwins).collect();
-}
-
 #[pymethods]
 impl PySensitivity {
+    /// The peaks, in the order of the scene: list of :class:`PeakTwins`.
+    #[getter]
+    fn peaks(&self) -> Vec<PyPeakTwins> {
+        self.0.peaks.iter().cloned().map(PyPeakTwins).collect()
+    }
+
     /// The :class:`PeakTwins` of the peak called ``name``.
     fn __getitem__(&self, name: &str) -> PyResult<PyPeakTwins> {
         self.0.peak(name).cloned().or_raise().map(PyPeakTwins)

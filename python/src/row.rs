@@ -118,32 +118,46 @@ impl From<SectionRows> for PySectionRows {
     }
 }
 
-members! {
-    PySectionRows, own;
+#[pymethods]
+impl PySectionRows {
     #[pyo3(signature = (displacement, velocity, acceleration, *, unit="N/m"))]
-    new(
+    #[new]
+    fn new(
         displacement: RowLike,
         velocity: RowLike,
         acceleration: RowLike,
         unit: &str,
-    ) = {
+    ) -> PyResult<Self> {
         let unit = choice("unit", unit, &["N/m", "N·m/m", "N", "N·m"].map(|own| (own, own)))?;
         let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
         let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
         Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))
-    };
-    /// SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m".
-    unit: &'static str = own.0.unit;
-    /// The :class:`DofCombination` of displacements.
-    displacement: PyDofCombination = PyDofCombination(own.0.displacement.clone(), own.1);
-    /// The :class:`DofCombination` of velocities.
-    velocity: PyDofCombination = PyDofCombination(own.0.velocity.clone(), own.1);
-    /// The :class:`DofCombination` of accelerations.
-    acceleration: PyDofCombination = PyDofCombination(own.0.acceleration.clone(), own.1);
-}
+    }
 
-#[pymethods]
-impl PySectionRows {
+    /// SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m".
+    #[getter]
+    fn unit(&self) -> &'static str {
+        self.0.unit
+    }
+
+    /// The :class:`DofCombination` of displacements.
+    #[getter]
+    fn displacement(&self) -> PyDofCombination {
+        PyDofCombination(self.0.displacement.clone(), self.1)
+    }
+
+    /// The :class:`DofCombination` of velocities.
+    #[getter]
+    fn velocity(&self) -> PyDofCombination {
+        PyDofCombination(self.0.velocity.clone(), self.1)
+    }
+
+    /// The :class:`DofCombination` of accelerations.
+    #[getter]
+    fn acceleration(&self) -> PyDofCombination {
+        PyDofCombination(self.0.acceleration.clone(), self.1)
+    }
+
     fn __getnewargs_ex__<'py>(
         &self,
         py: Python<'py>,

@@ -21,6 +21,12 @@ impl<'py, T> Deref for Several<'py, T> {
     }
 }
 
+impl<T> Several<'_, T> {
+    pub(crate) fn unbound(self) -> Vec<Py<T>> {
+        self.0.into_iter().map(Bound::unbind).collect()
+    }
+}
+
 impl<'py, T: PyClass> FromPyObject<'_, 'py> for Several<'py, T> {
     type Error = PyErr;
 

@@ -24,41 +24,55 @@ fn checked(curves: StrainCurves) -> PyResult<PyStrainCurves> {
     Ok(PyStrainCurves(curves))
 }
 
-members! {
-    PyStrainCurves, own;
+#[pymethods]
+impl PyStrainCurves {
     /// A soil or rock that stays linear, with this ``damping`` ratio.
-    linear(damping: f64) = checked(StrainCurves::Linear { damping });
+    #[staticmethod]
+    fn linear(damping: f64) -> PyResult<Self> {
+        checked(StrainCurves::Linear { damping })
+    }
+
     /// Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
     /// damping.
     #[pyo3(signature = (bound="mean"))]
-    seed_idriss(bound: &str) = {
+    #[staticmethod]
+    fn seed_idriss(bound: &str) -> PyResult<Self> {
         let [mean, upper] = [StrainCurves::SeedIdrissMean, StrainCurves::SeedIdrissUpper];
         checked(choice("bound", bound, &[("mean", mean), ("upper", upper)])?)
-    };
+    }
+
     /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
-    vucetic_dobry(plasticity_index: f64) = checked(StrainCurves::VuceticDobry { plasticity_index });
+    #[staticmethod]
+    fn vucetic_dobry(plasticity_index: f64) -> PyResult<Self> {
+        checked(StrainCurves::VuceticDobry { plasticity_index })
+    }
+
     /// Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993).
-    epri(depth: f64) = checked(StrainCurves::Epri { depth });
+    #[staticmethod]
+    fn epri(depth: f64) -> PyResult<Self> {
+        checked(StrainCurves::Epri { depth })
+    }
+
     /// Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
     /// ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
     #[pyo3(signature = (plasticity_index, overconsolidation, mean_stress, *, frequency=1.0, cycles=10.0))]
-    darendeli(
+    #[staticmethod]
+    fn darendeli(
         plasticity_index: f64,
         overconsolidation: f64,
         mean_stress: f64,
         frequency: f64,
         cycles: f64,
-    ) = checked(StrainCurves::Darendeli {
-        plasticity_index,
-        overconsolidation,
-        mean_stress,
-        frequency,
-        cycles,
-    });
-}
+    ) -> PyResult<Self> {
+        checked(StrainCurves::Darendeli {
+            plasticity_index,
+            overconsolidation,
+            mean_stress,
+            frequency,
+            cycles,
+        })
+    }
 
-#[pymethods]
-impl PyStrainCurves {
     /// A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
     /// ratios, ``dampings``.
     #[staticmethod]
@@ -86,7 +100,7 @@ impl PyStrainCurves {
 
 /// Conventions of the complex modulus by their names.
 const CONVENTIONS: [(&str, ComplexModulus); 2] =
-    [("real part", ComplexModulus::RealPart), ("magnitude", ComplexModulus::Magnitude)];
+    [("real_part", ComplexModulus::RealPart), ("magnitude", ComplexModulus::Magnitude)];
 
 #[pymethods]
 impl PyColumn {
@@ -96,8 +110,8 @@ impl PyColumn {
     /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
     /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
     /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
-    /// layers: "real part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
-    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None, complex_modulus="real part"))]
+    /// layers: "real_part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
+    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None, complex_modulus="real_part"))]
     fn equivalent_linear(
         &self,
         py: Python<'_>,
@@ -133,36 +147,80 @@ impl PyColumn {
 #[pyclass(name = "EquivalentLinear", module = "basemat", frozen, dict)]
 pub(crate) struct PyEquivalentLinear(EquivalentLinear);
 
-members! {
-    PyEquivalentLinear, own;
-    /// Depth of the tops of the layers: array of shape (layers,), m.
-    depth: Array = own.0.layers.iter().map(|layer| layer.depth).collect();
-    /// Strain-compatible shear moduli: array of shape (layers,), Pa.
-    shear_modulus: Array = own.0.layers.iter().map(|layer| layer.shear_modulus).collect();
-    /// Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,).
-    modulus_ratio: Array = own.0.layers.iter().map(|layer| layer.modulus_ratio).collect();
-    /// Strain-compatible damping ratio of each layer: array of shape (layers,).
-    damping: Array = own.0.layers.iter().map(|layer| layer.damping).collect();
-    /// Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,).
-    largest_strain: Array = own.0.layers.iter().map(|layer| layer.largest_strain).collect();
-    /// Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,).
-    effective_strain: Array = own.0.layers.iter().map(|layer| layer.effective_strain).collect();
-    /// Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s².
-    peak_acceleration: Array = own.0.peak_accelerations.as_slice().into();
-    /// Linear calculations made.
-    iterations: usize = own.0.iterations;
-    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
-    last_change: f64 = own.0.last_change;
-    /// Warnings, in words.
-    warnings: Vec<String> = own.0.warnings.iter().map(ToString::to_string).collect();
-    /// Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s².
-    accelerations: Rows = Rows(own.0.accelerations.clone());
-    /// Record of the free surface.
-    surface: PyRecord = PyRecord(Arc::new(own.0.surface.clone()));
-}
-
 #[pymethods]
 impl PyEquivalentLinear {
+    /// Depth of the tops of the layers: array of shape (layers,), m.
+    #[getter]
+    fn depth(&self) -> Array {
+        self.0.layers.iter().map(|layer| layer.depth).collect()
+    }
+
+    /// Strain-compatible shear moduli: array of shape (layers,), Pa.
+    #[getter]
+    fn shear_modulus(&self) -> Array {
+        self.0.layers.iter().map(|layer| layer.shear_modulus).collect()
+    }
+
+    /// Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,).
+    #[getter]
+    fn modulus_ratio(&self) -> Array {
+        self.0.layers.iter().map(|layer| layer.modulus_ratio).collect()
+    }
+
+    /// Strain-compatible damping ratio of each layer: array of shape (layers,).
+    #[getter]
+    fn damping(&self) -> Array {
+        self.0.layers.iter().map(|layer| layer.damping).collect()
+    }
+
+    /// Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,).
+    #[getter]
+    fn largest_strain(&self) -> Array {
+        self.0.layers.iter().map(|layer| layer.largest_strain).collect()
+    }
+
+    /// Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,).
+    #[getter]
+    fn effective_strain(&self) -> Array {
+        self.0.layers.iter().map(|layer| layer.effective_strain).collect()
+    }
+
+    /// Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s².
+    #[getter]
+    fn peak_acceleration(&self) -> Array {
+        self.0.peak_accelerations.as_slice().into()
+    }
+
+    /// Linear calculations made.
+    #[getter]
+    fn iterations(&self) -> usize {
+        self.0.iterations
+    }
+
+    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
+    #[getter]
+    fn last_change(&self) -> f64 {
+        self.0.last_change
+    }
+
+    /// Warnings, in words.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings.iter().map(ToString::to_string).collect()
+    }
+
+    /// Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s².
+    #[getter]
+    fn accelerations(&self) -> Rows {
+        Rows(self.0.accelerations.clone())
+    }
+
+    /// Record of the free surface.
+    #[getter]
+    fn surface(&self) -> PyRecord {
+        PyRecord(Arc::new(self.0.surface.clone()))
+    }
+
     /// The site for a ground: strain-compatible moduli at its first frequency, damping constant over the band.
     fn profile(&self) -> PySoilProfile {
         PySoilProfile(self.0.profile.clone())

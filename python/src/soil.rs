@@ -12,31 +12,56 @@ use crate::error::OrRaise;
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySoil(pub(crate) Soil);
 
-members! {
-    PySoil, own;
-    new(shear_modulus: f64, poisson: f64, density: f64) =
-        Ok(Self(Soil::new(shear_modulus, poisson, density).or_raise()?));
-    /// Soil from the ``speed`` of its shear waves (m/s), Poisson's ratio ``poisson`` and ``density``
-    /// (kg/m³).
-    from_shear_wave_speed(speed: f64, poisson: f64, density: f64) =
-        Soil::from_shear_wave_speed(speed, poisson, density).or_raise().map(Self);
-    /// Soil from the speeds of ``shear`` and ``pressure`` waves (m/s) and its ``density`` (kg/m³).
-    from_wave_speeds(shear: f64, pressure: f64, density: f64) =
-        Soil::from_wave_speeds(shear, pressure, density).or_raise().map(Self);
-    /// Shear modulus, Pa.
-    shear_modulus: f64 = own.0.shear_modulus();
-    /// Poisson's ratio, a number.
-    poisson: f64 = own.0.poisson();
-    /// Density, kg/m³.
-    density: f64 = own.0.density();
-    /// Speed of shear waves, m/s.
-    shear_wave_speed: f64 = own.0.shear_wave_speed();
-    /// Speed of pressure waves, m/s.
-    pressure_wave_speed: f64 = own.0.pressure_wave_speed();
-}
-
 #[pymethods]
 impl PySoil {
+    #[new]
+    fn new(shear_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
+        Ok(Self(Soil::new(shear_modulus, poisson, density).or_raise()?))
+    }
+
+    /// Soil from the ``speed`` of its shear waves (m/s), Poisson's ratio ``poisson`` and ``density``
+    /// (kg/m³).
+    #[staticmethod]
+    fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> PyResult<Self> {
+        Soil::from_shear_wave_speed(speed, poisson, density).or_raise().map(Self)
+    }
+
+    /// Soil from the speeds of ``shear`` and ``pressure`` waves (m/s) and its ``density`` (kg/m³).
+    #[staticmethod]
+    fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> PyResult<Self> {
+        Soil::from_wave_speeds(shear, pressure, density).or_raise().map(Self)
+    }
+
+    /// Shear modulus, Pa.
+    #[getter]
+    fn shear_modulus(&self) -> f64 {
+        self.0.shear_modulus()
+    }
+
+    /// Poisson's ratio, a number.
+    #[getter]
+    fn poisson(&self) -> f64 {
+        self.0.poisson()
+    }
+
+    /// Density, kg/m³.
+    #[getter]
+    fn density(&self) -> f64 {
+        self.0.density()
+    }
+
+    /// Speed of shear waves, m/s.
+    #[getter]
+    fn shear_wave_speed(&self) -> f64 {
+        self.0.shear_wave_speed()
+    }
+
+    /// Speed of pressure waves, m/s.
+    #[getter]
+    fn pressure_wave_speed(&self) -> f64 {
+        self.0.pressure_wave_speed()
+    }
+
     fn __repr__(&self) -> String {
         let Self(soil) = self;
         format!(

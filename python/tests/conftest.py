@@ -50,7 +50,7 @@ def rocking(soil: bm.Soil, block: bm.RigidBlock):
             "motion": bm.el_centro_1940(),
             "probes": [bm.Probe.acceleration("roof", block.horizontal_at(9.0))],
         }
-        return bm.Simulation(0.01, **{**parts, **others})
+        return bm.Simulation(time_step=0.01, **{**parts, **others})
 
     return make
 

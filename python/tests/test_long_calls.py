@@ -23,7 +23,7 @@ BLOCK = bm.RigidBlock(10.0, 8.0, 1500.0)
 def simulation(time_step: float = 0.01, elements: int = 4, **keywords: object) -> bm.Simulation:
     ground = bm.ElasticGround.under(PROFILE, BLOCK, elements)
     motion = bm.el_centro_1940()
-    return bm.Simulation(time_step, BLOCK, ground, bm.Coulomb(0.4), motion=motion, **keywords)  # type: ignore[arg-type]
+    return bm.Simulation(BLOCK, ground, bm.Coulomb(0.4), time_step, motion=motion, **keywords)  # type: ignore[arg-type]
 
 
 def test_a_line_for_coefficients_and_one_for_steps(capsys: pytest.CaptureFixture[str]) -> None:
@@ -42,7 +42,7 @@ def test_a_line_that_is_told_its_end_twice_ends_once(capsys: pytest.CaptureFixtu
 
 def test_expected_steps_are_made_ready_under_eyes() -> None:
     told: list[tuple[int, int]] = []
-    made = simulation(2e-4, 12, expected_steps=3000, progress=lambda *own: told.append(own))
+    made = simulation(2e-4, 12, solver=bm.SolverOptions(expected_steps=3000), progress=lambda *own: told.append(own))
     assert told and told[-1][0] == told[-1][1]
     assert [done for done, _ in told] == sorted(done for done, _ in told)
     assert made.run(200).base_shear == simulation(2e-4, 12).run(200).base_shear

@@ -57,10 +57,10 @@ def test_files_of_agencies(tmp_path: Path) -> None:
         "#Station Code,XXX001\n#Sampling Freq(Hz),100\n#Time,NS,EW,UD\n"
         "23:59:59.99,0.10,0.20,0.30\n00:00:00.00,0.11,0.21,0.31\n00:00:00.01,0.12,0.22,0.32\n"
     )
-    record = bm.Record.read(knet, format="k-net csv", channel=2)
+    record = bm.Record.read(knet, format="k_net_csv", channel=2)
     np.testing.assert_allclose(record.accelerations, [0.002, 0.0021, 0.0022], rtol=1e-15)
     assert record.time_step == 0.01
-    station = bm.Record.read_all(knet, format="k-net csv")
+    station = bm.Record.read_all(knet, format="k_net_csv")
     assert list(station) == ["NS", "EW", "UD"]
     np.testing.assert_array_equal(station["EW"].accelerations, record.accelerations)
     by_columns = bm.Record.read(knet, unit="gal")
@@ -98,7 +98,7 @@ def test_treatments() -> None:
     assert record.scaled(2.0).peak_acceleration == 2.0 * record.peak_acceleration
     assert record.scaled_to_peak(5.0).peak_acceleration == pytest.approx(5.0, rel=1e-15)
     assert record.resampled(0.005).time_step == 0.005
-    rest = record.with_baseline("rest to rest", degree=5)
+    rest = record.with_baseline("rest_to_rest", degree=5)
     assert abs(rest.velocities[-1]) < 1e-10 and abs(rest.displacements[-1]) < 1e-9
     assert record.padded(1.0, 2.0).duration == pytest.approx(record.duration + 3.0)
     begin, end = record.significant_times()

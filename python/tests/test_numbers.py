@@ -84,7 +84,7 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_dofs(soil: bm.Soil
     ground = bm.ElasticGround.under(soil, BUILDING, 4)
 
     def simulation(**parts: object) -> bm.Simulation:
-        return bm.Simulation(0.01, BUILDING, ground, bm.Bonded(), **parts)
+        return bm.Simulation(BUILDING, ground, bm.Bonded(), 0.01, **parts)
 
     three, eight = np.array([1.0, 0.0, 0.0]), np.eye(8)[7]
     simulation(probes=[bm.Probe.displacement("roof", eight)], loads=[bm.Load.constant(eight, 1.0)])
@@ -215,7 +215,7 @@ def test_counts_of_a_run_are_whole_and_not_negative(rocking) -> None:
         with pytest.raises(bm.InputError, match=f"{name}: -1, but only whole numbers from 0 on"):
             simulation.run(**{"steps": 1, name: -1})
     with pytest.raises(bm.InputError, match="expected_steps: 1000000000.0, but"):
-        rocking(expected_steps=1e9)
+        rocking(solver=bm.SolverOptions(expected_steps=1e9))
     assert simulation.state.step == 0
 
 
@@ -241,7 +241,7 @@ class Block:
 class Law:
     """Coulomb's law from Python, whose methods may be replaced."""
 
-    modes = ("stick", "slip left", "slip right", "open")
+    modes = ("stick", "slip_left", "slip_right", "open")
     law = bm.Coulomb(0.4)
 
     def __init__(self, **others: object) -> None:

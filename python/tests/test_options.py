@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pickle
+import re
+
 import numpy as np
 import pytest
 from conftest import same_bits
@@ -19,7 +22,7 @@ def bouncing(ground: bm.Ground | None = None, **options: object) -> bm.Simulatio
     """A bonded block on springs; a probe reads its vertical displacement."""
     ground = bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS) if ground is None else ground
     options.setdefault("probes", [bm.Probe.displacement("up", UP)])
-    return bm.Simulation(1e-4, BLOCK, ground, bm.Bonded(), **options)
+    return bm.Simulation(BLOCK, ground, bm.Bonded(), 1e-4, **options)
 
 
 def test_initial_velocity_and_dashpots() -> None:
@@ -29,7 +32,7 @@ def test_initial_velocity_and_dashpots() -> None:
     ground = bm.SpringGround.under(
         BLOCK, 4, STIFFNESS, STIFFNESS, dashpots=(coefficient, coefficient)
     )
-    run = bouncing(ground, initial_velocity=[0.0, velocity, 0.0]).run(2000)
+    run = bouncing(ground, initial=bm.InitialConditions(velocity=[0.0, velocity, 0.0])).run(2000)
     damped = OMEGA * np.sqrt(1.0 - ratio**2)
     time = run.time
     expected = np.exp(-ratio * OMEGA * time) * np.sin(damped * time) * velocity / damped
@@ -38,23 +41,21 @@ def test_initial_velocity_and_dashpots() -> None:
 
 def test_initial_displacement_unloaded_and_gravity() -> None:
     """Dropped, it swings about its settlement; let go from a height, it falls freely first."""
-    fallen = bouncing(gravity=10.0, gravity_stage="unloaded").run(2000)
+    fallen = bouncing(initial=bm.InitialConditions(gravity=10.0, gravity_stage="unloaded")).run(2000)
     settlement = MASS * 10.0 / (4.0 * STIFFNESS)
     expected = -settlement * (1.0 - np.cos(OMEGA * fallen.time))
     np.testing.assert_allclose(fallen["up"], expected, rtol=0.0, atol=5e-3 * settlement)
     lifted = bm.Simulation(
-        1e-3,
         BLOCK,
         bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS),
         bm.Coulomb(0.5),
-        gravity=10.0,
-        gravity_stage="unloaded",
-        initial_displacement=[0.0, 0.02, 0.0],
+        1e-3,
+        initial=bm.InitialConditions(gravity=10.0, gravity_stage="unloaded", displacement=[0.0, 0.02, 0.0]),
         probes=[bm.Probe.displacement("up", UP)],
     ).run(60)
     assert lifted.normal_force.magnitude == 0.0
     np.testing.assert_allclose(lifted["up"], 0.02 - 5.0 * lifted.time**2, rtol=0.0, atol=1e-9)
-    standing = bouncing(gravity=10.0)
+    standing = bouncing(initial=bm.InitialConditions(gravity=10.0))
     assert standing.static_displacement[UP] == pytest.approx(-settlement)
     assert standing.state.normal_force == pytest.approx(MASS * 10.0)
     assert standing.run(10)["up"] == pytest.approx(0.0, abs=1e-12)
@@ -91,7 +92,12 @@ def test_schemes_differ_as_they_should() -> None:
         "hht": bm.TimeScheme.hht_alpha(-0.2),
     }.items():
         simulation = bm.Simulation(
-            5e-3, building, stiff, bm.Bonded(), scheme=scheme, initial_velocity=start
+            building,
+            stiff,
+            bm.Bonded(),
+            5e-3,
+            solver=bm.SolverOptions(scheme=scheme),
+            initial=bm.InitialConditions(velocity=start),
         )
         losses[name] = simulation.run(200).energy_balance.algorithmic
     energy = 0.5 * 20e3 * 0.1**2
@@ -102,13 +108,13 @@ def test_schemes_differ_as_they_should() -> None:
 
 
 def test_moment_center_energy_balance_and_safety(rocking) -> None:
-    middle, left = rocking().run(200), rocking(moment_center=-3.0).run(200)
+    middle, left = rocking().run(200), rocking(results=bm.ResultOptions(moment_center=-3.0)).run(200)
     lever = left["base_moment"] - middle["base_moment"]
     np.testing.assert_allclose(np.abs(lever), 3.0 * middle["normal_force"], rtol=1e-9)
-    assert np.isnan(rocking(energy_balance=False).run(10).energy_error)
+    assert np.isnan(rocking(results=bm.ResultOptions(energy_balance=False)).run(10).energy_error)
     bonded = rocking(interface=bm.Bonded()).run(200)
     assert bonded.least_sliding_safety is None or bonded.least_sliding_safety.value == np.inf
-    held = rocking(interface=bm.Bonded(), safety_friction=0.3).run(200)
+    held = rocking(interface=bm.Bonded(), results=bm.ResultOptions(safety_friction=0.3)).run(200)
     assert held.least_sliding_safety is not None
     expected = 0.3 * held["normal_force"][1:] / np.abs(held["base_shear"][1:])
     assert held.least_sliding_safety.value == pytest.approx(np.nanmin(expected))
@@ -117,13 +123,10 @@ def test_moment_center_energy_balance_and_safety(rocking) -> None:
 def test_serviceability(rocking) -> None:
     run = rocking(
         0.1,
-        allowable_slip=5e-3,
-        allowable_gap=1.0,
-        allowable_uplifted_fraction=0.99,
-        allowable_rotation=0.5,
+        service_limits=bm.ServiceLimits(slip=5e-3, gap=1.0, uplifted_fraction=0.99, rotation=0.5),
     ).run(1000)
     checks = {check.criterion: check for check in run.serviceability}
-    assert set(checks) == {"slip", "gap", "uplifted fraction", "rotation"}
+    assert set(checks) == {"slip", "gap", "uplifted_fraction", "rotation"}
     slip = checks["slip"]
     assert not slip.is_met and slip.limit == 5e-3 and run.is_serviceable is False
     series = np.abs(run["mean_slip"])
@@ -140,28 +143,28 @@ def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
 
     def run(**options: object) -> bm.Run:
         law, motion = bm.Coulomb(0.4), bm.el_centro_1940()
-        return bm.Simulation(0.005, building, ground, law, motion=motion, **options).run(400)
+        return bm.Simulation(building, ground, law, 0.005, motion=motion, **options).run(400)
 
-    dofs, modes = run(coordinates="physical"), run(coordinates="modes")
+    dofs, modes = (run(solver=bm.SolverOptions(coordinates=own)) for own in ("physical", "modes"))
     scale = dofs.base_shear.magnitude
     np.testing.assert_allclose(modes["base_shear"], dofs["base_shear"], atol=1e-7 * scale)
     assert not same_bits(modes["base_shear"], dofs["base_shear"])
-    reduced = run(coordinates=1e-6)
+    reduced = run(solver=bm.SolverOptions(coordinates=1e-6))
     np.testing.assert_allclose(reduced["base_shear"], dofs["base_shear"], atol=1e-4 * scale)
     with pytest.raises(bm.InputError, match="no kind of coordinates 'modal', only auto"):
-        run(coordinates="modal")
+        run(solver=bm.SolverOptions(coordinates="modal"))
 
 
 def test_histories_agree_and_say_what_they_are(rocking, soil, block) -> None:
     runs = {}
-    names = {"direct": "direct sum", "relaxed fft": "relaxed transforms", "exponentials": "exponentials"}
+    names = {"direct": "direct sum", "relaxed_fft": "relaxed transforms", "exponentials": "exponentials"}
     for kind, name in names.items():
         ground = bm.ElasticGround.under(soil, block, 8, history=kind)
         simulation = rocking(ground=ground)
         runs[kind] = simulation.run(400)["base_shear"]
         assert simulation.history_choice is not None and f"history: {name}, 400 steps" in simulation.history_choice
     scale = np.abs(runs["direct"]).max()
-    np.testing.assert_allclose(runs["relaxed fft"], runs["direct"], atol=1e-9 * scale)
+    np.testing.assert_allclose(runs["relaxed_fft"], runs["direct"], atol=1e-9 * scale)
     np.testing.assert_allclose(runs["exponentials"], runs["direct"], atol=1e-3 * scale)
     with pytest.raises(bm.InputError, match="no history 'fast', only direct"):
         bm.ElasticGround.under(soil, block, 8, history="fast")
@@ -267,7 +270,7 @@ def test_a_fixed_base_and_the_system_on_its_ground(soil: bm.Soil) -> None:
     storeys = [bm.Storey(3.0, 20.0e3, 40.0e6)] * 5
     building = bm.ShearBuilding(10.0, 50.0e3, 4.0e5, storeys, damping=0.05)
     ground = bm.ElasticGround.under(soil, building, 8)
-    parts = (0.01, building, ground, bm.Coulomb(0.5))
+    parts = (building, ground, bm.Coulomb(0.5), 0.01)
     given = {"motion": bm.el_centro_1940(), "probes": [bm.Probe.displacement("drift", building.drift(0))]}
     simulation = bm.Simulation(*parts, **given)
     found = simulation.interaction(4.0)
@@ -290,28 +293,60 @@ def test_a_fixed_base_and_the_system_on_its_ground(soil: bm.Soil) -> None:
 
 
 def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil, block) -> None:
-    for word in ("frictional", "Frictional", " FRICTIONAL"):
-        rocking(gravity_stage=word)
-    for word in ("relaxed fft", "relaxed_fft"):
-        bm.ElasticGround.under(soil, block, 8, history=word)
+    rocking(initial=bm.InitialConditions(gravity_stage="frictional"))
+    for word in ("Frictional", " frictional"):
+        with pytest.raises(bm.InputError, match=f"no gravity stage '{word}', only frictional$"):
+            bm.InitialConditions(gravity_stage=word)
+    bm.ElasticGround.under(soil, block, 8, history="relaxed_fft")
+    for word in ("relaxed fft", "relaxed-fft"):
+        with pytest.raises(bm.InputError, match=f"no history '{word}', only relaxed_fft$"):
+            bm.ElasticGround.under(soil, block, 8, history=word)
+    with pytest.raises(bm.InputError, match="formulation is 'one point', but must be 'one_point'$"):
+        bm.Mesh().add_quads([[0, 1, 2, 3]], bm.Material(1e9, 0.2, 2000.0), formulation="one point")
     record = bm.el_centro_1940()
     rests = [
         record.with_baseline(word, degree=degree).accelerations
-        for word, degree in (("rest to rest", 3), ("rest_to_rest(3)", 5))
+        for word, degree in (("rest_to_rest", 3), ("rest_to_rest(3)", 5))
     ]
     assert same_bits(*rests)
-    assert not same_bits(rests[0], record.with_baseline("rest to rest", degree=5).accelerations)
+    assert not same_bits(rests[0], record.with_baseline("rest_to_rest", degree=5).accelerations)
     with pytest.raises(bm.InputError, match="no baseline treatment 'rest', only none"):
         record.with_baseline("rest")
-    bm.ThinLayer(soil, 1.0, 0.4, friction_limit="Lagged", slip_sense="last_velocity")
+    bm.ThinLayer(soil, 1.0, 0.4, friction_limit="lagged", slip_sense="last_velocity")
     with pytest.raises(bm.InputError, match="no gravity stage 'hung', only frictionless"):
-        rocking(gravity_stage="hung")
+        rocking(initial=bm.InitialConditions(gravity_stage="hung"))
 
 
 def test_all_modes_of_the_crate_have_a_number(rocking) -> None:
     with pytest.raises(bm.InputError) as refused:
         bm.PreviousContact(bm.ContactState(), "glide", 0.01)
     known = str(refused.value).partition(", only ")[2].split(", ")
-    assert [word.replace("_", " ") for word in known] == list(bm.MODES)
+    assert known == list(bm.MODES)
+    with pytest.raises(bm.InputError, match="no contact mode 'slip left', only slip_left$"):
+        bm.PreviousContact(bm.ContactState(), "slip left", 0.01)
     for mode in bm.MODES:
         assert bm.PreviousContact(bm.ContactState(), mode, 0.01).mode == mode
+
+
+def test_options_are_in_groups(soil, block) -> None:
+    parts = (block, bm.ElasticGround.under(soil, block, 4), bm.Bonded(), 0.01)
+    for name, given in (
+        ("gravity", "initial=InitialConditions(gravity=…)"),
+        ("initial_velocity", "initial=InitialConditions(velocity=…)"),
+        ("expected_steps", "solver=SolverOptions(expected_steps=…)"),
+        ("moment_center", "results=ResultOptions(moment_center=…)"),
+        ("allowable_slip", "service_limits=ServiceLimits(slip=…)"),
+    ):
+        with pytest.raises(TypeError, match=re.escape(f"no argument '{name}': give {given}") + "$"):
+            bm.Simulation(*parts, **{name: 1.0})
+    with pytest.raises(TypeError, match="no argument 'colour'$"):
+        bm.Simulation(*parts, colour=1.0)
+    with pytest.raises(TypeError, match=r"seconds: Simulation\(structure, ground, interface, time_step\)$"):
+        bm.Simulation(parts[3], *parts[:3])
+    for group in (
+        bm.InitialConditions(gravity=9.8, gravity_stage="frictional", velocity=[0.0, 0.1, 0.0]),
+        bm.SolverOptions(scheme=bm.TimeScheme.theta(0.6), coordinates=1e-6, expected_steps=5),
+        bm.ResultOptions(moment_center=1.0, energy_balance=False),
+        bm.ServiceLimits(slip=1e-3, rotation=0.1),
+    ):
+        assert repr(pickle.loads(pickle.dumps(group))) == repr(group)

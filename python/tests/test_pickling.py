@@ -67,7 +67,7 @@ STRUCTURES = {
 
 
 def shaken(structure: object, ground: bm.Ground, motion: object, law: object) -> np.ndarray:
-    simulation = bm.Simulation(0.005, structure, ground, law, motion=motion)  # type: ignore[arg-type]
+    simulation = bm.Simulation(structure, ground, law, 0.005, motion=motion)  # type: ignore[arg-type]
     return simulation.run(150)["base_shear"]
 
 
@@ -98,7 +98,7 @@ def test_meshes() -> None:
 
 
 LAW = bm.DampingLaw.constant_q(0.05)
-PROFILE = bm.SoilProfile([bm.SoilLayer(SOIL, 6.0, LAW)], SOIL, base_damping=LAW)
+PROFILE = bm.SoilProfile([bm.SoilLayer(SOIL, 6.0, LAW)], SOIL, bedrock_damping=LAW)
 
 
 def test_grounds() -> None:
@@ -128,7 +128,7 @@ def test_motions_laws_loads_and_probes() -> None:
     ground = bm.ElasticGround.under(SOIL, BUILDING, 4)
     for law in (bm.Bonded(), bm.Cohesive(1e5, 1e5, 0.4), bm.ThinLayer(SOIL, 1.0, 0.4)):
         runs = [
-            bm.Simulation(0.005, BUILDING, ground, own, loads=[load], probes=[probe]).run(50)[
+            bm.Simulation(BUILDING, ground, own, 0.005, loads=[load], probes=[probe]).run(50)[
                 "shear"
             ]
             for own in (law, copied(law))
@@ -140,12 +140,12 @@ def test_layers_of_a_profile() -> None:
     for profile in (PROFILE, copied(PROFILE)):
         [layer] = profile.layers
         assert repr(layer).startswith("SoilLayer(soil=Soil(") and repr(copied(layer)) == repr(layer)
-        again = bm.SoilProfile([copied(layer)], SOIL, base_damping=LAW)
+        again = bm.SoilProfile([copied(layer)], SOIL, bedrock_damping=LAW)
         assert str(again) == str(PROFILE)
 
 
 def test_what_laws_are_told() -> None:
-    start = bm.PreviousContact(bm.ContactState(slip=1e-3, shear_across=5.0), "slip left", 0.005)
+    start = bm.PreviousContact(bm.ContactState(slip=1e-3, shear_across=5.0), "slip_left", 0.005)
     assert isinstance(start, bm.ContactState) and (start.slip, start.shear_across) == (1e-3, 5.0)
     condition = bm.Condition.slip_is(0.25)
     assert (condition.slip, condition.gap, condition.value) == (1.0, 0.0, 0.25)
@@ -158,7 +158,7 @@ def test_what_laws_are_told() -> None:
 
 def test_conditions_of_any_origin() -> None:
     start = bm.PreviousContact(bm.ContactState(pressure=1e5), "stick", 0.005)
-    for own in (bm.Condition(gap=1.0, value=0.5), bm.Condition.shear_is(2.0), *bm.Coulomb(0.4).conditions("slip left", start)):
+    for own in (bm.Condition(gap=1.0, value=0.5), bm.Condition.shear_is(2.0), *bm.Coulomb(0.4).conditions("slip_left", start)):
         assert repr(copied(own)) == repr(own)
 
 
@@ -225,7 +225,11 @@ def test_what_changes_later_was_copied() -> None:
     assert same_bits(found, expected)
     pushed = [
         bm.Simulation(
-            0.01, BUILDING, bm.ElasticGround.under(SOIL, BUILDING, 4), bm.Bonded(), loads=[load]
+            BUILDING,
+            bm.ElasticGround.under(SOIL, BUILDING, 4),
+            bm.Bonded(),
+            0.01,
+            loads=[load],
         ).run(20)["base_shear"]
         for load in (row, copied(row))
     ]

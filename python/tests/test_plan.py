@@ -58,7 +58,7 @@ def test_bodies_beside_each_other_answer_like_mirrored_ones() -> None:
     pair = bm.StructureGroup([(body, 1.0), (other, 1.0)])
     assert pair.row(1, other.dof("y")).terms == [(7, 1.0)]
     ground = bm.ElasticGround.under(SOIL, pair, 3)
-    simulation = bm.Simulation(0.01, pair, ground, bm.Coulomb(0.3), motion=bm.triaxial(x=RECORD))
+    simulation = bm.Simulation(pair, ground, bm.Coulomb(0.3), 0.01, motion=bm.triaxial(x=RECORD))
     run = simulation.run(300, motion_every=100)
     front, back = run.foundations
     assert front.ends == back.ends == [-2.0, 4.0] and (front.depth, back.depth) == ([-9.0, -3.0], [3.0, 9.0])
@@ -97,7 +97,7 @@ def test_sh_waves_through_layers_of_the_same_soil_are_plane_waves_from_deeper() 
         assert layered.displacement_at(2.0, 1.0, time) == pytest.approx([x, y, up], rel=1e-3, abs=3e-5)
         assert abs(x) + abs(y) > 1e-3 and up == 0.0
     with pytest.raises(bm.InputError, match="vertical"):
-        wave.field(RECORD, -5.0, control="outcrop vertical")
+        wave.field(RECORD, -5.0, control="outcrop_vertical")
 
 
 def test_impedances_are_those_of_a_square_punch() -> None:

@@ -26,7 +26,7 @@ PLANE = bm.ElasticGround.under(SOIL, FLAT, 6)
 def simulation(structure=BODY, law=None, motion=THREE, **others) -> bm.Simulation:
     ground = bm.SpringGround.under(structure, 4, 30e6, 20e6, dashpots=(4e5, 3e5))
     law = bm.Coulomb(0.25, tensile_strength=2e3) if law is None else law
-    return bm.Simulation(0.01, structure, ground, law, motion=motion, **others)
+    return bm.Simulation(structure, ground, law, 0.01, motion=motion, **others)
 
 
 def same(one: bm.Run, other: bm.Run, tolerance: float = 0.0) -> None:
@@ -137,9 +137,9 @@ def test_limits_of_the_packages_laws() -> None:
 @pytest.mark.parametrize(
     ("call", "text"),
     [
-        (lambda: bm.Simulation(0.01, FLAT, PLANE, Limited(bm.Bonded())), "no method `conditions`"),
-        (lambda: bm.Simulation(0.01, FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded()), "faces"),
-        (lambda: bm.Simulation(0.01, BODY, PLANE, bm.Bonded()), "contact nodes"),
+        (lambda: bm.Simulation(FLAT, PLANE, Limited(bm.Bonded()), 0.01), "no method `conditions`"),
+        (lambda: bm.Simulation(FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded(), 0.01), "faces"),
+        (lambda: bm.Simulation(BODY, PLANE, bm.Bonded(), 0.01), "contact nodes"),
         (lambda: bm.Plan(3.0, 4), "faces: give a list of polygons"),
         (lambda: bm.MatrixModel(np.eye(6), np.eye(6), [1, 2]), "in plan a list of faces, lists of FaceNode"),
         (lambda: BODY.dof("x").relative_to_base(BODY), "none of the plane"),
@@ -192,7 +192,7 @@ def test_a_block_slides_by_newtons_law() -> None:
     push = bm.Record(0.01, 2.0 * np.ones(101))
     ground = bm.SpringGround(bm.Plan(bm_square(10.0), 2), 1e11, 1e11)
     motion = bm.triaxial(push.scaled(0.6), push.scaled(0.8))
-    state = bm.Simulation(0.001, body, ground, bm.Coulomb(0.1), motion=motion)
+    state = bm.Simulation(body, ground, bm.Coulomb(0.1), 0.001, motion=motion)
     run = state.run(1000, series=False)
     expected = -0.5 * (2.0 - 0.1 * GRAVITY)
     assert state.state.value("mean_slip") == pytest.approx(0.6 * expected, rel=1e-3)
@@ -218,7 +218,14 @@ def test_winklers_bed() -> None:
     assert bm.ElasticGround(SOIL, plan).elements.min() < -2.0
     body = bm.RigidBody.cuboid(4.0, 4.0, 2.0, 1000.0)
     loads = [bm.Load.constant(row, 1e4) for row in body.displacement_at(0.0, 0.0, 0.0)[:2]]
-    own = bm.Simulation(0.01, body, ground, bm.Bonded(), loads=loads, gravity_stage="frictional")
+    own = bm.Simulation(
+        body,
+        ground,
+        bm.Bonded(),
+        0.01,
+        loads=loads,
+        initial=bm.InitialConditions(gravity_stage="frictional"),
+    )
     x, y, z = own.static_displacement[:3]
     assert z == pytest.approx(-32e3 * GRAVITY / (40e6 * 16.0) + 0.0, rel=1e-9)
     assert (x, y) == pytest.approx((1e4 / (20e6 * 16.0), 1e4 / (10e6 * 16.0)), rel=1e-9)
@@ -252,7 +259,7 @@ def test_storeys_are_those_of_a_shear_building() -> None:
     floors = [bm.PlanStorey(3.0, 5 * 20e3, (8.0, 5.0), (5 * 20e6, 1e8, 1e9), inertia=inertia, damping=(5e4, 0, 0))]
     space = bm.StoreyBuilding(mat, floors * 2)
     assert space.total_mass == pytest.approx(5.0 * plane.total_mass)
-    rows = [space.dof("x"), space.dof("z"), -space.dof("ry"), space.dof("floor 0 x"), space.dof("floor 1 x")]
+    rows = [space.dof("x"), space.dof("z"), -space.dof("ry"), space.dof("floor_0_x"), space.dof("floor_1_x")]
     turn = np.array([row.weights(space.dofs) for row in rows])
     for name in ("mass", "stiffness", "damping"):
         found = turn @ getattr(space, name)() @ turn.T

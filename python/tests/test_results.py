@@ -20,7 +20,7 @@ PERIODS = bm.log_spaced(0.05, 2.0, 12)
 def run(rocking) -> bm.Run:
     probe = bm.Probe.displacement("way", 0)
     roof = bm.Probe.acceleration("roof", 2)
-    simulation = rocking(0.3, probes=[roof, probe], allowable_slip=1e-3)
+    simulation = rocking(0.3, probes=[roof, probe], service_limits=bm.ServiceLimits(slip=1e-3))
     return simulation.run(500, contact_every=5, motion_every=10)
 
 
@@ -76,7 +76,7 @@ def test_results_pickle_to_the_same_bits(run: bm.Run, rocking) -> None:
 def made(friction: float) -> bm.Run:
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
     ground = bm.ElasticGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 4)
-    return bm.Simulation(0.01, block, ground, bm.Coulomb(friction), motion=bm.el_centro_1940()).run(200)
+    return bm.Simulation(block, ground, bm.Coulomb(friction), 0.01, motion=bm.el_centro_1940()).run(200)
 
 
 def test_runs_come_back_from_other_processes() -> None:
@@ -150,7 +150,7 @@ def test_arrays_and_grids_for_other_programs(run: bm.Run, block: bm.RigidBlock, 
     with np.load(tmp_path / "run.npz") as arrays:
         assert same(arrays["base_shear_n_per_m"], run["base_shear"]) and same(arrays["roof_m_per_s2"], run["roof"])
         assert same(arrays["contact_gap_m"], run.contact["gap"])
-        assert [word.replace("_", " ") for word in arrays["contact_mode_words"]] == bm.MODES
+        assert list(arrays["contact_mode_words"]) == bm.MODES
     assert run.save_paraview(tmp_path, "base") == 101
     assert run.save_paraview(tmp_path, "block", block, height=9.0) == 101 + 51
     assert len(list(tmp_path.glob("block_base_*.vtu"))) == 101
@@ -160,7 +160,8 @@ def test_arrays_and_grids_for_other_programs(run: bm.Run, block: bm.RigidBlock, 
     with pytest.raises(bm.InputError, match="height: give that of the box"):
         run.save_paraview(tmp_path, "block", block)
     with pytest.raises(bm.InputError, match="base: give `contact_every` to `run`"):
-        bm.Simulation(0.01, block, bm.SpringGround.under(block, 4, 1e8, 5e7), bm.Bonded()).run(2).save_paraview(tmp_path, "x")
+        ground = bm.SpringGround.under(block, 4, 1e8, 5e7)
+        bm.Simulation(block, ground, bm.Bonded(), 0.01).run(2).save_paraview(tmp_path, "x")
 
 
 @pytest.mark.parametrize("kind", ["frame", "building", "plan"])
@@ -177,7 +178,7 @@ def test_structures_have_shapes(kind: str, tmp_path: Path) -> None:
         structure = bm.StoreyBuilding(mat, [bm.PlanStorey(3.0, 2e4, (8.0, 6.0), (4e7, 4e7, 1e9))])
         points = 2 * 4
     ground = bm.SpringGround.under(structure, 4, *springs)
-    run = bm.Simulation(0.01, structure, ground, bm.Bonded()).run(4, motion_every=2, warn=False)
+    run = bm.Simulation(structure, ground, bm.Bonded(), 0.01).run(4, motion_every=2, warn=False)
     assert run.save_paraview(tmp_path, kind, structure) == 3
     piece = ElementTree.parse(tmp_path / f"{kind}_0002.vtu").find(".//Piece")
     assert piece is not None and piece.get("NumberOfPoints") == str(points)
@@ -275,7 +276,7 @@ def test_pictures_have_labels_and_units(run: bm.Run) -> None:
         run.plot([shear, energy])
     pair = bm.StructureGroup([(bm.RigidBlock(2.0, 3.0, 1000.0), x) for x in (-4.0, 4.0)])
     ground = bm.SpringGround.under(pair, 2, 1e8, 5e7)
-    own = bm.Simulation(0.01, pair, ground, bm.Coulomb(0.3)).run(4, contact_every=1)
+    own = bm.Simulation(pair, ground, bm.Coulomb(0.3), 0.01).run(4, contact_every=1)
     [drawn] = own.plot_modes().collections
     assert np.isnan(np.ma.filled(drawn.get_array(), np.nan)).all(axis=1).tolist() == [0, 0, 1, 0, 0]
     moving = run.animate()
@@ -294,9 +295,9 @@ def test_pictures_have_labels_and_units(run: bm.Run) -> None:
     assert list(line.get_xdata()) == speeds
     assert list(line.get_ydata()) == [0.0, 4.0, 4.0, 10.0, 10.0, 12.0]
     assert [layer.thickness for layer in profile.layers] == [4.0, 6.0]
-    assert profile.layers[0].soil == soft and profile.base == hard
+    assert profile.layers[0].soil == soft and profile.bedrock == hard
     rigid = bm.SoilProfile([bm.SoilLayer(soft, 4.0)])
-    assert rigid.base is None and rigid.plot().get_legend() is not None
+    assert rigid.bedrock is None and rigid.plot().get_legend() is not None
     ground = bm.ElasticGround(soft, bm.Strip(-3.0, 3.0, 6))
     axes = ground.impedances([1.0, 2.0, 3.0]).plot()
     assert [own.get_ylabel() for own in axes] == [

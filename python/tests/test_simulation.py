@@ -105,7 +105,7 @@ def test_a_run_ends_with_the_motion_and_says_when_it_is_over(rocking) -> None:
 
 
 def test_reset_goes_back_to_the_first_bit(rocking) -> None:
-    simulation = rocking(initial_velocity=[0.0, 0.0, 0.01])
+    simulation = rocking(initial=bm.InitialConditions(velocity=[0.0, 0.0, 0.01]))
     first = simulation.run(200)
     simulation.reset()
     assert (simulation.state.step, simulation.state.time) == (0, 0.0)
@@ -208,13 +208,13 @@ def test_a_probe_does_not_hide_another_time_series(rocking, name: str) -> None:
 
 
 def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
-    simulation = rocking(expected_steps=300)
+    simulation = rocking(solver=bm.SolverOptions(expected_steps=300))
     simulation.run(150)
     saved = pickle.loads(pickle.dumps(simulation.checkpoint()))
     assert saved == simulation.checkpoint()
     assert saved.steps == 150
     expected = simulation.run(150)["roof"]
-    other = rocking(expected_steps=300)
+    other = rocking(solver=bm.SolverOptions(expected_steps=300))
     other.resume(saved)
     assert same_bits(other.run(150)["roof"], expected)
     with pytest.raises(
@@ -231,7 +231,7 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
 def test_no_damaged_checkpoint_resumes_with_other_numbers() -> None:
     block = bm.RigidBlock(4.0, 3.0, 2000.0)
     ground = bm.SpringGround(bm.Strip(-2.0, 2.0, 2, grading="uniform"), 5e7, 4e7)
-    simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.3), motion=bm.el_centro_1940())
+    simulation = bm.Simulation(block, ground, bm.Coulomb(0.3), 0.01, motion=bm.el_centro_1940())
     simulation.run(9)
     saved = simulation.checkpoint()
     data = saved.to_bytes()
@@ -267,7 +267,7 @@ def test_records_pickle() -> None:
 @pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_is_heard(rocking) -> None:
     steps = 1_000_000
-    simulation = rocking(expected_steps=steps)
+    simulation = rocking(solver=bm.SolverOptions(expected_steps=steps))
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     begin = time.monotonic()
     timer.start()
@@ -319,7 +319,7 @@ def test_progress_is_told_and_other_threads_run(rocking) -> None:
 
     thread = threading.Thread(target=count)
     thread.start()
-    simulation = rocking(expected_steps=60_000)
+    simulation = rocking(solver=bm.SolverOptions(expected_steps=60_000))
     before = counted[0]
     simulation.run(60_000, progress=lambda done, steps: told.append((done, steps)), series=False)
     during = counted[0] - before
@@ -363,7 +363,7 @@ def test_errors_have_classes_and_the_full_text(soil, rocking, tmp_path) -> None:
 
 
 def test_a_step_that_fails_leaves_the_simulation_where_it_was(rocking) -> None:
-    simulation = rocking(flow_chart_iterations=1)
+    simulation = rocking(solver=bm.SolverOptions(flow_chart_iterations=1))
     with pytest.raises(bm.StepError) as raised:
         simulation.run(1000)
     assert raised.value.step == simulation.state.step + 1

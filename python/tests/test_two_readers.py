@@ -27,8 +27,8 @@ pytestmark = pytest.mark.skipif(not RECORDS.is_dir(), reason="the files of the c
     [
         ("cosmos", "cosmos.v2c", "cosmos"),
         ("cosmos", "csmip.v2", "dmg"),
-        ("k-net", "k_net.ns", "knet"),
-        ("k-net", "kik_net.ew2", "knet"),
+        ("k_net", "k_net.ns", "knet"),
+        ("k_net", "kik_net.ew2", "knet"),
         ("esm", "esm_hne.asc", "esm"),
         ("afad", "afad_three.txt", "nsmn"),
         ("smc", "smc.smc", "smc"),
@@ -54,7 +54,7 @@ def test_gmprocess_reads_the_same_record(format: Any, name: str, reader: str) ->
 def test_obspy_reads_the_same_record(name: str) -> None:
     obspy = pytest.importorskip("obspy", reason="ObsPy is not installed")
     [trace] = obspy.read(str(RECORDS / name), format="KNET", apply_calib=True)
-    record = bm.Record.read(RECORDS / name, format="k-net")
+    record = bm.Record.read(RECORDS / name, format="k_net")
     assert record.time_step == pytest.approx(trace.stats.delta, rel=1e-12)
     np.testing.assert_allclose(record.accelerations, trace.data, rtol=1e-12)
 

@@ -98,7 +98,7 @@ def test_an_exception_while_a_simulation_is_built(rocking, block, method: str) -
 class Weakening:
     """Friction that falls with the way that an element has slid."""
 
-    modes = ("stick", "slip left", "slip right", "open")
+    modes = ("stick", "slip_left", "slip_right", "open")
     state_variables = 1
     fails_in = ""
     fails_at = 0.5
@@ -158,7 +158,7 @@ def test_an_exception_of_a_law_comes_out_of_the_run(rocking, method: str) -> Non
 
 def test_a_law_without_memory_that_raises_in_next_mode_commits_nothing(rocking) -> None:
     class Brittle:
-        modes = ("stick", "slip left", "slip right", "open")
+        modes = ("stick", "slip_left", "slip_right", "open")
         law = bm.Coulomb(0.4)
 
         def conditions(self, mode, start):
@@ -183,7 +183,7 @@ def test_a_law_without_memory_that_raises_in_next_mode_commits_nothing(rocking) 
 @pytest.mark.parametrize("method", ["initial_state_variables", "commit"])
 def test_a_law_says_how_many_numbers_it_commits(method: str, rocking) -> None:
     class Forgetful:
-        modes = ("stick", "slip left", "slip right", "open")
+        modes = ("stick", "slip_left", "slip_right", "open")
         law = bm.Coulomb(0.4)
 
         def conditions(self, mode, start):
@@ -246,7 +246,7 @@ START = bm.PreviousContact(bm.ContactState(pressure=1e5), "stick", 0.01)
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: bm.VariableFriction(raises).conditions("slip left", START),
+        lambda: bm.VariableFriction(raises).conditions("slip_left", START),
         lambda: bm.VariableFriction(raises).next_mode(
             "stick", START, bm.ContactState(pressure=1e5), bm.Tolerance(1e-9, 1.0)
         ),
@@ -272,7 +272,7 @@ def test_an_exception_of_a_run_is_not_taken_by_a_call_inside_it(rocking) -> None
         if asked == 1:
             raise OverflowError("of the run")
         try:
-            bm.VariableFriction(raises).conditions("slip left", start)
+            bm.VariableFriction(raises).conditions("slip_left", start)
         except Exception as error:
             caught.append(error)
         return 0.4

@@ -1,6 +1,6 @@
 """The compiled half of basemat.
 
-Types stand here; docstrings are those of the module, written by ``tools/stubs.py``.
+Written by ``tools/stubs.py``; types stand in ``tools/annotations.txt``.
 """
 
 import os
@@ -21,35 +21,35 @@ STANDARD_GRAVITY: float
 """9.80665 m/s²."""
 
 _Mode: TypeAlias = Literal[
-    "stick", "slip left", "slip right", "open", "yield", "yield left", "yield right", "slip", "yield slip"
+    "stick", "slip_left", "slip_right", "open", "yield", "yield_left", "yield_right", "slip", "yield_slip"
 ]
-_History: TypeAlias = Literal["auto", "direct", "relaxed fft", "exponentials"]
+_History: TypeAlias = Literal["auto", "direct", "relaxed_fft", "exponentials"]
 _Grading: TypeAlias = Literal["cosine", "uniform"]
 _StripContact: TypeAlias = Literal["bonded", "relaxed"]
 _FrictionLimit: TypeAlias = Literal["total", "lagged", "static", "dynamic"]
-_SlipSense: TypeAlias = Literal["inelastic", "velocity", "last velocity"]
+_SlipSense: TypeAlias = Literal["inelastic", "velocity", "last_velocity"]
 _AccelerationUnit: TypeAlias = Literal["m/s²", "mm/s²", "g", "gal", "ft/s²", "in/s²"]
 _RecordFormat: TypeAlias = Literal[
-    "columns", "peer", "cosmos", "k-net", "k-net csv", "esm", "afad", "smc", "geonet"
+    "columns", "peer", "cosmos", "k_net", "k_net_csv", "esm", "afad", "smc", "geonet"
 ]
 _Baseline: TypeAlias = Literal[
-    "remove mean",
-    "newmark parabola",
-    "velocity polynomial",
-    "displacement polynomial",
-    "rest to rest",
+    "remove_mean",
+    "newmark_parabola",
+    "velocity_polynomial",
+    "displacement_polynomial",
+    "rest_to_rest",
 ]
 _CurveBound: TypeAlias = Literal["mean", "upper"]
 _Wave: TypeAlias = Literal["shear", "pressure"]
 _ControlPoint: TypeAlias = Literal["outcrop", "within"]
-_InclinedControl: TypeAlias = Literal["outcrop horizontal", "outcrop vertical", "incident"]
+_InclinedControl: TypeAlias = Literal["outcrop_horizontal", "outcrop_vertical", "incident"]
 _Change: TypeAlias = Literal["interface_law", "ground_motion", "load", "gravity_stage", "initial_motion"]
 _GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
 _Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
 _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
 _PlanDirection: TypeAlias = Literal["x", "y", "twist"]
 _Mass: TypeAlias = Literal["consistent", "lumped"]
-_Formulation: TypeAlias = Literal["incompatible modes", "full", "one point", "hourglass"]
+_Formulation: TypeAlias = Literal["incompatible_modes", "full", "one_point", "hourglass"]
 _Direction: TypeAlias = Literal["x", "y", "rotation"]
 _SpringDirection: TypeAlias = Literal["x", "y", "rotation", "axial"]
 
@@ -134,7 +134,7 @@ class Refinements:
     @property
     def names(self) -> list[str]:
         """Names of the peaks, in the order of the scene."""
-    def __getitem__(self, name: str, /) -> Refinement: ...
+    def __getitem__(self, key: str, /) -> Refinement: ...
 
 @final
 class PeakTwins:
@@ -161,7 +161,7 @@ class PeakTwins:
     @property
     def digits(self) -> int:
         """Significant digits that hold, six at most: half a unit of the last one is the spread or more."""
-    def __eq__(self, other: object, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class Sensitivity:
@@ -170,7 +170,7 @@ class Sensitivity:
     @property
     def peaks(self) -> list[PeakTwins]:
         """The peaks, in the order of the scene: list of :class:`PeakTwins`."""
-    def __getitem__(self, name: str, /) -> PeakTwins: ...
+    def __getitem__(self, key: str, /) -> PeakTwins: ...
 
 @final
 class SystemMode:
@@ -197,7 +197,7 @@ class SystemMode:
     @property
     def foundation_damping(self) -> float:
         """Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil."""
-    def __eq__(self, other: object, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class Interaction:
@@ -244,7 +244,7 @@ class ElasticGround(Ground):
     elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
 
     ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
-    half-plane under strips, else transforms), "direct", "relaxed fft" or, without layers and damping, "exponentials".
+    half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
     ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
     given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
     unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
@@ -399,7 +399,11 @@ class Plan:
         """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
     def __len__(self) -> int: ...
     def impedances(
-        self, soil: Soil | SoilProfile, frequencies: ArrayLike, *, contact: _StripContact = "bonded"
+        self,
+        soil: Soil | SoilProfile,
+        frequencies: ArrayLike,
+        *,
+        contact: _StripContact = "bonded",
     ) -> NDArray[np.complex128]:
         """Dynamic stiffness of the mat as one rigid body on a ``soil`` (:class:`Soil` or :class:`SoilProfile`) for motions
         e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
@@ -407,9 +411,7 @@ class Plan:
         "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
         """
     @staticmethod
-    def masked(
-        corner: tuple[float, float], pitch: tuple[float, float], mask: Any
-    ) -> Plan:
+    def masked(corner: tuple[float, float], pitch: tuple[float, float], mask: Any) -> Plan:
         """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
         rows from the ``corner`` (x and y, m) away, each a list from left to right.
         """
@@ -443,7 +445,11 @@ class InterfaceLaw:
         (:class:`PreviousContact`) is.
         """
     def next_mode(
-        self, mode: _Mode, start: PreviousContact, trial: ContactState, tolerance: Tolerance
+        self,
+        mode: _Mode,
+        start: PreviousContact,
+        trial: ContactState,
+        tolerance: Tolerance,
     ) -> _Mode:
         """The mode to try next after the ``trial`` (:class:`ContactState`) that ``mode`` led to in the step
         that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
@@ -472,7 +478,11 @@ class Coulomb(InterfaceLaw):
     """
 
     def __new__(
-        cls, friction: float, *, tensile_strength: float = 0.0, closed_below: float | None = None
+        cls,
+        friction: float,
+        *,
+        tensile_strength: float = 0.0,
+        closed_below: float | None = None,
     ) -> Self: ...
     @property
     def friction(self) -> float:
@@ -502,7 +512,7 @@ class ThinLayer(InterfaceLaw):
     it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
     step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
     ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
-    default), "velocity" or "last velocity" (of this step or the one before).
+    default), "velocity" or "last_velocity" (of this step or the one before).
     """
 
     def __new__(
@@ -544,7 +554,10 @@ class VariableFriction(InterfaceLaw):
     """
 
     def __new__(
-        cls, coefficient: Callable[[PreviousContact], float], *, tensile_strength: float = 0.0
+        cls,
+        coefficient: Callable[[PreviousContact], float],
+        *,
+        tensile_strength: float = 0.0,
     ) -> Self: ...
 
 @disjoint_base
@@ -570,7 +583,13 @@ class Record(FreeField):
     is horizontal, the same everywhere at once.
     """
 
-    def __new__(cls, time_step: float, acceleration: ArrayLike, *, unit: _AccelerationUnit = "m/s²") -> Self: ...
+    def __new__(
+        cls,
+        time_step: float,
+        acceleration: ArrayLike,
+        *,
+        unit: _AccelerationUnit = "m/s²",
+    ) -> Self: ...
     @staticmethod
     def read(
         path: str | os.PathLike[str],
@@ -585,13 +604,13 @@ class Record(FreeField):
         """Reads a file at ``path``.
 
         ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "peer"
-        (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k-net" (K-NET and KiK-net), "k-net csv", "esm" (ESM and
+        (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and KiK-net), "k_net_csv", "esm" (ESM and
         ITACA), "afad", "smc" or "geonet". ``unit`` of the acceleration as for the class: needed for
         columns, for old files of "cosmos" that name none; other files have their own. Of columns:
         ``columns`` are the numbers of time and acceleration from 1, (1, 2) unless given; with
         ``time_step`` (s) times do not count, and only one column may be there unless ``columns`` is given;
         ``header_lines`` at the beginning are passed over. ``channel`` is the number of the component from
-        1, for formats that hold several ("cosmos", "k-net csv", "afad", "geonet").
+        1, for formats that hold several ("cosmos", "k_net_csv", "afad", "geonet").
         """
     @staticmethod
     def read_all(
@@ -649,8 +668,8 @@ class Record(FreeField):
     def resampled(self, time_step: float) -> Record:
         """Record with samples every ``time_step`` (s), linear between the old ones."""
     def with_baseline(self, treatment: _Baseline, *, degree: int = 4) -> Record:
-        """Record with its baseline treated. ``treatment``: "remove mean", "newmark parabola", "velocity
-        polynomial", "displacement polynomial" or "rest to rest"; polynomials have the ``degree``, 4 by
+        """Record with its baseline treated. ``treatment``: "remove_mean", "newmark_parabola",
+        "velocity_polynomial", "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by
         default.
         """
     def high_pass(self, corner: float, *, order: int = 4) -> Record:
@@ -737,15 +756,11 @@ class PlaneWave:
     @property
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
-    def field_from_horizontal(
-        self, record: Record, origin: float, *, azimuth: float = 0.0
-    ) -> FreeField:
+    def field_from_horizontal(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
         """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
         :func:`travelling_wave`.
         """
-    def field_from_vertical(
-        self, record: Record, origin: float, *, azimuth: float = 0.0
-    ) -> FreeField:
+    def field_from_vertical(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
         """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
         :func:`travelling_wave`.
         """
@@ -754,9 +769,7 @@ class PlaneWave:
         """SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
         across its direction only.
         """
-    def field_from_across(
-        self, record: Record, origin: float, *, azimuth: float = 0.0
-    ) -> FreeField:
+    def field_from_across(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
         """The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
         (rad; 0 by default) is that of :func:`travelling_wave`.
         """
@@ -769,7 +782,10 @@ class SoilColumn:
 
     def __new__(cls, profile: SoilProfile, wave: _Wave = "shear") -> Self: ...
     def transfer(
-        self, frequencies: ArrayLike, *, control: _ControlPoint = "outcrop"
+        self,
+        frequencies: ArrayLike,
+        *,
+        control: _ControlPoint = "outcrop",
     ) -> NDArray[np.complex128]:
         """Ratio of the motion of the surface to that of the ``control`` point for e^(iωt): complex array of
         shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
@@ -795,7 +811,7 @@ class SoilColumn:
         tolerance: float | None = None,
         most_iterations: int | None = None,
         band: Sequence[float] | None = None,
-        complex_modulus: Literal["real part", "magnitude"] = "real part",
+        complex_modulus: Literal["real_part", "magnitude"] = "real_part",
     ) -> EquivalentLinear:
         """Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
         point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
@@ -803,7 +819,7 @@ class SoilColumn:
         ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
         ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
         ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
-        layers: "real part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
+        layers: "real_part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
         """
     @staticmethod
     def surface_in_plan(
@@ -850,9 +866,7 @@ class StrainCurves:
         ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
         """
     @staticmethod
-    def table(
-        strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike
-    ) -> StrainCurves:
+    def table(strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike) -> StrainCurves:
         """A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
         ratios, ``dampings``.
         """
@@ -933,12 +947,12 @@ class InclinedWave:
         record: Record,
         origin: float,
         *,
-        control: _InclinedControl = "outcrop horizontal",
+        control: _InclinedControl = "outcrop_horizontal",
         azimuth: float = 0.0,
     ) -> FreeField:
         """The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
-        (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
-        vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
+        (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
+        "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
         default) is that of :func:`travelling_wave`.
         """
 
@@ -997,9 +1011,7 @@ class DampingLaw:
     def elastic() -> DampingLaw:
         """No damping."""
     @staticmethod
-    def constant_q(
-        ratio: float, band: Sequence[float] = ..., reference: float = 1.0
-    ) -> DampingLaw:
+    def constant_q(ratio: float, band: Sequence[float] = ..., reference: float = 1.0) -> DampingLaw:
         """Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
         frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
         default): the usual choice in time.
@@ -1040,23 +1052,23 @@ class SoilLayer:
 @final
 class SoilProfile:
     """Horizontal ``layers`` (list of :class:`SoilLayer`) from the surface down, on a half-plane of the soil
-    ``base`` or, unless that is given, on a rigid base. ``base_damping``: :class:`DampingLaw` of the
-    base; none unless given. Printed, it is a table.
+    ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: :class:`DampingLaw` of the
+    bedrock; none unless given. Printed, it is a table.
     """
 
     def __new__(
         cls,
         layers: Sequence[SoilLayer],
-        base: Soil | None = None,
+        bedrock: Soil | None = None,
         *,
-        base_damping: DampingLaw | None = None,
+        bedrock_damping: DampingLaw | None = None,
     ) -> Self: ...
     @property
     def layers(self) -> list[SoilLayer]:
         """The layers from the surface down: list of :class:`SoilLayer`."""
     @property
-    def base(self) -> Soil | None:
-        """The :class:`Soil` of the half-plane under the layers; None on a rigid base."""
+    def bedrock(self) -> Soil | None:
+        """The :class:`Soil` of the half-plane under the layers; None on rigid bedrock."""
     def plot(self, axes: Any = None) -> Any:
         """Draws the speed of shear waves over the depth; returns the axes.
 
@@ -1142,8 +1154,8 @@ class ServiceCheck:
     """A limit of service, held against a run."""
 
     @property
-    def criterion(self) -> Literal["slip", "gap", "uplifted fraction", "rotation"]:
-        """The limited response: "slip", "gap", "uplifted fraction" or "rotation"."""
+    def criterion(self) -> Literal["slip", "gap", "uplifted_fraction", "rotation"]:
+        """The limited response: "slip", "gap", "uplifted_fraction" or "rotation"."""
     @property
     def limit(self) -> float:
         """Limit of the response, in SI units."""
@@ -1222,7 +1234,7 @@ class Peak:
     def time(self) -> float:
         """Time of the value, s."""
     def __float__(self) -> float: ...
-    def __eq__(self, other: object, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class Extremes:
@@ -1242,7 +1254,7 @@ class Extremes:
     @property
     def magnitude(self) -> float:
         """Magnitude of :attr:`largest`, in the quantity's unit."""
-    def __eq__(self, other: object, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class Run(Summary):
@@ -1281,7 +1293,7 @@ class Run(Summary):
     @property
     def time(self) -> NDArray[np.float64]:
         """Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start."""
-    def __getitem__(self, name: str, /) -> NDArray[np.float64]: ...
+    def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
     @property
     def series(self) -> dict[str, Any]:
         """All time series: dict of arrays of shape (steps + 1,), "time" first."""
@@ -1327,7 +1339,8 @@ class Run(Summary):
     def envelope_frame(self) -> Any:
         """:attr:`Run.envelope` as a pandas frame: a row per element."""
     @property
-    def _foundation_peaks(self) -> list[dict[str, float | None]]: ...
+    def _foundation_peaks(self) -> list[dict[str, float | None]]:
+        """Peaks of all scalar quantities of each foundation."""
     def save_npz(self, path: str | os.PathLike[str]) -> None:
         """Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
         names with their units, such as "base_shear_n_per_m", in any version and without this package.
@@ -1356,7 +1369,11 @@ class Run(Summary):
     def energy_frame(self) -> Any:
         """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     def floor_spectra(
-        self, periods: ArrayLike, damping: float = 0.05, *, probes: Sequence[str] | None = None
+        self,
+        periods: ArrayLike,
+        damping: float = 0.05,
+        *,
+        probes: Sequence[str] | None = None,
     ) -> Any:
         """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
 
@@ -1496,13 +1513,13 @@ class DofCombination:
         """This displacement to the right less that of the base of the ``structure``, its rotation included,
         which moves what is ``height`` (m) above it: the lateral deformation.
         """
-    def __add__(self, other: _RowLike, /) -> DofCombination: ...
-    def __sub__(self, other: _RowLike, /) -> DofCombination: ...
+    def __add__(self, value: _RowLike, /) -> DofCombination: ...
+    def __sub__(self, value: _RowLike, /) -> DofCombination: ...
     def __neg__(self) -> DofCombination: ...
-    def __mul__(self, factor: float, /) -> DofCombination: ...
-    def __rmul__(self, factor: float, /) -> DofCombination: ...
-    def __truediv__(self, divisor: float, /) -> DofCombination: ...
-    def __eq__(self, other: object, /) -> bool: ...
+    def __mul__(self, value: float, /) -> DofCombination: ...
+    def __rmul__(self, value: float, /) -> DofCombination: ...
+    def __truediv__(self, value: float, /) -> DofCombination: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class SectionRows:
@@ -1518,7 +1535,9 @@ class SectionRows:
         *,
         unit: _SectionUnit = "N/m",
     ) -> Self: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[DofCombination, DofCombination, DofCombination], dict[str, Any]]: ...
+    def __getnewargs_ex__(
+        self,
+    ) -> tuple[tuple[DofCombination, DofCombination, DofCombination], dict[str, Any]]: ...
     @property
     def unit(self) -> str:
         """SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m"."""
@@ -1545,31 +1564,37 @@ class Checkpoint:
     def to_bytes(self) -> bytes:
         """All of it as bytes, for a file."""
     def __getnewargs__(self) -> tuple[bytes]: ...
-    def __eq__(self, other: object, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
-class Simulation:
-    """A structure on a ground, ready to march: from the static state under its weight, step by step.
+class InitialConditions:
+    """Weight and motion at the start of a simulation.
 
     Args:
-        time_step: time step, s.
-        structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
-        ground: an :class:`ElasticGround` or a :class:`SpringGround`.
-        interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
-            all contact elements, or a list of one each, from left to right.
-        motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
-            :func:`free_field` makes of a function. The ground rests unless given.
-        probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
-            none unless given.
-        loads: forces from outside, a list of :class:`Load`; none unless given.
         gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
             state: the base begins without pressure, and nothing resists uplift and sliding.
         gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
             nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
             there is no static state, weight and loads act from t = 0 on, as for a block let go.
-        initial_displacement: of the n degrees of freedom at t = 0 against the static state, array of
+        displacement: of the n degrees of freedom at t = 0 against the static state, array of
             shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
-        initial_velocity: the same for velocities, m/s and rad/s; zero unless given.
+        velocity: the same for velocities, m/s and rad/s; zero unless given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        gravity: float | None = None,
+        gravity_stage: _GravityStage = "frictionless",
+        displacement: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+    ) -> Self: ...
+
+@final
+class SolverOptions:
+    """Method by which a simulation steps.
+
+    Args:
         scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
         coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
             time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
@@ -1578,23 +1603,83 @@ class Simulation:
         expected_steps: number of steps that will be made. Memory and the ground's weights are then
             ready before the first; unless given, those of the first run. More steps than fit into
             the memory of the ground's history raise an error.
-        moment_center: x of the point about which the base moment is taken, m; the middle of the base
-            unless given.
-        energy_balance: whether energies are booked; True by default. Without them a step takes less
-            time, and :attr:`Run.energy_error` is NaN.
-        safety_friction: friction coefficient for the factor of safety against sliding; that of the
-            interface law unless given. It changes nothing else.
-        allowable_slip: limit of service of |mean slip|, m; none unless given. This and the next three
-            change nothing in the run: :attr:`Run.serviceability` holds it against them.
-        allowable_gap: limit of service of the gap of any element, m; none unless given.
-        allowable_uplifted_fraction: limit of service of the open length over that of the base, above 0
-            to 1; none unless given.
-        allowable_rotation: limit of service of the base's |rotation|, rad; none unless given.
         rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
             run goes on; infinite: runs end by their steps alone.
         flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
             most so many iterations a step, for comparison with their paper; the robust search unless
             given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        scheme: TimeScheme | None = None,
+        coordinates: _Coordinates | float | None = None,
+        expected_steps: int | None = None,
+        rotation_limit: float | None = None,
+        flow_chart_iterations: int | None = None,
+    ) -> Self: ...
+
+@final
+class ResultOptions:
+    """Quantities that a run evaluates; they change nothing in its motion.
+
+    Args:
+        moment_center: x of the point about which the base moment is taken, m; the middle of the base
+            unless given.
+        energy_balance: whether energies are booked; True by default. Without them a step takes less
+            time, and :attr:`Run.energy_error` is NaN.
+        safety_friction: friction coefficient for the factor of safety against sliding; that of the
+            interface law unless given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        moment_center: float | None = None,
+        energy_balance: bool = True,
+        safety_friction: float | None = None,
+    ) -> Self: ...
+
+@final
+class ServiceLimits:
+    """Limits of service, which :attr:`Run.serviceability` compares with the run; they change nothing in it.
+
+    Args:
+        slip: limit of |mean slip|, m; none unless given.
+        gap: limit of the gap of any element, m; none unless given.
+        uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
+        rotation: limit of the base's |rotation|, rad; none unless given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        slip: float | None = None,
+        gap: float | None = None,
+        uplifted_fraction: float | None = None,
+        rotation: float | None = None,
+    ) -> Self: ...
+
+@final
+class Simulation:
+    """A structure on a ground, ready to march: from the static state under its weight, step by step.
+
+    Args:
+        structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
+        ground: an :class:`ElasticGround` or a :class:`SpringGround`.
+        interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
+            all contact elements, or a list of one each, from left to right.
+        time_step: time step, s.
+        motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
+            :func:`free_field` makes of a function. The ground rests unless given.
+        loads: forces from outside, a list of :class:`Load`; none unless given.
+        probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
+            none unless given.
+        initial: weight and motion at the start, :class:`InitialConditions`; weight and rest unless given.
+        solver: time scheme, coordinates and so on, :class:`SolverOptions`; the defaults unless given.
+        results: quantities that a run evaluates, :class:`ResultOptions`; the defaults unless given.
+        service_limits: limits of service, :class:`ServiceLimits`; none unless given.
         fixed_base: whether the base is held: each foundation keeps its shape and moves with the free field
             under it. Ground and interface are then left out, but for the places of the contact elements.
             False by default; :meth:`interaction` compares both.
@@ -1604,30 +1689,18 @@ class Simulation:
 
     def __new__(
         cls,
-        time_step: float,
         structure: _Structure,
         ground: Ground,
         interface: _Interface | Sequence[_Interface],
+        time_step: float,
         *,
         motion: FreeField | None = None,
-        probes: Sequence[Probe] | None = None,
         loads: Sequence[Load] | None = None,
-        gravity: float | None = None,
-        gravity_stage: _GravityStage = "frictionless",
-        initial_displacement: ArrayLike | None = None,
-        initial_velocity: ArrayLike | None = None,
-        scheme: TimeScheme | None = None,
-        coordinates: _Coordinates | float | None = None,
-        expected_steps: int | None = None,
-        moment_center: float | None = None,
-        energy_balance: bool = True,
-        safety_friction: float | None = None,
-        allowable_slip: float | None = None,
-        allowable_gap: float | None = None,
-        allowable_uplifted_fraction: float | None = None,
-        allowable_rotation: float | None = None,
-        rotation_limit: float | None = None,
-        flow_chart_iterations: int | None = None,
+        probes: Sequence[Probe] | None = None,
+        initial: InitialConditions | None = None,
+        solver: SolverOptions | None = None,
+        results: ResultOptions | None = None,
+        service_limits: ServiceLimits | None = None,
         fixed_base: bool = False,
         progress: bool | Callable[[int, int], object] | None = None,
     ) -> Self: ...
@@ -1881,8 +1954,8 @@ class State:
     def trials(self) -> int:
         """Number of linear solves that the search for contact modes needed."""
     @property
-    def method(self) -> Literal["active set", "gauss-seidel", "path", "newton", "proximal"]:
-        """Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal"."""
+    def method(self) -> Literal["active_set", "gauss_seidel", "path", "newton", "proximal"]:
+        """Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal"."""
     @property
     def displacement(self) -> NDArray[np.float64]:
         """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
@@ -1998,7 +2071,7 @@ class Soil:
     @property
     def pressure_wave_speed(self) -> float:
         """Speed of pressure waves, m/s."""
-    def __eq__(self, other: object, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
 
 @disjoint_base
@@ -2150,8 +2223,8 @@ class ShearBuilding(Structure):
     """Rigid floors on columns that shear, on a rigid base.
 
     Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-    horizontal displacement of every floor from below; for :meth:`dof` "base x", "base y", "base rotation",
-    "floor 0", "floor 1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
+    horizontal displacement of every floor from below; for :meth:`dof` "base_x", "base_y", "base_rotation",
+    "floor_0", "floor_1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
     ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
     in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
     ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
@@ -2243,8 +2316,8 @@ class StoreyBuilding(Structure):
     and twist, and tilt with the mat.
 
     Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
-    floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor 0 x",
-    "floor 0 y", "floor 0 rz", "floor 1 x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
+    floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
+    "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
     gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
     (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
     given.
@@ -2391,7 +2464,9 @@ class FaceNode:
     ) -> Self: ...
     @staticmethod
     def rigid_base(
-        corners: Sequence[tuple[float, float]], center: tuple[float, float], dofs: Sequence[int]
+        corners: Sequence[tuple[float, float]],
+        center: tuple[float, float],
+        dofs: Sequence[int],
     ) -> list[FaceNode]:
         """The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
         whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
@@ -2445,9 +2520,7 @@ class FemModel(Structure):
         """
     def node_at(self, x: float, y: float) -> int:
         """Number of the node at (``x``, ``y``), m, to a millionth of the model's size."""
-    def section(
-        self, height: float, reference: float = 0.0
-    ) -> tuple[SectionRows, SectionRows, SectionRows]:
+    def section(self, height: float, reference: float = 0.0) -> tuple[SectionRows, SectionRows, SectionRows]:
         """The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
         ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
         ``reference`` is 0 by default.
@@ -2474,7 +2547,7 @@ class GmshMesh:
         self,
         materials: Mapping[str, Material],
         *,
-        formulation: _Formulation = "incompatible modes",
+        formulation: _Formulation = "incompatible_modes",
         hourglass_percent: int = 5,
     ) -> Mesh:
         """The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
@@ -2530,7 +2603,12 @@ class FrictionPendulum(Hysteresis):
     """
 
     def __new__(
-        cls, weight: float, radius: float, friction: float, *, yield_displacement: float = ...
+        cls,
+        weight: float,
+        radius: float,
+        friction: float,
+        *,
+        yield_displacement: float = ...,
     ) -> Self: ...
     def sliding_period(self, gravity: float = ...) -> float:
         """Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default)."""
@@ -2552,9 +2630,7 @@ class LeadRubber(Hysteresis):
         stiffness_ratio: float = ...,
     ) -> Self: ...
     @staticmethod
-    def from_strength(
-        stiffness: float, strength: float, *, stiffness_ratio: float = ...
-    ) -> LeadRubber:
+    def from_strength(stiffness: float, strength: float, *, stiffness_ratio: float = ...) -> LeadRubber:
         """Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
         ``stiffness_ratio`` is that of the class.
         """
@@ -2604,8 +2680,8 @@ class Layer:
     """Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
     ``material`` (:class:`Material`).
 
-    ``formulation`` of four-node quadrilaterals: "incompatible modes" (the default: right in bending),
-    "full" (2 × 2 points), "one point" (without stiffness against hourglass modes) or "hourglass" (one
+    ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
+    "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one
     point, stabilised with ``hourglass_percent``, 5 by default).
     """
 
@@ -2615,7 +2691,7 @@ class Layer:
         rows: int,
         material: Material,
         *,
-        formulation: _Formulation = "incompatible modes",
+        formulation: _Formulation = "incompatible_modes",
         hourglass_percent: int = 5,
     ) -> Self: ...
 
@@ -2657,7 +2733,11 @@ class Mesh:
         axial force of P–Δ, none unless given.
         """
     def add_trusses(
-        self, nodes: ArrayLike, young_modulus: ArrayLike, area: ArrayLike, density: ArrayLike
+        self,
+        nodes: ArrayLike,
+        young_modulus: ArrayLike,
+        area: ArrayLike,
+        density: ArrayLike,
     ) -> None:
         """Adds trusses on ``nodes`` (array of shape (trusses, 2)): ``young_modulus`` (Pa), ``area`` (m² per
         metre of thickness), ``density`` (kg/m³), each one number or an array of one per truss.
@@ -2677,7 +2757,7 @@ class Mesh:
         nodes: ArrayLike,
         material: Material,
         *,
-        formulation: _Formulation = "incompatible modes",
+        formulation: _Formulation = "incompatible_modes",
         hourglass_percent: int = 5,
     ) -> None:
         """Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
@@ -2689,7 +2769,7 @@ class Mesh:
         """Coordinates of the nodes: array of shape (nodes, 2), m."""
     def node_at(self, x: float, y: float) -> int:
         """Number of the node at (``x``, ``y``), m, to a millionth of the mesh's size."""
-    def nodes_at_height(self, y: float, tolerance: float = 1e-9) -> list[int]:
+    def nodes_at_height(self, y: float, tolerance: float = 1e-09) -> list[int]:
         """Numbers of the nodes at a height ``y`` (m) within a ``tolerance`` (m; 1e-9 by default): list, from
         left to right.
         """
@@ -2701,7 +2781,9 @@ class WithSprings(Structure):
     """
 
     def __new__(
-        cls, structure: _Structure, springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]]
+        cls,
+        structure: _Structure,
+        springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]],
     ) -> Self: ...
 
 @final
@@ -2878,8 +2960,7 @@ class Limits:
     @property
     def bonded(self) -> bool:
         """Whether base and soil neither separate nor slide."""
-    def __eq__(self, other: object, /) -> bool: ...
-
+    def __eq__(self, value: object, /) -> bool: ...
 @overload
 def refine(
     elements: int,
@@ -2900,13 +2981,8 @@ def refine(
     settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
     and may change between the settings; ``stages`` of :class:`ElasticGround` keeps it.
     """
-
 @overload
-def refine(
-    elements: int,
-    time_step: float,
-    scene: Callable[[int, float], float | ArrayLike],
-) -> Refinement:
+def refine(elements: int, time_step: float, scene: Callable[[int, float], float | ArrayLike]) -> Refinement:
     """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
 
     ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
@@ -2964,9 +3040,7 @@ def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
     """``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
     (count,).
     """
-def vertical_incidence(
-    horizontal: Record | None = None, vertical: Record | None = None
-) -> FreeField:
+def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
     """Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
     same everywhere at once; the one that is None rests.
     """
@@ -2975,15 +3049,17 @@ def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None
     once, for a ground in plan; what is None rests.
     """
 def travelling_wave(
-    motion: FreeField, apparent_velocity: float, origin: float, *, azimuth: float = 0.0
+    motion: FreeField,
+    apparent_velocity: float,
+    origin: float,
+    *,
+    azimuth: float = 0.0,
 ) -> FreeField:
     """A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
     negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
     from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
     """
-def ricker(
-    amplitude: float, sigma: float, center: float, *, vertical: bool = False
-) -> FreeField:
+def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = False) -> FreeField:
     """A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
     right or, if ``vertical`` (False by default), up.
     """
@@ -2995,23 +3071,20 @@ def set_memory_limit(bytes: int) -> None:
     """Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
     Sizes are held against it before anything is allocated, and raise an error that says what they would take.
     """
-def _cancel_when(event: Any = None) -> None:
-    """Runs of this thread end with ``KeyboardInterrupt`` once ``event.is_set()``; None for no event."""
-def _restored(kind: str, data: bytes) -> Any:
-    """The result of the class ``kind`` from the bytes ``data`` that its pickle holds."""
-def _case_numbers(grid: Sequence[tuple[str, Sequence[Any]]], shard: tuple[int, int] | None = None) -> list[int]:
-    """Numbers of the cases of a grid, a list of pairs (name, values), or of its ``shard`` (index, of)."""
+def _cancel_when(event: Any = None) -> None: ...
+def _restored(kind: str, data: bytes) -> Any: ...
+def _case_numbers(
+    grid: Sequence[tuple[str, Sequence[Any]]],
+    shard: tuple[int, int] | None = None,
+) -> list[int]: ...
 def _save_cases(
     path: str | os.PathLike[str],
     grid: Sequence[tuple[str, Sequence[Any]]],
     shard: tuple[int, int] | None,
     columns: Sequence[str],
     outcomes: Sequence[Sequence[Any] | str],
-) -> None:
-    """Writes a file of cases: ``outcomes`` is the list of the results, in the order of ``columns``, or
-    the text of the error of each case.
-    """
+) -> None: ...
 def _merge_cases(
-    paths: Sequence[str | os.PathLike[str]], grid: Sequence[tuple[str, Sequence[Any]]]
-) -> tuple[list[str], list[tuple[list[float] | None, str | None]]]:
-    """Columns and results of all cases of a grid from the files of its shards, and the texts of errors."""
+    paths: Sequence[str | os.PathLike[str]],
+    grid: Sequence[tuple[str, Sequence[Any]]],
+) -> tuple[list[str], list[tuple[list[float] | None, str | None]]]: ...

@@ -196,7 +196,7 @@ def _plan(run: Run, axes: Any) -> tuple[Any, Callable[[int], list[Any]]]:
         cells.set_array(np.ma.masked_where(mode == MODES.index("open"), pressures[frame]))
         largest = np.hypot(*shears)
         # Over the soil they move along the shear traction on it.
-        slides = np.isin(mode, [MODES.index(name) for name in ("slip", "yield slip")]) & (largest > 0.0)
+        slides = np.isin(mode, [MODES.index(name) for name in ("slip", "yield_slip")]) & (largest > 0.0)
         factor = np.ma.masked_where(~slides, size / np.where(slides, largest, 1.0))
         arrows.set_UVC(factor * shears[0], factor * shears[1])
         own.set_title(f"{frames['time'][frame]:.2f} s", fontsize="medium", loc="left")
@@ -273,13 +273,13 @@ def plot_profile(self: SoilProfile, axes: Any = None) -> Any:
     for layer in self.layers:
         depths.append(depths[-1] + layer.thickness)
         speeds.append(layer.soil.shear_wave_speed)
-    if self.base is not None:
+    if self.bedrock is not None:
         depths.append(1.2 * depths[-1] if depths[-1] > 0.0 else 1.0)
-        speeds.append(self.base.shear_wave_speed)
+        speeds.append(self.bedrock.shear_wave_speed)
     own.plot(np.repeat(speeds, 2), np.repeat(depths, 2)[1:-1], color="black")
     _label(own, "speed of shear waves, m/s", "depth, m")
-    if self.base is None:
-        own.axhline(depths[-1], color="#a6611a", linewidth=3.0, label="rigid base")
+    if self.bedrock is None:
+        own.axhline(depths[-1], color="#a6611a", linewidth=3.0, label="rigid bedrock")
         _legend(own)
     own.set_xlim(0.0, 1.1 * max(speeds, default=1.0))
     own.set_ylim(depths[-1], 0.0)

@@ -9,8 +9,8 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::base::contact;
 use super::strip::{Elements, grading};
+use super::superclass::contact;
 use super::{PyGround, PyImpedances, PyPlan};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, WithGiven};
@@ -45,7 +45,7 @@ impl PySharedKernels {
 /// elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
 ///
 /// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
-/// half-plane under strips, else transforms), "direct", "relaxed fft" or, without layers and damping, "exponentials".
+/// half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
 /// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
 /// given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
 /// unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.

@@ -4,7 +4,7 @@ use basemat::bem::plan::{Plan, impedances_in_plan};
 use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
-use super::base::contact;
+use super::superclass::contact;
 use crate::array::{Count, Numbers, complex, whole};
 use crate::error::{OrRaise, refuse};
 use crate::profile::Profile;
@@ -15,37 +15,6 @@ use crate::ticker::watched;
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
-
-members! {
-    PyPlan, own;
-    new(faces: Bound<'_, PyAny>, cells: Count) = {
-        // A single face may be given without a list.
-        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
-        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
-        let all = faces.extract().or_else(one);
-        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
-        Ok(Self(Plan::on_faces(&faces, cells.0).or_raise()?))
-    };
-    /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
-    disc(center: (f64, f64), radius: f64, cells: Count) =
-        Plan::disc(center.into(), radius, cells.0).or_raise().map(Self);
-    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
-    /// rows from the ``corner`` (x and y, m) away, each a list from left to right.
-    masked(corner: [f64; 2], pitch: [f64; 2], mask: Vec<Vec<Bound<'_, PyAny>>>) = {
-        let columns = mask.first().map_or(0, Vec::len);
-        if mask.iter().any(|row| row.len() != columns) {
-            return Err(refuse(format!("mask has a row that is not {columns} cells long")));
-        }
-        let mask = mask.iter().flatten().map(is_cell).collect::<PyResult<Vec<_>>>()?;
-        Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
-    };
-    /// Sides of a cell along x and y, m.
-    pitch: [f64; 2] = own.0.pitch();
-    /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
-    middle: [f64; 2] = own.0.middle();
-    /// Area of the cells inside the outline less that of the faces, relative to it.
-    area_error: f64 = own.0.area_error();
-}
 
 /// An entry of a mask: true or false, or a number that is 1 or 0.
 fn is_cell(entry: &Bound<'_, PyAny>) -> PyResult<bool> {
@@ -63,6 +32,56 @@ fn is_cell(entry: &Bound<'_, PyAny>) -> PyResult<bool> {
 
 #[pymethods]
 impl PyPlan {
+    #[new]
+    fn new(faces: Bound<'_, PyAny>, cells: Count) -> PyResult<Self> {
+        // A single face may be given without a list.
+        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
+        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
+        let all = faces.extract().or_else(one);
+        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
+        Ok(Self(Plan::on_faces(&faces, cells.0).or_raise()?))
+    }
+
+    /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
+    #[staticmethod]
+    fn disc(center: (f64, f64), radius: f64, cells: Count) -> PyResult<Self> {
+        Plan::disc(center.into(), radius, cells.0).or_raise().map(Self)
+    }
+
+    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
+    /// rows from the ``corner`` (x and y, m) away, each a list from left to right.
+    #[staticmethod]
+    fn masked(
+        corner: [f64; 2],
+        pitch: [f64; 2],
+        mask: Vec<Vec<Bound<'_, PyAny>>>,
+    ) -> PyResult<Self> {
+        let columns = mask.first().map_or(0, Vec::len);
+        if mask.iter().any(|row| row.len() != columns) {
+            return Err(refuse(format!("mask has a row that is not {columns} cells long")));
+        }
+        let mask = mask.iter().flatten().map(is_cell).collect::<PyResult<Vec<_>>>()?;
+        Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
+    }
+
+    /// Sides of a cell along x and y, m.
+    #[getter]
+    fn pitch(&self) -> [f64; 2] {
+        self.0.pitch()
+    }
+
+    /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
+    #[getter]
+    fn middle(&self) -> [f64; 2] {
+        self.0.middle()
+    }
+
+    /// Area of the cells inside the outline less that of the faces, relative to it.
+    #[getter]
+    fn area_error(&self) -> f64 {
+        self.0.area_error()
+    }
+
     /// The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
     /// ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
     fn with_unions(

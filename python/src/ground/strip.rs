@@ -20,23 +20,31 @@ pub(super) fn grading(name: &str) -> PyResult<Grading> {
     name.parse().or_raise()
 }
 
-members! {
-    PyStrip, own;
+#[pymethods]
+impl PyStrip {
     #[pyo3(signature = (left, right, count, *, grading="cosine"))]
-    new(
+    #[new]
+    fn new(
         left: f64,
         right: f64,
         #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
-    ) = Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?));
-    /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
-    from_nodes(nodes: Numbers) = Strip::from_nodes(nodes.0).or_raise().map(Self);
-    /// Ends of the elements: list of elements + 1 numbers, m.
-    nodes: Vec<f64> = own.0.nodes().to_vec();
-}
+    ) -> PyResult<Self> {
+        Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
+    }
 
-#[pymethods]
-impl PyStrip {
+    /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
+    #[staticmethod]
+    fn from_nodes(nodes: Numbers) -> PyResult<Self> {
+        Strip::from_nodes(nodes.0).or_raise().map(Self)
+    }
+
+    /// Ends of the elements: list of elements + 1 numbers, m.
+    #[getter]
+    fn nodes(&self) -> Vec<f64> {
+        self.0.nodes().to_vec()
+    }
+
     fn __repr__(&self) -> String {
         format!("Strip.from_nodes({:?})", self.0.nodes())
     }

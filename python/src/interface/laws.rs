@@ -18,9 +18,12 @@ use crate::user::PyPreviousContact;
 #[pyclass(name = "Bonded", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyBonded;
 
-members! {
-    PyBonded, own;
-    new() = Ok(PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self));
+#[pymethods]
+impl PyBonded {
+    #[new]
+    fn new() -> PyResult<PyClassInitializer<Self>> {
+        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self))
+    }
 }
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
@@ -33,14 +36,15 @@ members! {
 #[pyclass(name = "Coulomb", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCoulomb(Coulomb);
 
-members! {
-    PyCoulomb, own;
+#[pymethods]
+impl PyCoulomb {
     #[pyo3(signature = (friction, *, tensile_strength=0.0, closed_below=None))]
-    new(
+    #[new]
+    fn new(
         friction: f64,
         tensile_strength: f64,
         closed_below: Option<f64>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let condition =
             closed_below.map(|closed_below| UnilateralCondition::Velocity { closed_below });
         let law = Coulomb::new(friction)
@@ -48,9 +52,13 @@ members! {
             .with(condition, Coulomb::with_unilateral_condition)
             .or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
-    };
+    }
+
     /// Friction coefficient, a number.
-    friction: f64 = own.0.friction();
+    #[getter]
+    fn friction(&self) -> f64 {
+        self.0.friction()
+    }
 }
 
 /// A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
@@ -58,24 +66,26 @@ members! {
 #[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCohesive;
 
-members! {
-    PyCohesive, own;
-    new(tension: f64, cohesion: f64, friction: f64) = {
+#[pymethods]
+impl PyCohesive {
+    #[new]
+    fn new(tension: f64, cohesion: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Cohesive::new(tension, cohesion, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
-    };
+    }
 }
 
 /// Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa).
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
-members! {
-    PyYielding, own;
-    new(bearing_pressure: f64, friction: f64) = {
+#[pymethods]
+impl PyYielding {
+    #[new]
+    fn new(bearing_pressure: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Yielding::new(bearing_pressure, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
-    };
+    }
 }
 
 /// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
@@ -86,14 +96,14 @@ members! {
 /// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
 /// step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
 /// ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
-/// default), "velocity" or "last velocity" (of this step or the one before).
+/// default), "velocity" or "last_velocity" (of this step or the one before).
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
 extends!(PyThinLayer, own => PyInterfaceLaw::copied(own.0));
 
 impl PyThinLayer {
-    fn of(
+    fn with_options(
         law: basemat::Result<ThinLayer>,
         debonded_ratio: Option<f64>,
         slip_stiffness_ratio: Option<f64>,
@@ -109,10 +119,11 @@ impl PyThinLayer {
     }
 }
 
-members! {
-    PyThinLayer, own;
+#[pymethods]
+impl PyThinLayer {
     #[pyo3(signature = (soil, neighbour_height, friction, *, thickness_ratio=None, debonded_ratio=None, slip_stiffness_ratio=None, friction_limit=None, slip_sense=None))]
-    new(
+    #[new]
+    fn new(
         soil: &PySoil,
         neighbour_height: f64,
         friction: f64,
@@ -121,17 +132,19 @@ members! {
         slip_stiffness_ratio: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let law = ThinLayer::new(soil.0, neighbour_height, friction)
             .with(thickness_ratio, ThinLayer::with_thickness_ratio);
-        Self::of(law, debonded_ratio, slip_stiffness_ratio, friction_limit, slip_sense)?
+        Self::with_options(law, debonded_ratio, slip_stiffness_ratio, friction_limit, slip_sense)?
             .initializer()
-    };
+    }
+
     /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
     /// ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
     /// four if given.
     #[pyo3(signature = (normal, shear, friction, *, debonded_ratio=None, slip_stiffness_ratio=None, friction_limit=None, slip_sense=None))]
-    from_stiffness(
+    #[staticmethod]
+    fn from_stiffness(
         normal: f64,
         shear: f64,
         friction: f64,
@@ -139,12 +152,16 @@ members! {
         slip_stiffness_ratio: Option<f64>,
         friction_limit: Option<&str>,
         slip_sense: Option<&str>,
-    ) = {
+    ) -> PyResult<Self> {
         let law = ThinLayer::from_stiffness(normal, shear, friction);
-        Self::of(law, debonded_ratio, slip_stiffness_ratio, friction_limit, slip_sense)
-    };
+        Self::with_options(law, debonded_ratio, slip_stiffness_ratio, friction_limit, slip_sense)
+    }
+
     /// Normal and shear stiffness, Pa/m.
-    stiffness: [f64; 2] = own.0.stiffness();
+    #[getter]
+    fn stiffness(&self) -> [f64; 2] {
+        self.0.stiffness()
+    }
 }
 
 /// Coulomb friction whose coefficient is a function of the start of the step:
@@ -153,13 +170,14 @@ members! {
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
 
-members! {
-    PyVariableFriction, own;
+#[pymethods]
+impl PyVariableFriction {
     #[pyo3(signature = (coefficient, *, tensile_strength=0.0))]
-    new(
+    #[new]
+    fn new(
         coefficient: Bound<'_, PyAny>,
         tensile_strength: f64,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         if !coefficient.is_callable() {
             return Err(refuse("the coefficient must be a function of the start of a step"));
         }
@@ -170,7 +188,7 @@ members! {
             let function = Arc::clone(&function);
             let own = move |start: &PreviousContact<'_>| {
                 asked(f64::NAN, |py| {
-                    let found = function.call1(py, (PyPreviousContact::of(py, start)?,))?;
+                    let found = function.call1(py, (PyPreviousContact::from_core(py, start)?,))?;
                     real("the coefficient's function", found.bind(py))
                 })
             };
@@ -178,5 +196,5 @@ members! {
                 as Box<_>)
         };
         Ok(PyClassInitializer::from(PyInterfaceLaw { make: Arc::new(make) }).add_subclass(Self))
-    };
+    }
 }

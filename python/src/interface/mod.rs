@@ -1,9 +1,9 @@
 //! Laws between base and ground.
 
-mod base;
 mod laws;
+mod superclass;
 
-pub(crate) use base::{PyInterfaceLaw, recipes};
 pub(crate) use laws::{
     PyBonded, PyCohesive, PyCoulomb, PyThinLayer, PyVariableFriction, PyYielding,
 };
+pub(crate) use superclass::{PyInterfaceLaw, recipes};

@@ -34,7 +34,7 @@ extends!(PyRecord, own => {
 });
 
 impl PyRecord {
-    pub(crate) fn of(record: basemat::Result<Record>) -> PyResult<Self> {
+    pub(crate) fn from_core(record: basemat::Result<Record>) -> PyResult<Self> {
         Ok(Self(Arc::new(record.or_raise()?)))
     }
 }
@@ -42,21 +42,22 @@ impl PyRecord {
 /// The :class:`Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
 #[pyfunction]
 pub(crate) fn el_centro_1940() -> PyResult<PyRecord> {
-    PyRecord::of(Ok(basemat::motion::el_centro_1940()))
+    PyRecord::from_core(Ok(basemat::motion::el_centro_1940()))
 }
 
-members! {
-    PyRecord, own;
+#[pymethods]
+impl PyRecord {
     // Python's reader of signatures accepts ASCII only.
     #[pyo3(
         signature = (time_step, acceleration, *, unit="m/s²"),
         text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#
     )]
-    new(
+    #[new]
+    fn new(
         time_step: f64,
         acceleration: Numbers,
         unit: &str,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let samples = acceleration.0.len();
         if samples < 2 {
             return Err(refuse(format!(
@@ -65,42 +66,79 @@ members! {
         }
         let unit = unit_of(unit)?.in_metres_per_second_squared();
         let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
-        Self::of(Record::new(time_step, samples))?.initializer()
-    };
-    /// Time step, s.
-    time_step: f64 = own.0.time_step();
-    /// Time of the last sample, s.
-    duration: f64 = own.0.duration();
-    /// Times of the samples: array of shape (samples,), s.
-    times: Array = (0..own.0.len()).map(|k| k as f64 * own.0.time_step()).collect();
-    /// Acceleration at the samples: array of shape (samples,), m/s².
-    accelerations: Array = own.0.accelerations().into();
-    /// Velocity at the samples: array of shape (samples,), m/s.
-    velocities: Array = own.0.velocities().into();
-    /// Displacement at the samples: array of shape (samples,), m.
-    displacements: Array = own.0.displacements().into();
-    /// Largest |acceleration|, m/s².
-    peak_acceleration: f64 = own.0.peaks().acceleration;
-    /// Largest |velocity|, m/s.
-    peak_velocity: f64 = own.0.peaks().velocity;
-    /// Largest |displacement|, m.
-    peak_displacement: f64 = own.0.peaks().displacement;
-    /// Arias intensity, m/s.
-    arias_intensity: f64 = own.0.arias_intensity();
-}
+        Self::from_core(Record::new(time_step, samples))?.initializer()
+    }
 
-#[pymethods]
-impl PyRecord {
+    /// Time step, s.
+    #[getter]
+    fn time_step(&self) -> f64 {
+        self.0.time_step()
+    }
+
+    /// Time of the last sample, s.
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.0.duration()
+    }
+
+    /// Times of the samples: array of shape (samples,), s.
+    #[getter]
+    fn times(&self) -> Array {
+        (0..self.0.len()).map(|k| k as f64 * self.0.time_step()).collect()
+    }
+
+    /// Acceleration at the samples: array of shape (samples,), m/s².
+    #[getter]
+    fn accelerations(&self) -> Array {
+        self.0.accelerations().into()
+    }
+
+    /// Velocity at the samples: array of shape (samples,), m/s.
+    #[getter]
+    fn velocities(&self) -> Array {
+        self.0.velocities().into()
+    }
+
+    /// Displacement at the samples: array of shape (samples,), m.
+    #[getter]
+    fn displacements(&self) -> Array {
+        self.0.displacements().into()
+    }
+
+    /// Largest |acceleration|, m/s².
+    #[getter]
+    fn peak_acceleration(&self) -> f64 {
+        self.0.peaks().acceleration
+    }
+
+    /// Largest |velocity|, m/s.
+    #[getter]
+    fn peak_velocity(&self) -> f64 {
+        self.0.peaks().velocity
+    }
+
+    /// Largest |displacement|, m.
+    #[getter]
+    fn peak_displacement(&self) -> f64 {
+        self.0.peaks().displacement
+    }
+
+    /// Arias intensity, m/s.
+    #[getter]
+    fn arias_intensity(&self) -> f64 {
+        self.0.arias_intensity()
+    }
+
     /// Reads a file at ``path``.
     ///
     /// ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "peer"
-    /// (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k-net" (K-NET and KiK-net), "k-net csv", "esm" (ESM and
+    /// (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and KiK-net), "k_net_csv", "esm" (ESM and
     /// ITACA), "afad", "smc" or "geonet". ``unit`` of the acceleration as for the class: needed for
     /// columns, for old files of "cosmos" that name none; other files have their own. Of columns:
     /// ``columns`` are the numbers of time and acceleration from 1, (1, 2) unless given; with
     /// ``time_step`` (s) times do not count, and only one column may be there unless ``columns`` is given;
     /// ``header_lines`` at the beginning are passed over. ``channel`` is the number of the component from
-    /// 1, for formats that hold several ("cosmos", "k-net csv", "afad", "geonet").
+    /// 1, for formats that hold several ("cosmos", "k_net_csv", "afad", "geonet").
     #[staticmethod]
     #[pyo3(signature = (
         path, *, format="columns", unit=None, time_step=None, columns=None, channel=None, header_lines=None
@@ -115,7 +153,7 @@ impl PyRecord {
         #[pyo3(from_py_with = whole)] header_lines: Option<usize>,
     ) -> PyResult<Self> {
         let options = FileOptions { unit, time_step, columns, channel, header_lines };
-        Self::of(Record::read(path, options.reader(format)?.as_ref()))
+        Self::from_core(Record::read(path, options.reader(format)?.as_ref()))
     }
 
     /// Reads all components of the file at ``path``, such as those of a station in three directions: a
@@ -137,7 +175,7 @@ impl PyRecord {
         let components = Record::read_all(path, options.reader(format)?.as_ref()).or_raise()?;
         let records = PyDict::new(py);
         for (name, record) in components {
-            records.set_item(name, Self::of(Ok(record))?)?;
+            records.set_item(name, Self::from_core(Ok(record))?)?;
         }
         Ok(records)
     }
@@ -151,21 +189,21 @@ impl PyRecord {
 
     /// Record with all samples times a ``factor``.
     fn scaled(&self, factor: f64) -> PyResult<Self> {
-        Self::of(self.0.scaled(factor))
+        Self::from_core(self.0.scaled(factor))
     }
 
     /// Record scaled to a ``peak`` acceleration (m/s²), signs kept.
     fn scaled_to_peak(&self, peak: f64) -> PyResult<Self> {
-        Self::of(self.0.scaled_to_peak(peak))
+        Self::from_core(self.0.scaled_to_peak(peak))
     }
 
     /// Record with samples every ``time_step`` (s), linear between the old ones.
     fn resampled(&self, time_step: f64) -> PyResult<Self> {
-        Self::of(self.0.resampled(time_step))
+        Self::from_core(self.0.resampled(time_step))
     }
 
-    /// Record with its baseline treated. ``treatment``: "remove mean", "newmark parabola", "velocity
-    /// polynomial", "displacement polynomial" or "rest to rest"; polynomials have the ``degree``, 4 by
+    /// Record with its baseline treated. ``treatment``: "remove_mean", "newmark_parabola",
+    /// "velocity_polynomial", "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by
     /// default.
     #[pyo3(signature = (treatment, *, degree=4))]
     fn with_baseline(
@@ -173,7 +211,7 @@ impl PyRecord {
         treatment: &str,
         #[pyo3(from_py_with = whole)] degree: usize,
     ) -> PyResult<Self> {
-        Self::of(self.0.with_baseline(baseline(treatment, degree)?))
+        Self::from_core(self.0.with_baseline(baseline(treatment, degree)?))
     }
 
     /// Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
@@ -184,7 +222,7 @@ impl PyRecord {
     /// displacement do not return to zero.
     #[pyo3(signature = (corner, *, order=4))]
     fn high_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
-        Self::of(self.0.high_pass(corner, order))
+        Self::from_core(self.0.high_pass(corner, order))
     }
 
     /// Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
@@ -192,17 +230,17 @@ impl PyRecord {
     /// (:meth:`SoilColumn.from_surface`).
     #[pyo3(signature = (corner, *, order=4))]
     fn low_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
-        Self::of(self.0.low_pass(corner, order))
+        Self::from_core(self.0.low_pass(corner, order))
     }
 
     /// Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends.
     fn tapered(&self, beginning: f64, end: f64) -> PyResult<Self> {
-        Self::of(self.0.tapered(beginning, end))
+        Self::from_core(self.0.tapered(beginning, end))
     }
 
     /// Record with rest of ``before`` and ``after`` (s) at its two ends.
     fn padded(&self, before: f64, after: f64) -> PyResult<Self> {
-        Self::of(self.0.padded(before, after))
+        Self::from_core(self.0.padded(before, after))
     }
 
     /// Elastic response :class:`Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
@@ -261,8 +299,8 @@ impl FileOptions<'_> {
                 Box::new(CosmosFormat { channel: component, unit })
             }
             "peer" => self.checked(format, StandardGravity, false, PeerFormat)?,
-            "k-net" => self.checked(format, Gal, false, KNetFormat)?,
-            "k-net csv" => self.checked(format, Gal, true, KNetCsvFormat { component })?,
+            "k_net" => self.checked(format, Gal, false, KNetFormat)?,
+            "k_net_csv" => self.checked(format, Gal, true, KNetCsvFormat { component })?,
             "esm" => self.checked(format, Gal, false, EsmFormat)?,
             "afad" => self.checked(format, Gal, true, AfadFormat { component })?,
             "smc" => self.checked(format, Gal, false, SmcFormat)?,
@@ -272,8 +310,8 @@ impl FileOptions<'_> {
             }
             _ => {
                 return Err(refuse(format!(
-                    "format is '{format}', but must be 'columns', 'peer', 'cosmos', 'k-net', \
-                     'k-net csv', 'esm', 'afad', 'smc' or 'geonet'"
+                    "format is '{format}', but must be 'columns', 'peer', 'cosmos', 'k_net', \
+                     'k_net_csv', 'esm', 'afad', 'smc' or 'geonet'"
                 )));
             }
         })

@@ -27,24 +27,44 @@ pub(crate) fn log_spaced(
     Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
 }
 
-members! {
-    PySpectrum, own;
-    /// Natural periods: array of shape (m,), s.
-    period: Array = own.0.iter().map(|ordinate| ordinate.period).collect();
-    /// Largest displacements relative to the ground or floor: array of shape (m,), m.
-    displacement: Array = own.0.iter().map(|ordinate| ordinate.displacement).collect();
-    /// Pseudo-velocities: array of shape (m,), m/s.
-    pseudo_velocity: Array = own.0.iter().map(|ordinate| ordinate.pseudo_velocity).collect();
-    /// Pseudo-accelerations: array of shape (m,), m/s².
-    pseudo_acceleration: Array = own.0.iter().map(|ordinate| ordinate.pseudo_acceleration).collect();
-    /// Largest total accelerations: array of shape (m,), m/s².
-    acceleration: Array = own.0.iter().map(|ordinate| ordinate.acceleration).collect();
-    /// Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact.
-    warnings: Vec<String> = own.1.clone();
-}
-
 #[pymethods]
 impl PySpectrum {
+    /// Natural periods: array of shape (m,), s.
+    #[getter]
+    fn period(&self) -> Array {
+        self.0.iter().map(|ordinate| ordinate.period).collect()
+    }
+
+    /// Largest displacements relative to the ground or floor: array of shape (m,), m.
+    #[getter]
+    fn displacement(&self) -> Array {
+        self.0.iter().map(|ordinate| ordinate.displacement).collect()
+    }
+
+    /// Pseudo-velocities: array of shape (m,), m/s.
+    #[getter]
+    fn pseudo_velocity(&self) -> Array {
+        self.0.iter().map(|ordinate| ordinate.pseudo_velocity).collect()
+    }
+
+    /// Pseudo-accelerations: array of shape (m,), m/s².
+    #[getter]
+    fn pseudo_acceleration(&self) -> Array {
+        self.0.iter().map(|ordinate| ordinate.pseudo_acceleration).collect()
+    }
+
+    /// Largest total accelerations: array of shape (m,), m/s².
+    #[getter]
+    fn acceleration(&self) -> Array {
+        self.0.iter().map(|ordinate| ordinate.acceleration).collect()
+    }
+
+    /// Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.1.clone()
+    }
+
     /// Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
     /// by default (U.S. NRC R.G. 1.122).
     #[pyo3(signature = (fraction=0.15))]

@@ -117,23 +117,6 @@ pub(crate) fn ricker(
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
-members! {
-    PyPlaneWave, own;
-    /// SV wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
-    /// right if positive.
-    sv(soil: &PySoil, angle: f64) = PlaneWave::sv(soil.0, angle).or_raise().map(Self);
-    /// SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
-    /// across its direction only.
-    sh(soil: &PySoil, angle: f64) = PlaneWave::sh(soil.0, angle).or_raise().map(Self);
-    /// P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
-    /// right if positive.
-    p(soil: &PySoil, angle: f64) = PlaneWave::p(soil.0, angle).or_raise().map(Self);
-    /// Rayleigh wave to the right on a half-plane of this ``soil``.
-    rayleigh(soil: &PySoil) = Ok(Self(PlaneWave::rayleigh(soil.0)));
-    /// Apparent velocity along the surface, m/s.
-    apparent_velocity: f64 = own.0.apparent_velocity();
-}
-
 /// Methods of a plane wave that make it a motion: the core's of the same name.
 macro_rules! fields_from {
     ($($(#[doc = $doc:tt])+ $name:ident;)+) => {
@@ -170,6 +153,39 @@ fields_from! {
 
 #[pymethods]
 impl PyPlaneWave {
+    /// SV wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
+    /// right if positive.
+    #[staticmethod]
+    fn sv(soil: &PySoil, angle: f64) -> PyResult<Self> {
+        PlaneWave::sv(soil.0, angle).or_raise().map(Self)
+    }
+
+    /// SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
+    /// across its direction only.
+    #[staticmethod]
+    fn sh(soil: &PySoil, angle: f64) -> PyResult<Self> {
+        PlaneWave::sh(soil.0, angle).or_raise().map(Self)
+    }
+
+    /// P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
+    /// right if positive.
+    #[staticmethod]
+    fn p(soil: &PySoil, angle: f64) -> PyResult<Self> {
+        PlaneWave::p(soil.0, angle).or_raise().map(Self)
+    }
+
+    /// Rayleigh wave to the right on a half-plane of this ``soil``.
+    #[staticmethod]
+    fn rayleigh(soil: &PySoil) -> Self {
+        Self(PlaneWave::rayleigh(soil.0))
+    }
+
+    /// Apparent velocity along the surface, m/s.
+    #[getter]
+    fn apparent_velocity(&self) -> f64 {
+        self.0.apparent_velocity()
+    }
+
     /// Wave with this motion, running the other way.
     fn reversed(&self) -> Self {
         Self(self.0.reversed())
@@ -207,7 +223,7 @@ fn through(
     if let Some(warning) = motion.warning() {
         crate::error::warn(py, warning.to_string())?;
     }
-    PyRecord::of(Record::new(step, motion.samples))
+    PyRecord::from_core(Record::new(step, motion.samples))
 }
 
 #[pymethods]
@@ -284,31 +300,40 @@ impl PyColumn {
 #[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
-members! {
-    PyInclinedWave, own;
-    /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-    /// positive.
-    sv(profile: &PySoilProfile, angle: f64) =
-        InclinedWave::sv(profile.0.clone(), angle).or_raise().map(Self);
-    /// SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
-    /// direction.
-    sh(profile: &PySoilProfile, angle: f64) =
-        InclinedWave::sh(profile.0.clone(), angle).or_raise().map(Self);
-    /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-    /// positive.
-    p(profile: &PySoilProfile, angle: f64) =
-        InclinedWave::p(profile.0.clone(), angle).or_raise().map(Self);
-    /// Apparent velocity along the surface, m/s.
-    apparent_velocity: f64 = own.0.apparent_velocity();
-}
-
 #[pymethods]
 impl PyInclinedWave {
+    /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
+    /// positive.
+    #[staticmethod]
+    fn sv(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
+        InclinedWave::sv(profile.0.clone(), angle).or_raise().map(Self)
+    }
+
+    /// SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
+    /// direction.
+    #[staticmethod]
+    fn sh(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
+        InclinedWave::sh(profile.0.clone(), angle).or_raise().map(Self)
+    }
+
+    /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
+    /// positive.
+    #[staticmethod]
+    fn p(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
+        InclinedWave::p(profile.0.clone(), angle).or_raise().map(Self)
+    }
+
+    /// Apparent velocity along the surface, m/s.
+    #[getter]
+    fn apparent_velocity(&self) -> f64 {
+        self.0.apparent_velocity()
+    }
+
     /// The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
-    /// (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
-    /// vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
+    /// (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
+    /// "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
     /// default) is that of :func:`travelling_wave`.
-    #[pyo3(signature = (record, origin, *, control="outcrop horizontal", azimuth=0.0))]
+    #[pyo3(signature = (record, origin, *, control="outcrop_horizontal", azimuth=0.0))]
     fn field(
         &self,
         py: Python<'_>,
@@ -318,8 +343,8 @@ impl PyInclinedWave {
         azimuth: f64,
     ) -> PyResult<PyFreeField> {
         let all = [
-            ("outcrop horizontal", InclinedControl::OutcropHorizontal),
-            ("outcrop vertical", InclinedControl::OutcropVertical),
+            ("outcrop_horizontal", InclinedControl::OutcropHorizontal),
+            ("outcrop_vertical", InclinedControl::OutcropVertical),
             ("incident", InclinedControl::Incident),
         ];
         let control = choice("control", control, &all)?;

@@ -11,40 +11,92 @@ use crate::array::Named;
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
-members! {
-    PyEnergyBalance, own;
-    /// Kinetic energy ½ v·M v, J.
-    kinetic: f64 = own.0.kinetic;
-    /// Elastic energy of the structure, J.
-    strain: f64 = own.0.strain;
-    /// Heat of hysteretic parts of the structure, J.
-    hysteresis: f64 = own.0.hysteresis;
-    /// Work of the dashpots, J.
-    damping: f64 = own.0.damping;
-    /// Energy that the time scheme removes, J; negative if it makes any.
-    algorithmic: f64 = own.0.algorithmic;
-    /// Work done on the soil, radiated and stored, J.
-    soil: f64 = own.0.soil;
-    /// Loss by friction and impact, J.
-    contact: f64 = own.0.contact;
-    /// Elastic energy of compliant interfaces, J.
-    interface: f64 = own.0.interface;
-    /// Potential of the static tractions against gaps and slips, J.
-    static_contact: f64 = own.0.static_contact;
-    /// Work of loads and free field, and the energy of an initial motion, J.
-    input: f64 = own.0.input;
-    /// Relative input energy (Uang and Bertero 1990), J.
-    relative_input: f64 = own.0.relative_input;
-    /// Error bound of :attr:`soil` by an approximate history, J.
-    soil_error_bound: f64 = own.0.soil_error_bound;
-    /// Largest energy so far, to which :attr:`residual` is relative, J.
-    largest: f64 = own.0.largest;
-    /// Difference between the two sides of the balance, relative to the largest energy so far.
-    residual: f64 = own.0.residual();
-}
-
 #[pymethods]
 impl PyEnergyBalance {
+    /// Kinetic energy ½ v·M v, J.
+    #[getter]
+    fn kinetic(&self) -> f64 {
+        self.0.kinetic
+    }
+
+    /// Elastic energy of the structure, J.
+    #[getter]
+    fn strain(&self) -> f64 {
+        self.0.strain
+    }
+
+    /// Heat of hysteretic parts of the structure, J.
+    #[getter]
+    fn hysteresis(&self) -> f64 {
+        self.0.hysteresis
+    }
+
+    /// Work of the dashpots, J.
+    #[getter]
+    fn damping(&self) -> f64 {
+        self.0.damping
+    }
+
+    /// Energy that the time scheme removes, J; negative if it makes any.
+    #[getter]
+    fn algorithmic(&self) -> f64 {
+        self.0.algorithmic
+    }
+
+    /// Work done on the soil, radiated and stored, J.
+    #[getter]
+    fn soil(&self) -> f64 {
+        self.0.soil
+    }
+
+    /// Loss by friction and impact, J.
+    #[getter]
+    fn contact(&self) -> f64 {
+        self.0.contact
+    }
+
+    /// Elastic energy of compliant interfaces, J.
+    #[getter]
+    fn interface(&self) -> f64 {
+        self.0.interface
+    }
+
+    /// Potential of the static tractions against gaps and slips, J.
+    #[getter]
+    fn static_contact(&self) -> f64 {
+        self.0.static_contact
+    }
+
+    /// Work of loads and free field, and the energy of an initial motion, J.
+    #[getter]
+    fn input(&self) -> f64 {
+        self.0.input
+    }
+
+    /// Relative input energy (Uang and Bertero 1990), J.
+    #[getter]
+    fn relative_input(&self) -> f64 {
+        self.0.relative_input
+    }
+
+    /// Error bound of :attr:`soil` by an approximate history, J.
+    #[getter]
+    fn soil_error_bound(&self) -> f64 {
+        self.0.soil_error_bound
+    }
+
+    /// Largest energy so far, to which :attr:`residual` is relative, J.
+    #[getter]
+    fn largest(&self) -> f64 {
+        self.0.largest
+    }
+
+    /// Difference between the two sides of the balance, relative to the largest energy so far.
+    #[getter]
+    fn residual(&self) -> f64 {
+        self.0.residual()
+    }
+
     /// All terms by their names: dict of numbers, J, in the plane J/m.
     fn to_dict(&self) -> Named<String, f64> {
         EnergyTerm::ALL.into_iter().map(|term| (term.to_string(), self.0.term(term))).collect()

@@ -14,26 +14,50 @@ use crate::html::preformatted;
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySystemMode(SystemMode);
 
-members! {
-    PySystemMode, own;
-    /// Axis along which the mode moves the most mass, "x" or "y" in plan; None in the plane.
-    axis: Option<char> = own.0.axis;
-    /// Period T on a fixed base, s.
-    fixed_period: f64 = own.0.fixed_period;
-    /// Damping ratio β on a fixed base.
-    fixed_damping: f64 = own.0.fixed_damping;
-    /// Period T̃ of the soil–structure system, s.
-    period: f64 = own.0.period;
-    /// Damping ratio β₀ of the soil–structure system.
-    damping: f64 = own.0.damping;
-    /// Period lengthening T̃/T, a ratio.
-    period_ratio: f64 = own.0.period_ratio();
-    /// Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil.
-    foundation_damping: f64 = own.0.foundation_damping();
-}
-
 #[pymethods]
 impl PySystemMode {
+    /// Axis along which the mode moves the most mass, "x" or "y" in plan; None in the plane.
+    #[getter]
+    fn axis(&self) -> Option<char> {
+        self.0.axis
+    }
+
+    /// Period T on a fixed base, s.
+    #[getter]
+    fn fixed_period(&self) -> f64 {
+        self.0.fixed_period
+    }
+
+    /// Damping ratio β on a fixed base.
+    #[getter]
+    fn fixed_damping(&self) -> f64 {
+        self.0.fixed_damping
+    }
+
+    /// Period T̃ of the soil–structure system, s.
+    #[getter]
+    fn period(&self) -> f64 {
+        self.0.period
+    }
+
+    /// Damping ratio β₀ of the soil–structure system.
+    #[getter]
+    fn damping(&self) -> f64 {
+        self.0.damping
+    }
+
+    /// Period lengthening T̃/T, a ratio.
+    #[getter]
+    fn period_ratio(&self) -> f64 {
+        self.0.period_ratio()
+    }
+
+    /// Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil.
+    #[getter]
+    fn foundation_damping(&self) -> f64 {
+        self.0.foundation_damping()
+    }
+
     fn __repr__(&self) -> String {
         let SystemMode { fixed_period, period, fixed_damping, damping, .. } = self.0;
         format!(
@@ -52,24 +76,34 @@ pub(crate) struct PyInteraction {
     pub(crate) names: Option<Vec<String>>,
 }
 
-members! {
-    PyInteraction, own;
-    /// The :class:`Run` on the ground, without time series.
-    on_ground: PyRun = PyRun::new(own.found.on_ground.clone(), None, own.names.clone());
-    /// The :class:`Run` on the fixed base, without time series.
-    on_fixed_base: PyRun = PyRun::new(own.found.on_fixed_base.clone(), None, own.names.clone());
-    /// The mode with the most mass along x, in plan also that along y: list of :class:`SystemMode`; empty for a structure
-    /// that is rigid.
-    modes: Vec<PySystemMode> = own.found.modes.iter().copied().map(PySystemMode).collect();
-    /// Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names.
-    probe_ratios: PyResult<Named<String, f64>> = {
-        let names = own.found.on_ground.probes.iter().map(|probe| probe.name.clone());
-        names.map(|name| Ok((name.clone(), own.found.probe_ratio(&name).or_raise()?))).collect()
-    };
-}
-
 #[pymethods]
 impl PyInteraction {
+    /// The :class:`Run` on the ground, without time series.
+    #[getter]
+    fn on_ground(&self) -> PyRun {
+        PyRun::new(self.found.on_ground.clone(), None, self.names.clone())
+    }
+
+    /// The :class:`Run` on the fixed base, without time series.
+    #[getter]
+    fn on_fixed_base(&self) -> PyRun {
+        PyRun::new(self.found.on_fixed_base.clone(), None, self.names.clone())
+    }
+
+    /// The mode with the most mass along x, in plan also that along y: list of :class:`SystemMode`; empty for a structure
+    /// that is rigid.
+    #[getter]
+    fn modes(&self) -> Vec<PySystemMode> {
+        self.found.modes.iter().copied().map(PySystemMode).collect()
+    }
+
+    /// Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names.
+    #[getter]
+    fn probe_ratios(&self) -> PyResult<Named<String, f64>> {
+        let names = self.found.on_ground.probes.iter().map(|probe| probe.name.clone());
+        names.map(|name| Ok((name.clone(), self.found.probe_ratio(&name).or_raise()?))).collect()
+    }
+
     /// Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
     /// NaN where both are zero.
     fn ratio(&self, name: &str) -> PyResult<f64> {

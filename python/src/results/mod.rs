@@ -1,15 +1,15 @@
 //! Results of a run.
 
-mod base;
 mod energy_balance;
 mod interaction;
 mod peak;
 mod run;
 mod series;
+mod summary;
 
-pub(crate) use base::{PyServiceCheck, PySummary};
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use interaction::{PyInteraction, PySystemMode};
 pub(crate) use peak::{PyExtremes, PyPeak};
 pub(crate) use run::PyRun;
 pub(crate) use series::element_units;
+pub(crate) use summary::{PyServiceCheck, PySummary};

@@ -8,16 +8,20 @@ use pyo3::prelude::*;
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyPeak(pub(crate) Peak);
 
-members! {
-    PyPeak, own;
-    /// The value, in the quantity's unit, with its sign.
-    value: f64 = own.0.value;
-    /// Time of the value, s.
-    time: f64 = own.0.time;
-}
-
 #[pymethods]
 impl PyPeak {
+    /// The value, in the quantity's unit, with its sign.
+    #[getter]
+    fn value(&self) -> f64 {
+        self.0.value
+    }
+
+    /// Time of the value, s.
+    #[getter]
+    fn time(&self) -> f64 {
+        self.0.time
+    }
+
     fn __float__(&self) -> f64 {
         self.0.value
     }
@@ -32,21 +36,33 @@ impl PyPeak {
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyExtremes(pub(crate) Extremes);
 
-members! {
-    PyExtremes, own;
-    /// The smallest value, a :class:`Peak` in the quantity's unit.
-    lowest: PyPeak = PyPeak(own.0.lowest);
-    /// The largest value, a :class:`Peak` in the quantity's unit.
-    highest: PyPeak = PyPeak(own.0.highest);
-    /// Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
-    /// quantity's unit.
-    largest: PyPeak = PyPeak(own.0.largest());
-    /// Magnitude of :attr:`largest`, in the quantity's unit.
-    magnitude: f64 = own.0.magnitude();
-}
-
 #[pymethods]
 impl PyExtremes {
+    /// The smallest value, a :class:`Peak` in the quantity's unit.
+    #[getter]
+    fn lowest(&self) -> PyPeak {
+        PyPeak(self.0.lowest)
+    }
+
+    /// The largest value, a :class:`Peak` in the quantity's unit.
+    #[getter]
+    fn highest(&self) -> PyPeak {
+        PyPeak(self.0.highest)
+    }
+
+    /// Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
+    /// quantity's unit.
+    #[getter]
+    fn largest(&self) -> PyPeak {
+        PyPeak(self.0.largest())
+    }
+
+    /// Magnitude of :attr:`largest`, in the quantity's unit.
+    #[getter]
+    fn magnitude(&self) -> f64 {
+        self.0.magnitude()
+    }
+
     fn __repr__(&self) -> String {
         let Extremes { lowest, highest } = self.0;
         format!(

@@ -80,99 +80,203 @@ impl PyRun {
     }
 }
 
-members! {
-    PyRun, own;
+#[pymethods]
+impl PyRun {
     /// Number of steps made.
-    steps: usize = own.run.steps;
+    #[getter]
+    fn steps(&self) -> usize {
+        self.run.steps
+    }
+
     /// Whether the ground was one in plan: results are then those of the whole body, N in place of N/m.
-    in_plan: bool = own.run.in_plan;
+    #[getter]
+    fn in_plan(&self) -> bool {
+        self.run.in_plan
+    }
+
     /// Time at the beginning, s.
-    start: f64 = own.run.start;
+    #[getter]
+    fn start(&self) -> f64 {
+        self.run.start
+    }
+
     /// Time at the end, s.
-    end: f64 = own.run.end;
+    #[getter]
+    fn end(&self) -> f64 {
+        self.run.end
+    }
+
     /// Time step, s.
-    time_step: f64 = own.run.time_step;
+    #[getter]
+    fn time_step(&self) -> f64 {
+        self.run.time_step
+    }
+
     /// The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
     /// record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run.
-    ground_motion: Named<&'static str, Option<f64>> = {
-        let own = own.run.ground_motion;
-        let numbers = [Some(own.peak), own.duration, own.time_step, own.passed];
+    #[getter]
+    fn ground_motion(&self) -> Named<&'static str, Option<f64>> {
+        let motion = self.run.ground_motion;
+        let numbers = [Some(motion.peak), motion.duration, motion.time_step, motion.passed];
         ["peak", "duration", "time_step", "passed"].into_iter().zip(numbers).collect()
-    };
+    }
+
     /// Whether the run ended because a base turned beyond the ``rotation_limit`` of the :class:`Simulation`.
-    is_overturned: bool = own.run.is_overturned;
+    #[getter]
+    fn is_overturned(&self) -> bool {
+        self.run.is_overturned
+    }
+
     /// The ground motion in words, as on the page of the run.
-    _ground_motion: String = own.run.ground_motion.to_string();
+    #[getter]
+    fn _ground_motion(&self) -> String {
+        self.run.ground_motion.to_string()
+    }
+
     /// Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start.
-    time: PyResult<Array> = Ok(Array::from(own.kept()?.times()));
+    #[getter]
+    fn time(&self) -> PyResult<Array> {
+        Ok(Array::from(self.kept()?.times()))
+    }
+
     /// Names of the structure's degrees of freedom: list of n texts; None without names.
-    dof_names: Option<Vec<String>> = own.names.clone();
+    #[getter]
+    fn dof_names(&self) -> Option<Vec<String>> {
+        self.names.clone()
+    }
+
     /// Largest gap of any element, m: its :class:`Peak`.
-    largest_gap: PyPeak = PyPeak(own.run.largest_gap());
+    #[getter]
+    fn largest_gap(&self) -> PyPeak {
+        PyPeak(self.run.largest_gap())
+    }
+
     /// Largest pressure of any element, Pa, a :class:`Peak`; None without elements.
-    largest_pressure: Option<PyPeak> = own.run.largest_pressure().map(|(_, peak)| PyPeak(peak));
+    #[getter]
+    fn largest_pressure(&self) -> Option<PyPeak> {
+        self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
+    }
+
     /// Ratio of the largest base shear to the weight; None without weight.
-    shear_coefficient: Option<f64> = own.run.shear_coefficient();
+    #[getter]
+    fn shear_coefficient(&self) -> Option<f64> {
+        self.run.shear_coefficient()
+    }
+
     /// Each foundation by itself: list of :class:`Summary`, from left to right.
-    foundations: Vec<PySummary> = own.run.foundations.iter().cloned().map(PySummary).collect();
+    #[getter]
+    fn foundations(&self) -> Vec<PySummary> {
+        self.run.foundations.iter().cloned().map(PySummary).collect()
+    }
+
     /// A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`.
-    serviceability: Vec<PyServiceCheck> = own.run.serviceability.iter().copied().map(PyServiceCheck).collect();
+    #[getter]
+    fn serviceability(&self) -> Vec<PyServiceCheck> {
+        self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
+    }
+
     /// Whether all limits of service were kept; None without limits.
-    is_serviceable: Option<bool> = own.run.is_serviceable();
+    #[getter]
+    fn is_serviceable(&self) -> Option<bool> {
+        self.run.is_serviceable()
+    }
+
     /// Number of changes of contact mode.
-    mode_changes: usize = own.run.mode_changes;
+    #[getter]
+    fn mode_changes(&self) -> usize {
+        self.run.mode_changes
+    }
+
     /// The :class:`EnergyBalance` at the end.
-    energy_balance: PyEnergyBalance = PyEnergyBalance(own.run.energy_balance);
+    #[getter]
+    fn energy_balance(&self) -> PyEnergyBalance {
+        PyEnergyBalance(self.run.energy_balance)
+    }
+
     /// Largest residual of the energy balance, relative to the largest energy; NaN if none is kept.
-    energy_error: f64 = own.run.energy_error;
+    #[getter]
+    fn energy_error(&self) -> f64 {
+        self.run.energy_error
+    }
+
     /// Number of linear solves of the search for contact modes.
-    trials: usize = own.run.trials;
+    #[getter]
+    fn trials(&self) -> usize {
+        self.run.trials
+    }
+
     /// Number of steps that the first search did not solve.
-    fallbacks: usize = own.run.fallbacks.total();
+    #[getter]
+    fn fallbacks(&self) -> usize {
+        self.run.fallbacks.total()
+    }
+
     /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
-    warnings: Vec<String> = own.run.warnings.iter().map(|own| in_python(own.to_string())).collect();
+    #[getter]
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        self.run.warnings.iter().map(|own| in_python(own.to_string())).collect()
+    }
+
     /// All time series: dict of arrays of shape (steps + 1,), "time" first.
-    series: PyResult<Named<String, Array>> = series::all(own.kept()?);
+    #[getter]
+    fn series(&self) -> PyResult<Named<String, Array>> {
+        series::all(self.kept()?)
+    }
+
     /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J, in the plane J/m.
-    energy_balances: PyResult<Named<String, Array>> = Ok(series::energy_balances(own.kept()?));
+    #[getter]
+    fn energy_balances(&self) -> PyResult<Named<String, Array>> {
+        Ok(series::energy_balances(self.kept()?))
+    }
+
     /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
-    probes: Named<String, PyExtremes> = {
-        own.run.probes.iter().map(|own| (own.name.clone(), PyExtremes(own.extremes))).collect()
-    };
+    #[getter]
+    fn probes(&self) -> Named<String, PyExtremes> {
+        self.run.probes.iter().map(|own| (own.name.clone(), PyExtremes(own.extremes))).collect()
+    }
+
     /// SI units of the time series and of the energies: dict of texts by their names, "" for ratios.
-    units: Named<String, &str> = {
-        let Run { in_plan, probes, .. } = &own.run;
+    #[getter]
+    fn units(&self) -> Named<String, &str> {
+        let Run { in_plan, probes, .. } = &self.run;
         let scalars = Quantity::recorded(*in_plan).map(|own| (own.to_string(), own.unit(*in_plan)));
         let probes = probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
         let energy = if *in_plan { "J" } else { "J/m" };
         let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
         let time = [("time".to_owned(), "s")].into_iter();
         time.chain(scalars).chain(probes).chain(terms).collect()
-    };
+    }
+
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
     /// "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
     /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
     /// "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
-    envelope: Named<&'static str, Array> = {
-        let columns = Run::ENVELOPE.into_iter().filter(|column| own.run.in_plan || !column.2);
-        let values = |value| own.run.envelope.iter().map(value).collect();
+    #[getter]
+    fn envelope(&self) -> Named<&'static str, Array> {
+        let columns = Run::ENVELOPE.into_iter().filter(|column| self.run.in_plan || !column.2);
+        let values = |value| self.run.envelope.iter().map(value).collect();
         columns.map(|(name, .., value)| (name, values(value))).collect()
-    };
+    }
+
     /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
     /// is not positive.
-    energy_fractions: Option<Named<&'static str, f64>> = {
-        own.run.energy_balance.fractions().map(|fractions| fractions.into_iter().collect())
-    };
-    /// Peaks of all scalar quantities of each foundation.
-    _foundation_peaks: Vec<Named<String, Option<f64>>> = {
-        own.run.foundations.iter().map(|foundation| own.peaks(foundation).collect()).collect()
-    };
-    /// Wall time, s.
-    wall: f64 = own.run.wall.as_secs_f64();
-}
+    #[getter]
+    fn energy_fractions(&self) -> Option<Named<&'static str, f64>> {
+        self.run.energy_balance.fractions().map(|fractions| fractions.into_iter().collect())
+    }
 
-#[pymethods]
-impl PyRun {
+    /// Peaks of all scalar quantities of each foundation.
+    #[getter]
+    fn _foundation_peaks(&self) -> Vec<Named<String, Option<f64>>> {
+        self.run.foundations.iter().map(|foundation| self.peaks(foundation).collect()).collect()
+    }
+
+    /// Wall time, s.
+    #[getter]
+    fn wall(&self) -> f64 {
+        self.run.wall.as_secs_f64()
+    }
+
     /// Time series of the scalar or the probe ``name``: array of shape (steps + 1,).
     fn __getitem__(&self, name: &str) -> PyResult<Array> {
         series::named(self.kept()?, name)
@@ -199,7 +303,7 @@ impl PyRun {
 
     /// The :class:`Record` of the acceleration probe called ``probe``.
     fn acceleration_record(&self, probe: &str) -> PyResult<PyRecord> {
-        PyRecord::of(self.probed(probe)?.acceleration_record(probe))
+        PyRecord::from_core(self.probed(probe)?.acceleration_record(probe))
     }
 
     /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at

@@ -3,16 +3,19 @@
 use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
-use basemat::contact::ContactSearch;
 use basemat::coupled::{Change, Checkpoint};
-use basemat::results::{Recorder, Serviceability};
+use basemat::results::Recorder;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use super::build;
 use super::given::{Given, Made};
+use super::options::{
+    Options, PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions, refuse_others,
+};
 use super::watched::{Watched, prepared, settled};
-use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
-use crate::array::{Array, Numbers, whole};
+use super::{PyCheckpoint, PyLoad, PyState, PySteps};
+use crate::array::{Array, whole};
 use crate::dof_names::DofNames;
 use crate::error;
 use crate::error::{OrRaise, kept, locked, raise, refuse, take_raised};
@@ -25,49 +28,20 @@ use crate::ticker::{progress_function, watched};
 /// A structure on a ground, ready to march: from the static state under its weight, step by step.
 ///
 /// Args:
-///     time_step: time step, s.
 ///     structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
 ///     ground: an :class:`ElasticGround` or a :class:`SpringGround`.
 ///     interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
 ///         all contact elements, or a list of one each, from left to right.
+///     time_step: time step, s.
 ///     motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
 ///         :func:`free_field` makes of a function. The ground rests unless given.
+///     loads: forces from outside, a list of :class:`Load`; none unless given.
 ///     probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
 ///         none unless given.
-///     loads: forces from outside, a list of :class:`Load`; none unless given.
-///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
-///         state: the base begins without pressure, and nothing resists uplift and sliding.
-///     gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
-///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
-///         there is no static state, weight and loads act from t = 0 on, as for a block let go.
-///     initial_displacement: of the n degrees of freedom at t = 0 against the static state, array of
-///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
-///     initial_velocity: the same for velocities, m/s and rad/s; zero unless given.
-///     scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
-///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
-///         time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
-///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
-///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
-///     expected_steps: number of steps that will be made. Memory and the ground's weights are then
-///         ready before the first; unless given, those of the first run. More steps than fit into
-///         the memory of the ground's history raise an error.
-///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
-///         unless given.
-///     energy_balance: whether energies are booked; True by default. Without them a step takes less
-///         time, and :attr:`Run.energy_error` is NaN.
-///     safety_friction: friction coefficient for the factor of safety against sliding; that of the
-///         interface law unless given. It changes nothing else.
-///     allowable_slip: limit of service of |mean slip|, m; none unless given. This and the next three
-///         change nothing in the run: :attr:`Run.serviceability` holds it against them.
-///     allowable_gap: limit of service of the gap of any element, m; none unless given.
-///     allowable_uplifted_fraction: limit of service of the open length over that of the base, above 0
-///         to 1; none unless given.
-///     allowable_rotation: limit of service of the base's |rotation|, rad; none unless given.
-///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
-///         run goes on; infinite: runs end by their steps alone.
-///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
-///         most so many iterations a step, for comparison with their paper; the robust search unless
-///         given.
+///     initial: weight and motion at the start, :class:`InitialConditions`; weight and rest unless given.
+///     solver: time scheme, coordinates and so on, :class:`SolverOptions`; the defaults unless given.
+///     results: quantities that a run evaluates, :class:`ResultOptions`; the defaults unless given.
+///     service_limits: limits of service, :class:`ServiceLimits`; none unless given.
 ///     fixed_base: whether the base is held: each foundation keeps its shape and moves with the free field
 ///         under it. Ground and interface are then left out, but for the places of the contact elements.
 ///         False by default; :meth:`interaction` compares both.
@@ -95,117 +69,120 @@ impl PySimulation {
     }
 }
 
-members! {
-    PySimulation, own;
+#[pymethods]
+impl PySimulation {
     /// The :class:`State` at the end of the last accepted step (at first: the static state).
-    state: PyResult<PyState> = Ok(PyState(own.lock()?.state().clone()));
+    #[getter]
+    fn state(&self) -> PyResult<PyState> {
+        Ok(PyState(self.lock()?.state().clone()))
+    }
+
     /// Time step, s.
-    time_step: PyResult<f64> = Ok(own.lock()?.time_step());
+    #[getter]
+    fn time_step(&self) -> PyResult<f64> {
+        Ok(self.lock()?.time_step())
+    }
+
     /// Names of the probes, in their order.
-    probe_names: PyResult<Vec<String>> = Ok(own.lock()?.probes().iter().map(|probe| probe.name.clone()).collect());
+    #[getter]
+    fn probe_names(&self) -> PyResult<Vec<String>> {
+        Ok(self.lock()?.probes().iter().map(|probe| probe.name.clone()).collect())
+    }
+
     /// Ends of the contact elements: list of (left, right), m.
-    elements: PyResult<Vec<(f64, f64)>> = Ok(own.lock()?.ground().elements().iter().map(|e| (e.left(), e.right())).collect());
+    #[getter]
+    fn elements(&self) -> PyResult<Vec<(f64, f64)>> {
+        Ok(self.lock()?.ground().elements().iter().map(|e| (e.left(), e.right())).collect())
+    }
+
     /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
-    static_displacement: PyResult<Array> = Ok(Array::from(own.lock()?.static_displacement()));
+    #[getter]
+    fn static_displacement(&self) -> PyResult<Array> {
+        Ok(Array::from(self.lock()?.static_displacement()))
+    }
+
     /// Which history the ground keeps, in words; None for a ground without one.
-    history_choice: PyResult<Option<String>> = Ok(own.lock()?.ground().description().history.map(|choice| choice.to_string()));
+    #[getter]
+    fn history_choice(&self) -> PyResult<Option<String>> {
+        Ok(self.lock()?.ground().description().history.map(|choice| choice.to_string()))
+    }
+
     /// The structure as it was given; of one written in Python with a ``force`` of its own the copy that
     /// this simulation works on, with its internal variables.
-    structure: &Py<PyAny> = &own.structure;
+    #[getter]
+    fn structure(&self) -> &Py<PyAny> {
+        &self.structure
+    }
+
     /// The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
     /// copies that this simulation works on, with their internal variables, in the order of storeys or
     /// springs.
-    hysteresis: Vec<&Py<PyAny>> = own.hysteresis.iter().collect();
-    /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.
-    conditioning: PyResult<(f64, f64, f64)> = {
-        let conditioning = own.lock()?.conditioning();
-        Ok((conditioning.effective_stiffness, conditioning.ground, conditioning.delassus))
-    };
-}
+    #[getter]
+    fn hysteresis(&self) -> Vec<&Py<PyAny>> {
+        self.hysteresis.iter().collect()
+    }
 
-#[pymethods]
-impl PySimulation {
+    /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.
+    #[getter]
+    fn conditioning(&self) -> PyResult<(f64, f64, f64)> {
+        let conditioning = self.lock()?.conditioning();
+        Ok((conditioning.effective_stiffness, conditioning.ground, conditioning.delassus))
+    }
+
+    // The text has no `others`: they are there to be refused with the name of their group.
     #[new]
-    #[pyo3(signature = (
-        time_step, structure, ground, interface, *,
-        motion=None, probes=None, loads=None, gravity=None, gravity_stage="frictionless",
-        initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
-        expected_steps=None, moment_center=None, energy_balance=true, safety_friction=None,
-        allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
-        allowable_rotation=None, rotation_limit=None, flow_chart_iterations=None, fixed_base=false,
-        progress=None,
-    ))]
+    #[pyo3(
+        signature = (
+            structure, ground, interface, time_step, *, motion=None, loads=None, probes=None,
+            initial=None, solver=None, results=None, service_limits=None, fixed_base=false,
+            progress=None, **others
+        ),
+        text_signature = "(structure, ground, interface, time_step, *, motion=None, loads=None, \
+            probes=None, initial=None, solver=None, results=None, service_limits=None, \
+            fixed_base=False, progress=None)"
+    )]
     fn new(
         py: Python<'_>,
-        time_step: f64,
         structure: Bound<'_, PyAny>,
         ground: Bound<'_, PyAny>,
         interface: Bound<'_, PyAny>,
+        time_step: Bound<'_, PyAny>,
         motion: Option<Bound<'_, PyAny>>,
-        probes: Option<Several<'_, PyProbe>>,
         loads: Option<Several<'_, PyLoad>>,
-        gravity: Option<f64>,
-        gravity_stage: &str,
-        initial_displacement: Option<Numbers>,
-        initial_velocity: Option<Numbers>,
-        scheme: Option<Bound<'_, PyTimeScheme>>,
-        coordinates: Option<Bound<'_, PyAny>>,
-        #[pyo3(from_py_with = whole)] expected_steps: Option<usize>,
-        moment_center: Option<f64>,
-        energy_balance: bool,
-        safety_friction: Option<f64>,
-        allowable_slip: Option<f64>,
-        allowable_gap: Option<f64>,
-        allowable_uplifted_fraction: Option<f64>,
-        allowable_rotation: Option<f64>,
-        rotation_limit: Option<f64>,
-        #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
+        probes: Option<Several<'_, PyProbe>>,
+        initial: Option<PyInitialConditions>,
+        solver: Option<PySolverOptions>,
+        results: Option<PyResultOptions>,
+        service_limits: Option<PyServiceLimits>,
         fixed_base: bool,
         progress: Option<Bound<'_, PyAny>>,
+        others: Option<Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
+        refuse_others(others.as_ref())?;
         take_raised();
+        let needed = "a number of seconds: Simulation(structure, ground, interface, time_step)";
+        let time_step = time_step.extract().map_err(|_| no_such(&time_step, needed))?;
         let ground = ground
             .cast::<PyGround>()
             .map_err(|_| no_such(&ground, "an ElasticGround or a SpringGround"))?;
-        let progress = progress.as_ref();
         let given = Given {
             time_step,
             structure: structure.unbind(),
             ground: ground.clone().unbind(),
             interface: interface.unbind(),
             motion: motion.map(Bound::unbind),
-            probes: probes
-                .iter()
-                .flat_map(|own| own.iter())
-                .map(|own| own.clone().unbind())
-                .collect(),
-            loads: loads
-                .iter()
-                .flat_map(|own| own.iter())
-                .map(|own| own.clone().unbind())
-                .collect(),
-            gravity,
-            gravity_stage: gravity_stage.parse().or_raise()?,
-            initial_displacement: initial_displacement.map(|numbers| numbers.0),
-            initial_velocity: initial_velocity.map(|numbers| numbers.0),
-            scheme: scheme.map(Bound::unbind),
-            coordinates: coordinates.map(|own| build::coordinates(&own)).transpose()?,
-            expected_steps,
-            moment_center,
-            energy_balance,
-            safety_friction,
-            serviceability: Serviceability {
-                slip: allowable_slip,
-                gap: allowable_gap,
-                uplifted_fraction: allowable_uplifted_fraction,
-                rotation: allowable_rotation,
+            loads: loads.map(Several::unbound).unwrap_or_default(),
+            probes: probes.map(Several::unbound).unwrap_or_default(),
+            options: Options {
+                initial: initial.unwrap_or_default(),
+                solver: solver.unwrap_or_default(),
+                results: results.unwrap_or_default(),
+                limits: service_limits.unwrap_or_default(),
             },
-            search: flow_chart_iterations.map(|iterations| ContactSearch::FlowChart { iterations }),
-            rotation_limit,
             fixed_base,
         };
         let Made { builder, structure, hysteresis, names, duration } = given.made(py)?;
-        let simulation = build::build(py, builder, progress)?;
+        let simulation = build::build(py, builder, progress.as_ref())?;
         let start = build::start(&simulation);
         let simulation = Mutex::new(simulation);
         Ok(Self { simulation, structure, hysteresis, names, duration, start, given })

@@ -23,19 +23,23 @@ pub(crate) struct PyLoad {
 }
 
 impl PyLoad {
-    fn of(order: Order, make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static) -> Self {
+    fn from_recipe(
+        order: Order,
+        make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static,
+    ) -> Self {
         Self { make: Arc::new(make), order }
     }
 }
 
-members! {
-    PyLoad, own;
-    new(row: RowLike, value: Bound<'_, PyAny>) = {
+#[pymethods]
+impl PyLoad {
+    #[new]
+    fn new(row: RowLike, value: Bound<'_, PyAny>) -> PyResult<Self> {
         if !value.is_callable() {
             return Err(refuse("the value of a load must be a function of time"));
         }
         let (RowLike(row, order), value) = (row, Arc::new(value.unbind()));
-        Ok(Self::of(order, move || {
+        Ok(Self::from_recipe(order, move || {
             let value = Arc::clone(&value);
             Ok(Load::new(row.clone(), move |time| {
                 asked(f64::NAN, |py| {
@@ -43,23 +47,33 @@ members! {
                 })
             }))
         }))
-    };
+    }
+
     /// Constant ``force`` (N/m) on the ``row`` at any time, the static state included.
-    constant(row: RowLike, force: f64) =
-        Ok(Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force))));
+    #[staticmethod]
+    fn constant(row: RowLike, force: f64) -> Self {
+        Self::from_recipe(row.1, move || Ok(Load::constant(row.0.clone(), force)))
+    }
+
     /// A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back).
-    released(row: RowLike, force: f64) =
-        Ok(Self::of(row.1, move || Ok(Load::released(row.0.clone(), force))));
+    #[staticmethod]
+    fn released(row: RowLike, force: f64) -> Self {
+        Self::from_recipe(row.1, move || Ok(Load::released(row.0.clone(), force)))
+    }
+
     /// ``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
     /// between its samples and zero beyond its ends.
-    record(row: RowLike, record: &PyRecord, force: f64) = {
+    #[staticmethod]
+    fn record(row: RowLike, record: &PyRecord, force: f64) -> PyResult<Self> {
         let (RowLike(row, order), record) = (row, Arc::clone(&record.0));
-        Ok(Self::of(order, move || Ok(Load::record(row.clone(), &record, force))))
-    };
+        Ok(Self::from_recipe(order, move || Ok(Load::record(row.clone(), &record, force))))
+    }
+
     /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
     /// shape (m,), s, ascending), linear between them, zero outside.
-    table(row: RowLike, times: Numbers, forces: Numbers) = {
+    #[staticmethod]
+    fn table(row: RowLike, times: Numbers, forces: Numbers) -> PyResult<Self> {
         Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;
-        Ok(Self::of(row.1, move || Load::table(row.0.clone(), &times.0, &forces.0)))
-    };
+        Ok(Self::from_recipe(row.1, move || Load::table(row.0.clone(), &times.0, &forces.0)))
+    }
 }

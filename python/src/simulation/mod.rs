@@ -4,11 +4,13 @@ mod build;
 mod class;
 mod given;
 mod load;
+mod options;
 mod scheme;
 mod state;
 mod watched;
 
 pub(crate) use class::PySimulation;
 pub(crate) use load::PyLoad;
+pub(crate) use options::{PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions};
 pub(crate) use scheme::PyTimeScheme;
 pub(crate) use state::{PyCheckpoint, PyFoundation, PyState, PySteps};

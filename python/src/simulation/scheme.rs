@@ -10,6 +10,7 @@ use crate::recipe::Recipe;
 
 /// A time scheme of the structure: the midpoint rule unless given.
 #[pyclass(name = "TimeScheme", module = "basemat", frozen, dict)]
+#[derive(Clone)]
 pub(crate) struct PyTimeScheme {
     pub(super) make: Recipe<dyn TimeScheme>,
 }
@@ -21,21 +22,40 @@ fn scheme(
     Ok(PyTimeScheme { make: Arc::new(move || Ok(Box::new(scheme.clone()))) })
 }
 
-members! {
-    PyTimeScheme, own;
+#[pymethods]
+impl PyTimeScheme {
     /// The midpoint rule: conserves energy.
-    midpoint() = scheme(Ok(Midpoint));
+    #[staticmethod]
+    fn midpoint() -> PyResult<Self> {
+        scheme(Ok(Midpoint))
+    }
+
     /// The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
     /// ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
     #[pyo3(signature = (gamma=0.8))]
-    dissipative_midpoint(gamma: f64) = scheme(DissipativeMidpoint::new(gamma));
+    #[staticmethod]
+    fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {
+        scheme(DissipativeMidpoint::new(gamma))
+    }
+
     /// The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½.
-    theta(theta: f64) = scheme(Theta::new(theta));
+    #[staticmethod]
+    fn theta(theta: f64) -> PyResult<Self> {
+        scheme(Theta::new(theta))
+    }
+
     /// Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
     /// ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
     #[pyo3(signature = (gamma=0.5, beta=0.25))]
-    newmark(gamma: f64, beta: f64) = scheme(Newmark::new(gamma, beta));
+    #[staticmethod]
+    fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
+        scheme(Newmark::new(gamma, beta))
+    }
+
     /// The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
     /// make energy. ``alpha``: −⅓ (most damping) to 0 (none).
-    hht_alpha(alpha: f64) = scheme(HhtAlpha::new(alpha));
+    #[staticmethod]
+    fn hht_alpha(alpha: f64) -> PyResult<Self> {
+        scheme(HhtAlpha::new(alpha))
+    }
 }

@@ -23,112 +23,289 @@ pub(crate) struct PyState(pub(super) State);
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundation(Foundation);
 
-members! {
-    PyFoundation, own;
+#[pymethods]
+impl PyFoundation {
     /// Numbers of its first element and of the one after its last.
-    elements: (usize, usize) = (own.0.elements.start, own.0.elements.end);
-    /// Horizontal force on the soil, positive to the right, N/m.
-    shear: f64 = own.0.base_shear;
-    /// Moment on the soil about its middle, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
-    moment: f64 = own.0.base_moment;
-    /// Total pressure, N/m.
-    normal_force: f64 = own.0.normal_force;
-    /// Ratio of its open length to its length, in plan of areas.
-    uplifted_fraction: f64 = own.0.uplifted_fraction;
-    /// Slip averaged over the foundation, m.
-    mean_slip: f64 = own.0.mean_slip;
-    /// Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule.
-    rotation: f64 = own.0.base_rotation;
-    /// In plan: force on the soil along y, positive away, N.
-    shear_across: f64 = own.0.shear_across;
-    /// In plan: moment on the soil about x, N·m.
-    moment_across: f64 = own.0.moment_across;
-    /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
-    torque: f64 = own.0.torque;
-    /// In plan: slip along y averaged over the foundation, m.
-    mean_slip_across: f64 = own.0.mean_slip_across;
-    /// In plan: rotation about x, rad.
-    rotation_across: f64 = own.0.rotation_across;
-    /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.
-    twist: f64 = own.0.twist;
-    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
-    force_vector: [f64; 3] = own.0.force_vector();
-    /// Moment on the soil about its middle as a vector by the right-hand rule, N·m/m, in plan N·m.
-    moment_vector: [f64; 3] = own.0.moment_vector();
-    /// Rotation as a vector by the right-hand rule, rad.
-    rotation_vector: [f64; 3] = own.0.rotation_vector();
-}
+    #[getter]
+    fn elements(&self) -> (usize, usize) {
+        (self.0.elements.start, self.0.elements.end)
+    }
 
-members! {
-    PyState, own;
-    /// Number of steps made.
-    step: usize = own.0.step;
-    /// Time, s.
-    time: f64 = own.0.time;
-    /// Gap of each element: array of shape (elements,), m.
-    gap: Array = own.0.contact.iter().map(|contact| contact.gap).collect();
-    /// Slip of each element: array of shape (elements,), m.
-    slip: Array = own.0.contact.iter().map(|contact| contact.slip).collect();
-    /// Pressure on each element: array of shape (elements,), Pa.
-    pressure: Array = own.0.contact.iter().map(|contact| contact.pressure).collect();
-    /// Shear traction on each element: array of shape (elements,), Pa.
-    shear: Array = own.0.contact.iter().map(|contact| contact.shear).collect();
-    /// In plan: slip of each element along y: array of shape (elements,), m; 0 in the plane.
-    slip_across: Array = own.0.contact.iter().map(|contact| contact.slip_across).collect();
-    /// In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane.
-    shear_across: Array = own.0.contact.iter().map(|contact| contact.shear_across).collect();
-    /// Values of the probes: array of shape (probes,), in their order.
-    probes: Array = own.0.probes.as_slice().into();
     /// Horizontal force on the soil, positive to the right, N/m.
-    base_shear: f64 = own.0.base_shear;
-    /// Moment on the soil, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
-    base_moment: f64 = own.0.base_moment;
-    /// Total pressure on the soil, N/m.
-    normal_force: f64 = own.0.normal_force;
-    /// Ratio of the length of open elements to that of the base, in plan of areas.
-    uplifted_fraction: f64 = own.0.uplifted_fraction;
-    /// Slip averaged over the base, m.
-    mean_slip: f64 = own.0.mean_slip;
-    /// Largest |slip| of any element, m.
-    largest_slip: f64 = own.0.value(basemat::results::Quantity::LargestSlip);
-    /// Rotation of the base, counter-clockwise, rad; in plan about y by the right-hand rule.
-    base_rotation: f64 = own.0.base_rotation;
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.0.base_shear
+    }
+
+    /// Moment on the soil about its middle, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
+    #[getter]
+    fn moment(&self) -> f64 {
+        self.0.base_moment
+    }
+
+    /// Total pressure, N/m.
+    #[getter]
+    fn normal_force(&self) -> f64 {
+        self.0.normal_force
+    }
+
+    /// Ratio of its open length to its length, in plan of areas.
+    #[getter]
+    fn uplifted_fraction(&self) -> f64 {
+        self.0.uplifted_fraction
+    }
+
+    /// Slip averaged over the foundation, m.
+    #[getter]
+    fn mean_slip(&self) -> f64 {
+        self.0.mean_slip
+    }
+
+    /// Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule.
+    #[getter]
+    fn rotation(&self) -> f64 {
+        self.0.base_rotation
+    }
+
+    /// In plan: force on the soil along y, positive away, N.
+    #[getter]
+    fn shear_across(&self) -> f64 {
+        self.0.shear_across
+    }
+
+    /// In plan: moment on the soil about x, N·m.
+    #[getter]
+    fn moment_across(&self) -> f64 {
+        self.0.moment_across
+    }
+
+    /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
+    #[getter]
+    fn torque(&self) -> f64 {
+        self.0.torque
+    }
+
+    /// In plan: slip along y averaged over the foundation, m.
+    #[getter]
+    fn mean_slip_across(&self) -> f64 {
+        self.0.mean_slip_across
+    }
+
+    /// In plan: rotation about x, rad.
+    #[getter]
+    fn rotation_across(&self) -> f64 {
+        self.0.rotation_across
+    }
+
+    /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.
+    #[getter]
+    fn twist(&self) -> f64 {
+        self.0.twist
+    }
+
     /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
-    force_vector: [f64; 3] = own.0.force_vector();
-    /// Moment on the soil as a vector by the right-hand rule, N·m/m, in plan N·m.
-    moment_vector: [f64; 3] = own.0.moment_vector();
-    /// Rotation of the base as a vector by the right-hand rule, rad.
-    rotation_vector: [f64; 3] = own.0.rotation_vector();
-    /// Mean displacement (to the right, up) of the free field under the base, m.
-    free_field: [f64; 2] = own.0.free_field;
-    /// The :class:`EnergyBalance` since the start.
-    energy_balance: PyEnergyBalance = PyEnergyBalance(own.0.energy_balance);
-    /// Number of linear solves that the search for contact modes needed.
-    trials: usize = own.0.trials;
-    /// Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad.
-    displacement: Array = own.0.displacement().into();
-    /// Displacement of the degrees of freedom with the translation of the free field: array of shape
-    /// (n,), m and rad.
-    absolute_displacement: Array = own.0.absolute_displacement().into();
-    /// Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s.
-    velocity: Array = own.0.velocity().into();
-    /// Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s².
-    acceleration: Array = own.0.acceleration().into();
-    /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
-    modes: Array<u8> = own.0.modes.iter().map(|mode| *mode as u8).collect();
-    /// Changes of mode in this step: list of tuples (element, mode before, mode now).
-    transitions: Vec<(usize, &'static str, &'static str)> = {
-        let changes = own.0.transitions.iter();
-        changes.map(|own| (own.element, mode_name(own.from), mode_name(own.to))).collect()
-    };
-    /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
-    foundations: Vec<PyFoundation> = own.0.foundations.iter().cloned().map(PyFoundation).collect();
-    /// Method that found the modes: "active set", "gauss-seidel", "path", and in plan "newton" or "proximal".
-    method: String = own.0.method.to_string().replace("gauss_", "gauss-").replace('_', " ");
+    #[getter]
+    fn force_vector(&self) -> [f64; 3] {
+        self.0.force_vector()
+    }
+
+    /// Moment on the soil about its middle as a vector by the right-hand rule, N·m/m, in plan N·m.
+    #[getter]
+    fn moment_vector(&self) -> [f64; 3] {
+        self.0.moment_vector()
+    }
+
+    /// Rotation as a vector by the right-hand rule, rad.
+    #[getter]
+    fn rotation_vector(&self) -> [f64; 3] {
+        self.0.rotation_vector()
+    }
 }
 
 #[pymethods]
 impl PyState {
+    /// Number of steps made.
+    #[getter]
+    fn step(&self) -> usize {
+        self.0.step
+    }
+
+    /// Time, s.
+    #[getter]
+    fn time(&self) -> f64 {
+        self.0.time
+    }
+
+    /// Gap of each element: array of shape (elements,), m.
+    #[getter]
+    fn gap(&self) -> Array {
+        self.0.contact.iter().map(|contact| contact.gap).collect()
+    }
+
+    /// Slip of each element: array of shape (elements,), m.
+    #[getter]
+    fn slip(&self) -> Array {
+        self.0.contact.iter().map(|contact| contact.slip).collect()
+    }
+
+    /// Pressure on each element: array of shape (elements,), Pa.
+    #[getter]
+    fn pressure(&self) -> Array {
+        self.0.contact.iter().map(|contact| contact.pressure).collect()
+    }
+
+    /// Shear traction on each element: array of shape (elements,), Pa.
+    #[getter]
+    fn shear(&self) -> Array {
+        self.0.contact.iter().map(|contact| contact.shear).collect()
+    }
+
+    /// In plan: slip of each element along y: array of shape (elements,), m; 0 in the plane.
+    #[getter]
+    fn slip_across(&self) -> Array {
+        self.0.contact.iter().map(|contact| contact.slip_across).collect()
+    }
+
+    /// In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane.
+    #[getter]
+    fn shear_across(&self) -> Array {
+        self.0.contact.iter().map(|contact| contact.shear_across).collect()
+    }
+
+    /// Values of the probes: array of shape (probes,), in their order.
+    #[getter]
+    fn probes(&self) -> Array {
+        self.0.probes.as_slice().into()
+    }
+
+    /// Horizontal force on the soil, positive to the right, N/m.
+    #[getter]
+    fn base_shear(&self) -> f64 {
+        self.0.base_shear
+    }
+
+    /// Moment on the soil, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
+    #[getter]
+    fn base_moment(&self) -> f64 {
+        self.0.base_moment
+    }
+
+    /// Total pressure on the soil, N/m.
+    #[getter]
+    fn normal_force(&self) -> f64 {
+        self.0.normal_force
+    }
+
+    /// Ratio of the length of open elements to that of the base, in plan of areas.
+    #[getter]
+    fn uplifted_fraction(&self) -> f64 {
+        self.0.uplifted_fraction
+    }
+
+    /// Slip averaged over the base, m.
+    #[getter]
+    fn mean_slip(&self) -> f64 {
+        self.0.mean_slip
+    }
+
+    /// Largest |slip| of any element, m.
+    #[getter]
+    fn largest_slip(&self) -> f64 {
+        self.0.value(basemat::results::Quantity::LargestSlip)
+    }
+
+    /// Rotation of the base, counter-clockwise, rad; in plan about y by the right-hand rule.
+    #[getter]
+    fn base_rotation(&self) -> f64 {
+        self.0.base_rotation
+    }
+
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
+    #[getter]
+    fn force_vector(&self) -> [f64; 3] {
+        self.0.force_vector()
+    }
+
+    /// Moment on the soil as a vector by the right-hand rule, N·m/m, in plan N·m.
+    #[getter]
+    fn moment_vector(&self) -> [f64; 3] {
+        self.0.moment_vector()
+    }
+
+    /// Rotation of the base as a vector by the right-hand rule, rad.
+    #[getter]
+    fn rotation_vector(&self) -> [f64; 3] {
+        self.0.rotation_vector()
+    }
+
+    /// Mean displacement (to the right, up) of the free field under the base, m.
+    #[getter]
+    fn free_field(&self) -> [f64; 2] {
+        self.0.free_field
+    }
+
+    /// The :class:`EnergyBalance` since the start.
+    #[getter]
+    fn energy_balance(&self) -> PyEnergyBalance {
+        PyEnergyBalance(self.0.energy_balance)
+    }
+
+    /// Number of linear solves that the search for contact modes needed.
+    #[getter]
+    fn trials(&self) -> usize {
+        self.0.trials
+    }
+
+    /// Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad.
+    #[getter]
+    fn displacement(&self) -> Array {
+        self.0.displacement().into()
+    }
+
+    /// Displacement of the degrees of freedom with the translation of the free field: array of shape
+    /// (n,), m and rad.
+    #[getter]
+    fn absolute_displacement(&self) -> Array {
+        self.0.absolute_displacement().into()
+    }
+
+    /// Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s.
+    #[getter]
+    fn velocity(&self) -> Array {
+        self.0.velocity().into()
+    }
+
+    /// Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s².
+    #[getter]
+    fn acceleration(&self) -> Array {
+        self.0.acceleration().into()
+    }
+
+    /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
+    #[getter]
+    fn modes(&self) -> Array<u8> {
+        self.0.modes.iter().map(|mode| *mode as u8).collect()
+    }
+
+    /// Changes of mode in this step: list of tuples (element, mode before, mode now).
+    #[getter]
+    fn transitions(&self) -> Vec<(usize, &'static str, &'static str)> {
+        let changes = self.0.transitions.iter();
+        changes.map(|own| (own.element, mode_name(own.from), mode_name(own.to))).collect()
+    }
+
+    /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
+    #[getter]
+    fn foundations(&self) -> Vec<PyFoundation> {
+        self.0.foundations.iter().cloned().map(PyFoundation).collect()
+    }
+
+    /// Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal".
+    #[getter]
+    fn method(&self) -> String {
+        self.0.method.to_string()
+    }
+
     /// Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
     /// also "torque" or "uplifted_area".
     fn value(&self, quantity: &str) -> PyResult<f64> {
@@ -187,18 +364,20 @@ impl PySteps {
 #[derive(PartialEq)]
 pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
 
-members! {
-    PyCheckpoint, own;
-    new(data: &[u8]) = {
-        let read = postcard::from_bytes(data);
-        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
-    };
-    /// Steps made before the checkpoint.
-    steps: usize = own.0.steps();
-}
-
 #[pymethods]
 impl PyCheckpoint {
+    #[new]
+    fn new(data: &[u8]) -> PyResult<Self> {
+        let read = postcard::from_bytes(data);
+        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
+    }
+
+    /// Steps made before the checkpoint.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.0.steps()
+    }
+
     /// All of it as bytes, for a file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = postcard::to_allocvec(&self.0);

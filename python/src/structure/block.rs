@@ -30,39 +30,49 @@ fn placed(
     block.with(p_delta, RigidBlock::with_p_delta).or_raise().map(PyRigidBlock)
 }
 
-members! {
-    PyRigidBlock, own;
+#[pymethods]
+impl PyRigidBlock {
     #[pyo3(signature = (width, height, density, *, center=0.0, p_delta=None))]
-    new(
+    #[new]
+    fn new(
         width: f64,
         height: f64,
         density: f64,
         center: f64,
         p_delta: Option<f64>,
-    ) = placed(RigidBlock::new(width, height, density), center, p_delta)?.initializer();
+    ) -> PyResult<PyClassInitializer<Self>> {
+        placed(RigidBlock::new(width, height, density), center, p_delta)?.initializer()
+    }
+
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
     /// centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
     /// those of the class, if given.
     #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None))]
-    from_mass(
+    #[staticmethod]
+    fn from_mass(
         width: f64,
         mass: f64,
         rotary_inertia: f64,
         center_height: f64,
         center: f64,
         p_delta: Option<f64>,
-    ) = {
+    ) -> PyResult<Self> {
         let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
         placed(block, center, p_delta)
-    };
-    /// Mass, kg/m.
-    total_mass: f64 = own.0.total_mass();
-    /// Rotary inertia about the middle of the base, kg m²/m.
-    base_inertia: f64 = own.0.base_inertia();
-}
+    }
 
-#[pymethods]
-impl PyRigidBlock {
+    /// Mass, kg/m.
+    #[getter]
+    fn total_mass(&self) -> f64 {
+        self.0.total_mass()
+    }
+
+    /// Rotary inertia about the middle of the base, kg m²/m.
+    #[getter]
+    fn base_inertia(&self) -> f64 {
+        self.0.base_inertia()
+    }
+
     /// Number of the degree of freedom of the displacement to the right.
     #[classattr]
     const HORIZONTAL: usize = RigidBlock::HORIZONTAL;
@@ -93,51 +103,6 @@ pub(crate) struct PyRigidBody(pub(super) RigidBody);
 /// Names of the degrees of freedom of a rigid body.
 pub(super) const SIX: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-members! {
-    PyRigidBody, own;
-    /// Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
-    /// weight tips it once it leans; none unless given.
-    #[pyo3(
-        signature = (length, width, height, density, *, center=(0.0, 0.0), p_delta=None),
-        text_signature = "(length, width, height, density, *, center=(0.0, 0.0), p_delta=None)"
-    )]
-    cuboid(
-        length: f64,
-        width: f64,
-        height: f64,
-        density: f64,
-        center: (f64, f64),
-        p_delta: Option<f64>,
-    ) = body(RigidBody::cuboid([length, width, height], density), center, p_delta);
-    /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center`` and ``p_delta`` are those of :meth:`cuboid`, if given.
-    #[pyo3(
-        signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
-        text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"
-    )]
-    cylinder(radius: f64, height: f64, density: f64, center: (f64, f64), p_delta: Option<f64>) =
-        body(RigidBody::cylinder(radius, height, density), center, p_delta);
-    /// Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
-    /// freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
-    /// the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
-    /// those of :meth:`cuboid`, if given.
-    #[pyo3(
-        signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
-        text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"
-    )]
-    from_mass(
-        outline: Vec<[f64; 2]>,
-        mass: f64,
-        inertia: [[f64; 3]; 3],
-        gravity_center: [f64; 3],
-        center: (f64, f64),
-        p_delta: Option<f64>,
-    ) = body(RigidBody::from_mass(outline, mass, inertia, gravity_center), center, p_delta);
-    /// Mass, kg.
-    total_mass: f64 = own.0.total_mass();
-}
-
 extends!(PyRigidBody, own => {
     let names = SIX.map(String::from).to_vec();
     PyStructure::copied(own.0.clone()).named(Some(DofNames::new(names, 6)?))
@@ -154,6 +119,68 @@ fn body(
 
 #[pymethods]
 impl PyRigidBody {
+    /// Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
+    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
+    /// weight tips it once it leans; none unless given.
+    #[pyo3(
+        signature = (length, width, height, density, *, center=(0.0, 0.0), p_delta=None),
+        text_signature = "(length, width, height, density, *, center=(0.0, 0.0), p_delta=None)"
+    )]
+    #[staticmethod]
+    fn cuboid(
+        length: f64,
+        width: f64,
+        height: f64,
+        density: f64,
+        center: (f64, f64),
+        p_delta: Option<f64>,
+    ) -> PyResult<Self> {
+        body(RigidBody::cuboid([length, width, height], density), center, p_delta)
+    }
+
+    /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
+    /// ``center`` and ``p_delta`` are those of :meth:`cuboid`, if given.
+    #[pyo3(
+        signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
+        text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"
+    )]
+    #[staticmethod]
+    fn cylinder(
+        radius: f64,
+        height: f64,
+        density: f64,
+        center: (f64, f64),
+        p_delta: Option<f64>,
+    ) -> PyResult<Self> {
+        body(RigidBody::cylinder(radius, height, density), center, p_delta)
+    }
+
+    /// Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
+    /// freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
+    /// the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
+    /// those of :meth:`cuboid`, if given.
+    #[pyo3(
+        signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
+        text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"
+    )]
+    #[staticmethod]
+    fn from_mass(
+        outline: Vec<[f64; 2]>,
+        mass: f64,
+        inertia: [[f64; 3]; 3],
+        gravity_center: [f64; 3],
+        center: (f64, f64),
+        p_delta: Option<f64>,
+    ) -> PyResult<Self> {
+        body(RigidBody::from_mass(outline, mass, inertia, gravity_center), center, p_delta)
+    }
+
+    /// Mass, kg.
+    #[getter]
+    fn total_mass(&self) -> f64 {
+        self.0.total_mass()
+    }
+
     /// The three :class:`DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
     /// from the middle of the base (m).
     fn displacement_at(&self, x: f64, y: f64, z: f64) -> [PyDofCombination; 3] {

@@ -26,11 +26,13 @@ use crate::several::Several;
 #[derive(Clone, Copy)]
 pub(crate) struct PyStorey(pub(crate) Storey);
 
-members! {
-    PyStorey, own;
+#[pymethods]
+impl PyStorey {
     #[pyo3(signature = (height, mass, stiffness, *, rotary_inertia=0.0, damping=0.0))]
-    new(height: f64, mass: f64, stiffness: f64, rotary_inertia: f64, damping: f64) =
-        Ok(Self(Storey { height, mass, rotary_inertia, stiffness, damping }));
+    #[new]
+    fn new(height: f64, mass: f64, stiffness: f64, rotary_inertia: f64, damping: f64) -> Self {
+        Self(Storey { height, mass, rotary_inertia, stiffness, damping })
+    }
 }
 
 type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
@@ -61,8 +63,8 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 /// Rigid floors on columns that shear, on a rigid base.
 ///
 /// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-/// horizontal displacement of every floor from below; for :meth:`dof` "base x", "base y", "base rotation",
-/// "floor 0", "floor 1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
+/// horizontal displacement of every floor from below; for :meth:`dof` "base_x", "base_y", "base_rotation",
+/// "floor_0", "floor_1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
 /// ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
 /// in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
 /// ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
@@ -74,8 +76,8 @@ pub(crate) struct PyShearBuilding(Make<ShearBuilding>);
 
 extends!(PyShearBuilding, own => {
     let (make, floors) = (Arc::clone(&own.0), own.made()?.dofs() - 3);
-    let base = ["base x", "base y", "base rotation"].map(String::from);
-    let names = base.into_iter().chain((0..floors).map(|storey| format!("floor {storey}")));
+    let base = ["base_x", "base_y", "base_rotation"].map(String::from);
+    let names = base.into_iter().chain((0..floors).map(|storey| format!("floor_{storey}")));
     let names = DofNames::new(names.collect(), 3 + floors)?;
     PyStructure::new(move || make()).named(Some(names))
 });
@@ -86,10 +88,11 @@ impl PyShearBuilding {
     }
 }
 
-members! {
-    PyShearBuilding, own;
+#[pymethods]
+impl PyShearBuilding {
     #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None, laws=None))]
-    new(
+    #[new]
+    fn new(
         width: f64,
         base_mass: f64,
         base_inertia: f64,
@@ -98,7 +101,7 @@ members! {
         center: f64,
         p_delta: Option<f64>,
         laws: GivenLaws,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
         let laws = recipes(laws)?;
         let make = move || {
@@ -109,7 +112,8 @@ members! {
             following(building, &laws)
         };
         Self(Arc::new(make)).initializer()
-    };
+    }
+
     /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
     /// (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
     ///
@@ -117,7 +121,8 @@ members! {
     /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
     /// class; none unless given. The building must have none.
     #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
-    isolated(
+    #[staticmethod]
+    fn isolated(
         building: Bound<'_, Self>,
         law: LawLike,
         height: f64,
@@ -125,21 +130,30 @@ members! {
         slab_inertia: f64,
         damping: f64,
         laws: GivenLaws,
-    ) = {
+    ) -> PyResult<Self> {
         let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
         let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
         Ok(Self(Arc::new(move || following(make()?.isolated(level, own()?)?, &laws))))
-    };
-    /// Mass, kg/m.
-    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
-    /// First natural frequency on a fixed base without P–Δ, Hz.
-    fixed_base_frequency: PyResult<f64> = Ok(own.made()?.fixed_base_frequency());
-    /// Number of the degree of freedom of the topmost floor.
-    roof: PyResult<usize> = Ok(own.made()?.roof());
-}
+    }
 
-#[pymethods]
-impl PyShearBuilding {
+    /// Mass, kg/m.
+    #[getter]
+    fn total_mass(&self) -> PyResult<f64> {
+        Ok(self.made()?.total_mass())
+    }
+
+    /// First natural frequency on a fixed base without P–Δ, Hz.
+    #[getter]
+    fn fixed_base_frequency(&self) -> PyResult<f64> {
+        Ok(self.made()?.fixed_base_frequency())
+    }
+
+    /// Number of the degree of freedom of the topmost floor.
+    #[getter]
+    fn roof(&self) -> PyResult<usize> {
+        Ok(self.made()?.roof())
+    }
+
     /// Number of the degree of freedom of the floor above a ``storey`` (0: the lowest).
     fn floor(&self, storey: Count) -> PyResult<usize> {
         self.made()?.floor(storey.0).or_raise()
@@ -173,13 +187,14 @@ impl PyShearBuilding {
 #[pyclass(name = "PlanStorey", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlanStorey(PlanStorey);
 
-members! {
-    PyPlanStorey, own;
+#[pymethods]
+impl PyPlanStorey {
     #[pyo3(
         signature = (height, mass, sides, stiffness, *, inertia=None, mass_center=[0.0; 2], stiffness_center=[0.0; 2], damping=[0.0; 3]),
         text_signature = "(height, mass, sides, stiffness, *, inertia=None, mass_center=(0.0, 0.0), stiffness_center=(0.0, 0.0), damping=(0.0, 0.0, 0.0))"
     )]
-    new(
+    #[new]
+    fn new(
         height: f64,
         mass: f64,
         sides: [f64; 2],
@@ -188,11 +203,11 @@ members! {
         mass_center: [f64; 2],
         stiffness_center: [f64; 2],
         damping: [f64; 3],
-    ) = {
+    ) -> PyResult<Self> {
         let own = PlanStorey::new(height, mass, sides, stiffness);
         let inertia = inertia.unwrap_or(own.inertia);
         Ok(Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own }))
-    };
+    }
 }
 
 /// Directions of the laws of storeys in plan.
@@ -203,8 +218,8 @@ const DIRECTIONS: [(&str, usize); 3] =
 /// and twist, and tilt with the mat.
 ///
 /// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
-/// floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor 0 x",
-/// "floor 0 y", "floor 0 rz", "floor 1 x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
+/// floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
+/// "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
 /// gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
 /// (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
 /// given.
@@ -213,7 +228,7 @@ pub(crate) struct PyStoreyBuilding(Make<StoreyBuilding>);
 
 extends!(PyStoreyBuilding, own => {
     let (make, dofs) = (Arc::clone(&own.0), own.made()?.dofs());
-    let floor = |storey| ["x", "y", "rz"].map(|name| format!("floor {storey} {name}"));
+    let floor = |storey| ["x", "y", "rz"].map(|name| format!("floor_{storey}_{name}"));
     let mat = SIX.map(String::from).into_iter();
     let names = mat.chain((0..(dofs - 6) / 3).flat_map(floor)).collect();
     PyStructure::new(move || make()).named(Some(DofNames::new(names, dofs)?))
@@ -225,15 +240,16 @@ impl PyStoreyBuilding {
     }
 }
 
-members! {
-    PyStoreyBuilding, own;
+#[pymethods]
+impl PyStoreyBuilding {
     #[pyo3(signature = (mat, storeys, *, p_delta=None, laws=None))]
-    new(
+    #[new]
+    fn new(
         mat: &PyRigidBody,
         storeys: Several<'_, PyPlanStorey>,
         p_delta: Option<f64>,
         laws: Option<BTreeMap<(i64, String), LawLike>>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<PlanStorey> = storeys.iter().map(|storey| storey.get().0).collect();
         let mat = mat.0.clone();
         let laws = laws.into_iter().flatten().map(|((storey, direction), LawLike(law))| {
@@ -250,13 +266,14 @@ members! {
             Ok(building)
         };
         Self(Arc::new(make)).initializer()
-    };
-    /// Mass of mat and floors, kg.
-    total_mass: PyResult<f64> = Ok(own.made()?.total_mass());
-}
+    }
 
-#[pymethods]
-impl PyStoreyBuilding {
+    /// Mass of mat and floors, kg.
+    #[getter]
+    fn total_mass(&self) -> PyResult<f64> {
+        Ok(self.made()?.total_mass())
+    }
+
     /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]

@@ -19,20 +19,31 @@ use crate::several::Pairs;
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
-members! {
-    PyRayleighDamping, own;
-    new(mass: f64, stiffness: f64) = Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?));
-    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
-    from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) =
-        RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self);
-    /// Factor of the mass, 1/s.
-    mass: f64 = own.0.mass();
-    /// Factor of the stiffness, s.
-    stiffness: f64 = own.0.stiffness();
-}
-
 #[pymethods]
 impl PyRayleighDamping {
+    #[new]
+    fn new(mass: f64, stiffness: f64) -> PyResult<Self> {
+        Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
+    }
+
+    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
+    #[staticmethod]
+    fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
+        RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self)
+    }
+
+    /// Factor of the mass, 1/s.
+    #[getter]
+    fn mass(&self) -> f64 {
+        self.0.mass()
+    }
+
+    /// Factor of the stiffness, s.
+    #[getter]
+    fn stiffness(&self) -> f64 {
+        self.0.stiffness()
+    }
+
     /// Damping ratio at a ``frequency`` (Hz).
     fn ratio(&self, frequency: f64) -> f64 {
         self.0.ratio(frequency)
@@ -45,15 +56,16 @@ impl PyRayleighDamping {
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel(Arc<ReducedModel>);
 
-members! {
-    PyReducedModel, own;
+#[pymethods]
+impl PyReducedModel {
     #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
-    new(
+    #[new]
+    fn new(
         structure: Bound<'_, PyAny>,
         modes: Count,
         #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
         let full = recipe(&structure)?().or_raise()?;
         let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
@@ -63,13 +75,14 @@ members! {
         let reduced = Arc::new(reduced.or_raise()?);
         let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
-    };
-    /// Frequencies of the modes: array of shape (modes,), Hz.
-    frequencies: Array = own.0.frequencies().into();
-}
+    }
 
-#[pymethods]
-impl PyReducedModel {
+    /// Frequencies of the modes: array of shape (modes,), Hz.
+    #[getter]
+    fn frequencies(&self) -> Array {
+        self.0.frequencies().into()
+    }
+
     /// A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
     /// load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
@@ -138,18 +151,19 @@ impl PyStructureGroup {
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithModalDamping(Vec<f64>);
 
-members! {
-    PyWithModalDamping, own;
+#[pymethods]
+impl PyWithModalDamping {
     #[pyo3(signature = (structure, ratios, *, fixed_base = false))]
-    new(
+    #[new]
+    fn new(
         structure: Bound<'_, PyAny>,
         ratios: Numbers,
         fixed_base: bool,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let own = structure().or_raise()?;
-        let names = DofNames::of(&object, own.dofs())?;
+        let names = DofNames::from_structure(&object, own.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
         let damped = move |structure| {
             if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
@@ -159,7 +173,11 @@ members! {
         let frequencies = frequencies.or_raise()?;
         let base = PyStructure::new(move || damped(structure()?)).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
-    };
+    }
+
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
-    frequencies: Array = own.0.as_slice().into();
+    #[getter]
+    fn frequencies(&self) -> Array {
+        self.0.as_slice().into()
+    }
 }

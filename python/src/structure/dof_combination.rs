@@ -22,15 +22,19 @@ impl PyDofCombination {
     }
 }
 
-members! {
-    PyDofCombination, own;
-    new(terms: RowLike) = Ok(Self(terms.0, terms.1));
-    /// List of pairs ``(dof, weight)``.
-    terms: Vec<(usize, f64)> = own.0.to_vec();
-}
-
 #[pymethods]
 impl PyDofCombination {
+    #[new]
+    fn new(terms: RowLike) -> Self {
+        Self(terms.0, terms.1)
+    }
+
+    /// List of pairs ``(dof, weight)``.
+    #[getter]
+    fn terms(&self) -> Vec<(usize, f64)> {
+        self.0.to_vec()
+    }
+
     /// The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit.
     fn value(&self, dofs: Numbers) -> PyResult<f64> {
         let Numbers(dofs) = dofs;

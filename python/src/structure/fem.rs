@@ -129,20 +129,28 @@ impl PyFemModel {
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 
-members! {
-    PyGmshMesh, own;
-    new(path: PathBuf) = Ok(Self(GmshMesh::read(path).or_raise()?));
-    /// List of the names of the groups of quadrilaterals.
-    surfaces: Vec<&str> = own.0.surfaces();
-    /// List of the names of the groups of lines.
-    lines: Vec<&str> = own.0.lines();
-}
-
 #[pymethods]
 impl PyGmshMesh {
+    #[new]
+    fn new(path: PathBuf) -> PyResult<Self> {
+        Ok(Self(GmshMesh::read(path).or_raise()?))
+    }
+
+    /// List of the names of the groups of quadrilaterals.
+    #[getter]
+    fn surfaces(&self) -> Vec<&str> {
+        self.0.surfaces()
+    }
+
+    /// List of the names of the groups of lines.
+    #[getter]
+    fn lines(&self) -> Vec<&str> {
+        self.0.lines()
+    }
+
     /// The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
     /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
-    #[pyo3(signature = (materials, *, formulation="incompatible modes", hourglass_percent=5))]
+    #[pyo3(signature = (materials, *, formulation="incompatible_modes", hourglass_percent=5))]
     fn mesh(
         &self,
         materials: BTreeMap<String, Bound<'_, PyMaterial>>,

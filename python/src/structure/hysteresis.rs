@@ -55,12 +55,13 @@ impl PyHysteresis {
 #[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBilinear;
 
-members! {
-    PyBilinear, own;
-    new(stiffness: f64, yield_force: f64, hardening: f64) = {
+#[pymethods]
+impl PyBilinear {
+    #[new]
+    fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
         let base = copied(Bilinear::new(stiffness, yield_force, hardening).or_raise()?);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    };
+    }
 }
 
 /// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
@@ -69,16 +70,17 @@ members! {
 #[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBoucWen;
 
-members! {
-    PyBoucWen, own;
+#[pymethods]
+impl PyBoucWen {
     #[pyo3(signature = (stiffness, yield_force, hardening, *, exponent=None, beta=None))]
-    new(
+    #[new]
+    fn new(
         stiffness: f64,
         yield_force: f64,
         hardening: f64,
         exponent: Option<f64>,
         beta: Option<f64>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let mut own = BoucWen::new(stiffness, yield_force, hardening).or_raise()?;
         match (exponent, beta) {
             (None, None) => {}
@@ -86,7 +88,7 @@ members! {
             _ => return Err(crate::error::refuse("give both exponent and beta, or neither")),
         }
         Ok(PyClassInitializer::from(copied(own)).add_subclass(Self))
-    };
+    }
 }
 
 /// Friction pendulum under a ``weight`` (N/m): ``radius`` of its dish (m), ``friction`` coefficient,
@@ -124,28 +126,40 @@ impl PyFrictionPendulum {
 #[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyLeadRubber(LeadRubber);
 
-members! {
-    PyLeadRubber, own;
+#[pymethods]
+impl PyLeadRubber {
     #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    new(
+    #[new]
+    fn new(
         shear_modulus: f64,
         rubber_area: f64,
         rubber_thickness: f64,
         lead_area: f64,
         stiffness_ratio: f64,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
         bearing(own, stiffness_ratio)?.initializer()
-    };
+    }
+
     /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
     /// ``stiffness_ratio`` is that of the class.
     #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
-    from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) =
-        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio);
+    #[staticmethod]
+    fn from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) -> PyResult<Self> {
+        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio)
+    }
+
     /// Strength: force at zero deformation, N/m.
-    strength: f64 = own.0.strength();
+    #[getter]
+    fn strength(&self) -> f64 {
+        self.0.strength()
+    }
+
     /// Stiffness after yielding, N/m per metre.
-    stiffness: f64 = own.0.stiffness();
+    #[getter]
+    fn stiffness(&self) -> f64 {
+        self.0.stiffness()
+    }
 }
 
 extends!(PyLeadRubber, own => copied(own.0.clone()));
@@ -160,15 +174,16 @@ fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<P
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings;
 
-members! {
-    PyWithSprings, own;
-    new(
+#[pymethods]
+impl PyWithSprings {
+    #[new]
+    fn new(
         structure: Bound<'_, PyAny>,
         springs: Pairs<RowLike, LawLike>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
-        let names = DofNames::of(&object, dofs)?;
+        let names = DofNames::from_structure(&object, dofs)?;
         let springs: Vec<(DofCombination, Recipe<dyn Hysteresis>)> = springs
             .0
             .into_iter()
@@ -187,5 +202,5 @@ members! {
         make().or_raise()?;
         let base = PyStructure::new(make).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    };
+    }
 }

@@ -25,10 +25,11 @@ use crate::recipe::Shared;
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
-members! {
-    PyMatrixModel, own;
+#[pymethods]
+impl PyMatrixModel {
     #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, active_stiffness=false, rayleigh=None, dof_names=None))]
-    new(
+    #[new]
+    fn new(
         mass: Matrix,
         stiffness: Matrix,
         contact: Contact<'_>,
@@ -37,14 +38,18 @@ members! {
         active_stiffness: bool,
         rayleigh: Option<&PyRayleighDamping>,
         dof_names: Option<Vec<String>>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let dofs = mass.0.order();
         let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
         if damping.is_some() && rayleigh.is_some() {
             return Err(refuse("give a damping matrix or Rayleigh damping, not both"));
         }
-        let damped = if active_damping { MatrixModel::with_active_damping } else { MatrixModel::with_damping };
-        let model = match contact.of(dofs)? {
+        let damped = if active_damping {
+            MatrixModel::with_active_damping
+        } else {
+            MatrixModel::with_damping
+        };
+        let model = match contact.nodes(dofs)? {
             (nodes, faces) if faces.is_empty() => MatrixModel::new(mass.0, stiffness.0, nodes),
             (_, faces) => MatrixModel::in_plan(mass.0, stiffness.0, faces),
         };
@@ -55,5 +60,5 @@ members! {
             .or_raise()?;
         let base = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
         Ok(PyClassInitializer::from(base).add_subclass(Self))
-    };
+    }
 }

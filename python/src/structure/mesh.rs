@@ -23,8 +23,8 @@ pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulatio
     })?;
     let all = [
         ("full", QuadFormulation::Full),
-        ("incompatible modes", QuadFormulation::IncompatibleModes),
-        ("one point", QuadFormulation::OnePoint),
+        ("incompatible_modes", QuadFormulation::IncompatibleModes),
+        ("one_point", QuadFormulation::OnePoint),
         ("hourglass", QuadFormulation::Hourglass { percent }),
     ];
     choice("formulation", name, &all)
@@ -35,34 +35,37 @@ pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulatio
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 
-members! {
-    PyMaterial, own;
-    new(young_modulus: f64, poisson: f64, density: f64) =
-        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?));
+#[pymethods]
+impl PyMaterial {
+    #[new]
+    fn new(young_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
+        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?))
+    }
 }
 
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
 /// ``material`` (:class:`Material`).
 ///
-/// ``formulation`` of four-node quadrilaterals: "incompatible modes" (the default: right in bending),
-/// "full" (2 × 2 points), "one point" (without stiffness against hourglass modes) or "hourglass" (one
+/// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
+/// "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one
 /// point, stabilised with ``hourglass_percent``, 5 by default).
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(Layer);
 
-members! {
-    PyLayer, own;
-    #[pyo3(signature = (height, rows, material, *, formulation="incompatible modes", hourglass_percent=5))]
-    new(
+#[pymethods]
+impl PyLayer {
+    #[pyo3(signature = (height, rows, material, *, formulation="incompatible_modes", hourglass_percent=5))]
+    #[new]
+    fn new(
         height: f64,
         #[pyo3(from_py_with = whole)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
         #[pyo3(from_py_with = whole)] hourglass_percent: usize,
-    ) = {
+    ) -> PyResult<Self> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(Self(Layer { height, rows, material: material.0, formulation }))
-    };
+    }
 }
 
 /// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
@@ -97,7 +100,7 @@ struct Connectivity {
 
 extracts!(Connectivity, object => {
     // Read as floats: as integers, numpy would truncate fractions.
-    let Table { columns, rows } = Table::of(&object, "(elements, nodes of each)")?;
+    let Table { columns, rows } = Table::read(&object, "(elements, nodes of each)")?;
     let node = |value: &f64| {
         if *value < 0.0 || value.fract() != 0.0 {
             let needed = "must be a whole number of 0 or more";
@@ -165,30 +168,43 @@ fn layers(given: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
     given.iter().map(|layer| layer.get().0).collect()
 }
 
-members! {
-    PyMesh, own;
+#[pymethods]
+impl PyMesh {
     #[pyo3(signature = (nodes=None))]
-    new(nodes: Option<Pairs>) = {
+    #[new]
+    fn new(nodes: Option<Pairs>) -> PyResult<Self> {
         let mut mesh = Mesh::new();
         for [x, y] in nodes.map_or_else(Vec::new, |nodes| nodes.0) {
             mesh.add_node(x, y).or_raise()?;
         }
         Ok(Self(mesh))
-    };
+    }
+
     /// Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
     /// :class:`Layer` from y = 0 upwards.
-    layered_block(left: f64, right: f64, columns: Count, layers: Several<'_, PyLayer>) =
-        Mesh::layered_block(left..right, columns.0, &self::layers(&layers)).or_raise().map(Self);
+    #[staticmethod]
+    fn layered_block(
+        left: f64,
+        right: f64,
+        columns: Count,
+        layers: Several<'_, PyLayer>,
+    ) -> PyResult<Self> {
+        Mesh::layered_block(left..right, columns.0, &self::layers(&layers)).or_raise().map(Self)
+    }
+
     /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
     /// ``layers`` is a list of :class:`Layer` from y = 0 upwards.
-    graded_block(grid: Numbers, layers: Several<'_, PyLayer>) =
-        Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self);
-    /// Coordinates of the nodes: array of shape (nodes, 2), m.
-    nodes: Rows = Rows(own.0.nodes().iter().map(|node| node.to_vec()).collect());
-}
+    #[staticmethod]
+    fn graded_block(grid: Numbers, layers: Several<'_, PyLayer>) -> PyResult<Self> {
+        Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self)
+    }
 
-#[pymethods]
-impl PyMesh {
+    /// Coordinates of the nodes: array of shape (nodes, 2), m.
+    #[getter]
+    fn nodes(&self) -> Rows {
+        Rows(self.0.nodes().iter().map(|node| node.to_vec()).collect())
+    }
+
     /// Adds a node at (``x``, ``y``), m; returns its number.
     fn add_node(&mut self, x: f64, y: f64) -> PyResult<usize> {
         self.0.add_node(x, y).or_raise()
@@ -274,7 +290,7 @@ impl PyMesh {
     /// Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
     /// (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
     /// those of :class:`Layer`, are for four nodes.
-    #[pyo3(signature = (nodes, material, *, formulation="incompatible modes", hourglass_percent=5))]
+    #[pyo3(signature = (nodes, material, *, formulation="incompatible_modes", hourglass_percent=5))]
     fn add_quads(
         &mut self,
         nodes: Connectivity,

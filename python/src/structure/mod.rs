@@ -1,6 +1,5 @@
 //! Structures.
 
-mod base;
 mod block;
 mod building;
 mod composed;
@@ -9,8 +8,8 @@ mod fem;
 mod hysteresis;
 mod matrices;
 mod mesh;
+mod superclass;
 
-pub(crate) use base::{PyStructure, made, recipe};
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
@@ -22,3 +21,4 @@ pub(crate) use hysteresis::{
 };
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::{PyLayer, PyMaterial, PyMesh};
+pub(crate) use superclass::{PyStructure, made, recipe};

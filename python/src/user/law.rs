@@ -20,29 +20,67 @@ use crate::names::{mode, mode_name};
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
-members! {
-    PyCondition, own;
+#[pymethods]
+impl PyCondition {
     #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, value=0.0))]
-    new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) =
-        Ok(Self(Condition { gap, slip, pressure, shear, value }));
+    #[new]
+    fn new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) -> Self {
+        Self(Condition { gap, slip, pressure, shear, value })
+    }
+
     /// The gap is ``value``, m.
-    gap_is(value: f64) = Ok(Self(Condition::gap_is(value)));
+    #[staticmethod]
+    fn gap_is(value: f64) -> Self {
+        Self(Condition::gap_is(value))
+    }
+
     /// The slip is ``value``, m.
-    slip_is(value: f64) = Ok(Self(Condition::slip_is(value)));
+    #[staticmethod]
+    fn slip_is(value: f64) -> Self {
+        Self(Condition::slip_is(value))
+    }
+
     /// The pressure is ``value``, Pa.
-    pressure_is(value: f64) = Ok(Self(Condition::pressure_is(value)));
+    #[staticmethod]
+    fn pressure_is(value: f64) -> Self {
+        Self(Condition::pressure_is(value))
+    }
+
     /// The shear traction is ``value``, Pa.
-    shear_is(value: f64) = Ok(Self(Condition::shear_is(value)));
+    #[staticmethod]
+    fn shear_is(value: f64) -> Self {
+        Self(Condition::shear_is(value))
+    }
+
     /// Coefficient of the gap.
-    gap: f64 = own.0.gap;
+    #[getter]
+    fn gap(&self) -> f64 {
+        self.0.gap
+    }
+
     /// Coefficient of the slip.
-    slip: f64 = own.0.slip;
+    #[getter]
+    fn slip(&self) -> f64 {
+        self.0.slip
+    }
+
     /// Coefficient of the pressure.
-    pressure: f64 = own.0.pressure;
+    #[getter]
+    fn pressure(&self) -> f64 {
+        self.0.pressure
+    }
+
     /// Coefficient of the shear traction.
-    shear: f64 = own.0.shear;
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.0.shear
+    }
+
     /// Right-hand side: m or Pa where the coefficient is a number.
-    value: f64 = own.0.value;
+    #[getter]
+    fn value(&self) -> f64 {
+        self.0.value
+    }
 }
 
 /// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
@@ -51,13 +89,24 @@ members! {
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyTolerance(pub(crate) Tolerance);
 
-members! {
-    PyTolerance, own;
-    new(length: f64, traction: f64) = Ok(Self(Tolerance::new(length, traction)));
+#[pymethods]
+impl PyTolerance {
+    #[new]
+    fn new(length: f64, traction: f64) -> Self {
+        Self(Tolerance::new(length, traction))
+    }
+
     /// Difference of gaps and slips, m.
-    length: f64 = own.0.length;
+    #[getter]
+    fn length(&self) -> f64 {
+        self.0.length
+    }
+
     /// Difference of tractions, Pa.
-    traction: f64 = own.0.traction;
+    #[getter]
+    fn traction(&self) -> f64 {
+        self.0.traction
+    }
 }
 
 /// A Python object with `modes`, `conditions(mode, start)` and
@@ -152,7 +201,7 @@ impl InterfaceLaw for UserLaw {
             return [NOTHING; 2];
         }
         ask([NOTHING; 2], |py| {
-            let arguments = (mode_name(mode), PyPreviousContact::of(py, start)?);
+            let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
             let [first, second]: [Bound<'_, PyCondition>; 2] =
                 self.object.call(py, "conditions", arguments)?;
             Ok([first.get().0, second.get().0])
@@ -170,7 +219,7 @@ impl InterfaceLaw for UserLaw {
             return mode;
         }
         ask(mode, |py| {
-            let (name, start) = (mode_name(mode), PyPreviousContact::of(py, start)?);
+            let (name, start) = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
             let arguments = (name, start, PyContactState(*trial), PyTolerance(tolerance));
             let next: String = self.object.call(py, "next_mode", arguments)?;
             crate::names::mode(&next)
@@ -183,7 +232,7 @@ impl InterfaceLaw for UserLaw {
             return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
         }
         ask([f64::NAN; 2], |py| {
-            let arguments = (mode_name(mode), PyPreviousContact::of(py, start)?);
+            let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
             self.object.call(py, "compliance", arguments)
         })
     }
@@ -194,7 +243,7 @@ impl InterfaceLaw for UserLaw {
 
     fn initial_state_variables(&self, start: &PreviousContact<'_>, state_variables: &mut [f64]) {
         if self.object.has("initial_state_variables") {
-            let arguments = |py: Python<'_>| Ok((PyPreviousContact::of(py, start)?,));
+            let arguments = |py: Python<'_>| Ok((PyPreviousContact::from_core(py, start)?,));
             self.update_state_variables("initial_state_variables", arguments, state_variables);
         }
     }
@@ -208,7 +257,11 @@ impl InterfaceLaw for UserLaw {
     ) {
         if self.object.has("commit") {
             let arguments = |py: Python<'_>| {
-                Ok((PyPreviousContact::of(py, start)?, PyContactState(*end), mode_name(mode)))
+                Ok((
+                    PyPreviousContact::from_core(py, start)?,
+                    PyContactState(*end),
+                    mode_name(mode),
+                ))
             };
             self.update_state_variables("commit", arguments, state_variables);
         }
@@ -221,7 +274,7 @@ impl InterfaceLaw for UserLaw {
                 let needed = "to act on a ground in plan";
                 return Err(refuse(format!("{name} has no method `limits`, {needed}")));
             }
-            let start = (PyPreviousContact::of(py, start)?,);
+            let start = (PyPreviousContact::from_core(py, start)?,);
             let found: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
             Ok(found.get().0)
         })

@@ -12,29 +12,56 @@ use crate::names::mode_name;
 #[pyclass(name = "ContactState", module = "basemat", frozen, subclass)]
 pub(crate) struct PyContactState(pub(crate) ContactState);
 
-members! {
-    PyContactState, own;
+#[pymethods]
+impl PyContactState {
     #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, slip_across=0.0, shear_across=0.0))]
-    new(
+    #[new]
+    fn new(
         gap: f64,
         slip: f64,
         pressure: f64,
         shear: f64,
         slip_across: f64,
         shear_across: f64,
-    ) = Ok(Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across }));
+    ) -> Self {
+        Self(ContactState { gap, slip, pressure, shear, slip_across, shear_across })
+    }
+
     /// Gap, m; positive when open.
-    gap: f64 = own.0.gap;
+    #[getter]
+    fn gap(&self) -> f64 {
+        self.0.gap
+    }
+
     /// Slip since the static state, m; positive to the right.
-    slip: f64 = own.0.slip;
+    #[getter]
+    fn slip(&self) -> f64 {
+        self.0.slip
+    }
+
     /// Pressure, Pa; positive in compression.
-    pressure: f64 = own.0.pressure;
+    #[getter]
+    fn pressure(&self) -> f64 {
+        self.0.pressure
+    }
+
     /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64 = own.0.shear;
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.0.shear
+    }
+
     /// Slip along y in plan, m; positive away.
-    slip_across: f64 = own.0.slip_across;
+    #[getter]
+    fn slip_across(&self) -> f64 {
+        self.0.slip_across
+    }
+
     /// Shear traction of the structure on the soil along y in plan, Pa; positive away.
-    shear_across: f64 = own.0.shear_across;
+    #[getter]
+    fn shear_across(&self) -> f64 {
+        self.0.shear_across
+    }
 }
 
 /// An element at the start of a step: its :class:`ContactState`, and the rest of its past.
@@ -50,7 +77,7 @@ pub(crate) struct PyPreviousContact {
 }
 
 impl PyPreviousContact {
-    pub(crate) fn of(py: Python<'_>, start: &PreviousContact<'_>) -> PyResult<Py<Self>> {
+    pub(crate) fn from_core(py: Python<'_>, start: &PreviousContact<'_>) -> PyResult<Py<Self>> {
         let mut own = PreviousContact::new(start.state, start.mode, start.time_step);
         own.has_opened = start.has_opened;
         own.slip_rate = start.slip_rate;
@@ -70,34 +97,59 @@ impl PyPreviousContact {
     }
 }
 
-members! {
-    PyPreviousContact, own;
+#[pymethods]
+impl PyPreviousContact {
     #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, state_variables=None))]
-    new(
+    #[new]
+    fn new(
         state: &PyContactState,
         mode: &str,
         time_step: f64,
         slip_rate: f64,
         state_variables: Option<Numbers>,
-    ) = {
+    ) -> PyResult<PyClassInitializer<Self>> {
         let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
         own.slip_rate = slip_rate;
         let state_variables = state_variables.map_or_else(Vec::new, |numbers| numbers.0);
         let base = PyClassInitializer::from(PyContactState(state.0));
         Ok(base.add_subclass(Self { own, state_variables }))
-    };
+    }
+
     /// Mode of the step before, as in :data:`basemat.MODES`.
-    mode: &'static str = mode_name(own.own.mode);
+    #[getter]
+    fn mode(&self) -> &'static str {
+        mode_name(self.own.mode)
+    }
+
     /// Whether the element has been open.
-    has_opened: bool = own.own.has_opened;
+    #[getter]
+    fn has_opened(&self) -> bool {
+        self.own.has_opened
+    }
+
     /// Slip rate of the step before, m/s; its magnitude in plan.
-    slip_rate: f64 = own.own.slip_rate;
+    #[getter]
+    fn slip_rate(&self) -> f64 {
+        self.own.slip_rate
+    }
+
     /// Pressure of the static state, Pa.
-    static_pressure: f64 = own.own.static_pressure;
+    #[getter]
+    fn static_pressure(&self) -> f64 {
+        self.own.static_pressure
+    }
+
     /// Time step, s.
-    time_step: f64 = own.own.time_step;
+    #[getter]
+    fn time_step(&self) -> f64 {
+        self.own.time_step
+    }
+
     /// State variables of the law: list of numbers.
-    state_variables: Vec<f64> = own.state_variables.clone();
+    #[getter]
+    fn state_variables(&self) -> Vec<f64> {
+        self.state_variables.clone()
+    }
 }
 
 /// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
@@ -112,13 +164,14 @@ members! {
 #[derive(PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyLimits(pub(crate) Limits);
 
-members! {
-    PyLimits, own;
+#[pymethods]
+impl PyLimits {
     #[pyo3(
         signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
         text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
     )]
-    new(
+    #[new]
+    fn new(
         friction: f64,
         attraction: f64,
         shear_strength: f64,
@@ -126,23 +179,51 @@ members! {
         pressure_cap: f64,
         gap_offset: f64,
         bonded: bool,
-    ) = {
+    ) -> PyResult<Self> {
         let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
         (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
         Ok(Self(Limits { bonded, ..own }))
-    };
+    }
+
     /// Friction coefficient; infinite where nothing slides.
-    friction: f64 = own.0.friction;
+    #[getter]
+    fn friction(&self) -> f64 {
+        self.0.friction
+    }
+
     /// Pressure that friction acts on beside that of the contact, Pa.
-    attraction: f64 = own.0.attraction;
+    #[getter]
+    fn attraction(&self) -> f64 {
+        self.0.attraction
+    }
+
     /// Shear traction that is borne beside friction, Pa.
-    shear_strength: f64 = own.0.shear_strength;
+    #[getter]
+    fn shear_strength(&self) -> f64 {
+        self.0.shear_strength
+    }
+
     /// Tensile strength, Pa.
-    tension: f64 = own.0.tension;
+    #[getter]
+    fn tension(&self) -> f64 {
+        self.0.tension
+    }
+
     /// Greatest pressure, Pa.
-    pressure_cap: f64 = own.0.pressure_cap;
+    #[getter]
+    fn pressure_cap(&self) -> f64 {
+        self.0.pressure_cap
+    }
+
     /// Gap of a closed element, m.
-    gap_offset: f64 = own.0.gap_offset;
+    #[getter]
+    fn gap_offset(&self) -> f64 {
+        self.0.gap_offset
+    }
+
     /// Whether base and soil neither separate nor slide.
-    bonded: bool = own.0.bonded;
+    #[getter]
+    fn bonded(&self) -> bool {
+        self.0.bonded
+    }
 }

@@ -56,8 +56,8 @@ impl UserStructure {
         };
         Ok(Self {
             dofs,
-            names: DofNames::of(&given, dofs)?,
-            contact: contact.of(dofs)?,
+            names: DofNames::from_structure(&given, dofs)?,
+            contact: contact.nodes(dofs)?,
             ends: ends.transpose()?.unwrap_or_default(),
             active_damping: flag("active_damping")?,
             active_stiffness: flag("active_stiffness")?,

@@ -35,12 +35,12 @@ const FINE: usize = DEGREES + 8;
 
 /// Rows of forms: form by form, row by row, all classes.
 #[derive(Debug)]
-pub(super) struct Rows {
+pub(super) struct FormRows {
     forms: [Vec<f64>; FORMS],
     classes: usize,
 }
 
-impl Rows {
+impl FormRows {
     fn new(count: usize, classes: usize) -> Self {
         Self { forms: [(); FORMS].map(|()| vec![0.0; count * classes]), classes }
     }
@@ -75,9 +75,9 @@ impl Rows {
 #[derive(Debug)]
 struct Tabulated {
     /// Forms at the Gauss points, panel by panel.
-    values: Rows,
+    values: FormRows,
     /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
-    tails: Vec<(usize, Rows)>,
+    tails: Vec<(usize, FormRows)>,
 }
 
 /// Tabulated forms of a lattice.
@@ -92,7 +92,7 @@ pub(super) struct FormTable {
     pub(super) polynomials: Vec<[f64; DEGREES]>,
     tabulated: OnceLock<Tabulated>,
     /// Legendre coefficients of a panel.
-    legendre: Vec<OnceLock<Rows>>,
+    legendre: Vec<OnceLock<FormRows>>,
     /// Smallest K at which the bottom of the top layer does not affect the surface, 1/m.
     deep: f64,
     /// Number of panels up to K*.
@@ -174,9 +174,9 @@ impl FormTable {
         let (list, classes, unit) = (self.lattice.classes(), self.classes, self.unit());
         let (kept, end) = (self.panels(0.0)..=self.most_panels(), self.end);
         let mut tabulated =
-            Tabulated { values: Rows::new(kept.end() * POINTS, classes), tails: vec![] };
+            Tabulated { values: FormRows::new(kept.end() * POINTS, classes), tails: vec![] };
         let mut means = AngularMeans::new(&self.lattice);
-        let mut sums = Rows::new(TERMS, classes);
+        let mut sums = FormRows::new(TERMS, classes);
         // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
         let [last, star] =
             [(*kept.end()).max(end / 2), end].map(|panels| self.width * panels as f64);
@@ -204,7 +204,7 @@ impl FormTable {
             }
             if kept.contains(&panel) && on_grid(panel) == panel {
                 let forms = sums.forms.clone();
-                tabulated.tails.push((panel, Rows { forms, classes }));
+                tabulated.tails.push((panel, FormRows { forms, classes }));
             }
         }
         // The rest is the known total minus the sum.
@@ -227,17 +227,17 @@ impl FormTable {
     }
 
     /// Forms at all points, and integrals beyond the last of `panels`; `None` before [`FormTable::tabulate`].
-    pub(super) fn tabulated(&self, panels: usize) -> Option<[&Rows; 2]> {
+    pub(super) fn tabulated(&self, panels: usize) -> Option<[&FormRows; 2]> {
         let Tabulated { values, tails } = self.tabulated.get()?;
         let (_, tail) = tails.iter().find(|(count, _)| *count == panels)?;
         Some([values, tail])
     }
 
     /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of ∫ C Pₙ dk.
-    pub(super) fn legendre(&self, panel: usize) -> &Rows {
+    pub(super) fn legendre(&self, panel: usize) -> &FormRows {
         self.legendre[panel].get_or_init(|| {
             let (mut means, fine) = (AngularMeans::new(&self.lattice), Rule::new(FINE));
-            let mut rows = Rows::new(DEGREES, self.classes);
+            let mut rows = FormRows::new(DEGREES, self.classes);
             for (x, weight) in fine.points() {
                 let values = means.at(self.width * (panel as f64 + 0.5 * (1.0 + x)));
                 for (degree, polynomial) in legendre(x).into_iter().enumerate() {

@@ -15,7 +15,7 @@
 //! reach the cells through Legendre moments over the whole panel, so that only C is evaluated more often. For Re s
 //! > 0 no pole lies on the axis, and k = 0 needs no regularisation.
 
-use super::form_table::{FormTable, Rows, TERMS};
+use super::form_table::{FormRows, FormTable, TERMS};
 use super::forms::FORMS;
 use crate::bem::layered::{
     Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, SurfaceCompliance, by_halves, deep,
@@ -315,7 +315,7 @@ impl Integrals {
     }
 
     /// Adds Σ kernel × forms over the first of `rows` to the sums.
-    fn add(&self, rows: &Rows, work: &mut Scratch) {
+    fn add(&self, rows: &FormRows, work: &mut Scratch) {
         let Scratch { kernels, weights, sums, .. } = work;
         for (form, (first, shares)) in SHARES.into_iter().enumerate() {
             weights.clear();

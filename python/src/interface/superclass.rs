@@ -1,4 +1,4 @@
-//! The base class of laws, and laws in any form that Python may give them.
+//! The superclass of laws, and laws in any form that Python may give them.
 
 use std::sync::Arc;
 
@@ -25,16 +25,14 @@ impl PyInterfaceLaw {
     }
 }
 
-members! {
-    PyInterfaceLaw, own;
-    /// List of the names of the modes that this law uses; the first is that of an element at rest.
-    modes: PyResult<Vec<&'static str>> = {
-        Ok((own.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
-    };
-}
-
 #[pymethods]
 impl PyInterfaceLaw {
+    /// List of the names of the modes that this law uses; the first is that of an element at rest.
+    #[getter]
+    fn modes(&self) -> PyResult<Vec<&'static str>> {
+        Ok((self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
+    }
+
     /// The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
     /// (:class:`PreviousContact`) is.
     fn conditions(

@@ -1,4 +1,4 @@
-//! The base class of grounds, and impedances of a rigid strip.
+//! The superclass of grounds, and impedances of a rigid strip.
 
 use std::sync::Arc;
 
@@ -30,13 +30,20 @@ impl PyGround {
     }
 }
 
-members! {
-    PyGround, own;
+#[pymethods]
+impl PyGround {
     /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
-    elements: Rows = Rows(own.elements.iter().map(|e| vec![e.left(), e.right()]).collect());
+    #[getter]
+    fn elements(&self) -> Rows {
+        Rows(self.elements.iter().map(|e| vec![e.left(), e.right()]).collect())
+    }
+
     /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
     /// metre of thickness, in the plane.
-    depths: Rows = Rows(own.elements.iter().map(|e| e.depth().to_vec()).collect());
+    #[getter]
+    fn depths(&self) -> Rows {
+        Rows(self.elements.iter().map(|e| e.depth().to_vec()).collect())
+    }
 }
 
 /// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
@@ -49,16 +56,35 @@ pub(super) fn contact(name: &str) -> PyResult<StripContact> {
     choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
 
-members! {
-    PyImpedances, own;
+#[pymethods]
+impl PyImpedances {
     /// Frequencies: array of shape (m,), Hz.
-    frequency: Array = own.0.iter().map(|at| at.frequency).collect();
+    #[getter]
+    fn frequency(&self) -> Array {
+        self.0.iter().map(|at| at.frequency).collect()
+    }
+
     /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
-    horizontal: Array<Complex64> = own.0.iter().map(|at| complex(at.horizontal)).collect();
+    #[getter]
+    fn horizontal(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.horizontal)).collect()
+    }
+
     /// Vertical force by vertical translation: complex array of shape (m,), N/m².
-    vertical: Array<Complex64> = own.0.iter().map(|at| complex(at.vertical)).collect();
+    #[getter]
+    fn vertical(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.vertical)).collect()
+    }
+
     /// Moment by rotation: complex array of shape (m,), N.
-    rocking: Array<Complex64> = own.0.iter().map(|at| complex(at.rocking)).collect();
+    #[getter]
+    fn rocking(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.rocking)).collect()
+    }
+
     /// Horizontal force by rotation: complex array of shape (m,), N/m.
-    coupling: Array<Complex64> = own.0.iter().map(|at| complex(at.coupling)).collect();
+    #[getter]
+    fn coupling(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.coupling)).collect()
+    }
 }

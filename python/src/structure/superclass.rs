@@ -1,4 +1,4 @@
-//! The base class of structures, and structures in any form that Python may give them.
+//! The superclass of structures, and structures in any form that Python may give them.
 
 use std::sync::Arc;
 
@@ -117,16 +117,20 @@ fn array<'py>(
     Ok(array)
 }
 
-members! {
-    PyStructure, own;
-    /// Number n of degrees of freedom.
-    dofs: PyResult<usize> = Ok((own.make)().or_raise()?.dofs());
-    /// Names of the degrees of freedom: list of n texts; None without names.
-    dof_names: Option<Vec<String>> = own.names.as_ref().map(DofNames::to_vec);
-}
-
 #[pymethods]
 impl PyStructure {
+    /// Number n of degrees of freedom.
+    #[getter]
+    fn dofs(&self) -> PyResult<usize> {
+        Ok((self.make)().or_raise()?.dofs())
+    }
+
+    /// Names of the degrees of freedom: list of n texts; None without names.
+    #[getter]
+    fn dof_names(&self) -> Option<Vec<String>> {
+        self.names.as_ref().map(DofNames::to_vec)
+    }
+
     /// The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`.
     fn dof(&self, name: &str) -> PyResult<PyDofCombination> {
         let names = self.names.as_ref().ok_or_else(|| {

@@ -1,0 +1,229 @@
+//! Groups of options of a simulation.
+
+use basemat::contact::ContactSearch;
+use basemat::coupled::{Coordinates, GravityStage, SimulationBuilder};
+use basemat::results::Serviceability;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::PyTimeScheme;
+use super::build::coordinates;
+use crate::array::{Numbers, whole};
+use crate::error::OrRaise;
+
+/// Weight and motion at the start of a simulation.
+///
+/// Args:
+///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
+///         state: the base begins without pressure, and nothing resists uplift and sliding.
+///     gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
+///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
+///         there is no static state, weight and loads act from t = 0 on, as for a block let go.
+///     displacement: of the n degrees of freedom at t = 0 against the static state, array of
+///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
+///     velocity: the same for velocities, m/s and rad/s; zero unless given.
+#[pyclass(name = "InitialConditions", module = "basemat", frozen, dict, from_py_object)]
+#[derive(Clone, Default)]
+pub(crate) struct PyInitialConditions {
+    gravity: Option<f64>,
+    stage: GravityStage,
+    displacement: Option<Vec<f64>>,
+    velocity: Option<Vec<f64>>,
+}
+
+#[pymethods]
+impl PyInitialConditions {
+    #[new]
+    #[pyo3(signature = (*, gravity=None, gravity_stage="frictionless", displacement=None, velocity=None))]
+    fn new(
+        gravity: Option<f64>,
+        gravity_stage: &str,
+        displacement: Option<Numbers>,
+        velocity: Option<Numbers>,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            gravity,
+            stage: gravity_stage.parse().or_raise()?,
+            displacement: displacement.map(|numbers| numbers.0),
+            velocity: velocity.map(|numbers| numbers.0),
+        })
+    }
+}
+
+/// Method by which a simulation steps.
+///
+/// Args:
+///     scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
+///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
+///         time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
+///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
+///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
+///     expected_steps: number of steps that will be made. Memory and the ground's weights are then
+///         ready before the first; unless given, those of the first run. More steps than fit into
+///         the memory of the ground's history raise an error.
+///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
+///         run goes on; infinite: runs end by their steps alone.
+///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
+///         most so many iterations a step, for comparison with their paper; the robust search unless
+///         given.
+#[pyclass(name = "SolverOptions", module = "basemat", frozen, dict, from_py_object)]
+#[derive(Clone, Default)]
+pub(crate) struct PySolverOptions {
+    scheme: Option<PyTimeScheme>,
+    coordinates: Option<Coordinates>,
+    expected_steps: Option<usize>,
+    rotation_limit: Option<f64>,
+    search: Option<ContactSearch>,
+}
+
+#[pymethods]
+impl PySolverOptions {
+    #[new]
+    #[pyo3(signature = (*, scheme=None, coordinates=None, expected_steps=None, rotation_limit=None, flow_chart_iterations=None))]
+    fn new(
+        scheme: Option<&Bound<'_, PyTimeScheme>>,
+        coordinates: Option<&Bound<'_, PyAny>>,
+        #[pyo3(from_py_with = whole)] expected_steps: Option<usize>,
+        rotation_limit: Option<f64>,
+        #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            scheme: scheme.map(|own| own.get().clone()),
+            coordinates: coordinates.map(self::coordinates).transpose()?,
+            expected_steps,
+            rotation_limit,
+            search: flow_chart_iterations.map(|iterations| ContactSearch::FlowChart { iterations }),
+        })
+    }
+}
+
+/// Quantities that a run evaluates; they change nothing in its motion.
+///
+/// Args:
+///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
+///         unless given.
+///     energy_balance: whether energies are booked; True by default. Without them a step takes less
+///         time, and :attr:`Run.energy_error` is NaN.
+///     safety_friction: friction coefficient for the factor of safety against sliding; that of the
+///         interface law unless given.
+#[pyclass(name = "ResultOptions", module = "basemat", frozen, dict, from_py_object)]
+#[derive(Clone, Default)]
+pub(crate) struct PyResultOptions {
+    moment_center: Option<f64>,
+    without_energy_balance: bool,
+    safety_friction: Option<f64>,
+}
+
+#[pymethods]
+impl PyResultOptions {
+    #[new]
+    #[pyo3(signature = (*, moment_center=None, energy_balance=true, safety_friction=None))]
+    fn new(moment_center: Option<f64>, energy_balance: bool, safety_friction: Option<f64>) -> Self {
+        Self { moment_center, without_energy_balance: !energy_balance, safety_friction }
+    }
+}
+
+/// Limits of service, which :attr:`Run.serviceability` compares with the run; they change nothing in it.
+///
+/// Args:
+///     slip: limit of |mean slip|, m; none unless given.
+///     gap: limit of the gap of any element, m; none unless given.
+///     uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
+///     rotation: limit of the base's |rotation|, rad; none unless given.
+#[pyclass(name = "ServiceLimits", module = "basemat", frozen, dict, from_py_object)]
+#[derive(Clone, Default)]
+pub(crate) struct PyServiceLimits(Serviceability);
+
+#[pymethods]
+impl PyServiceLimits {
+    #[new]
+    #[pyo3(signature = (*, slip=None, gap=None, uplifted_fraction=None, rotation=None))]
+    fn new(
+        slip: Option<f64>,
+        gap: Option<f64>,
+        uplifted_fraction: Option<f64>,
+        rotation: Option<f64>,
+    ) -> Self {
+        Self(Serviceability { slip, gap, uplifted_fraction, rotation })
+    }
+}
+
+/// All groups of options of a simulation.
+#[derive(Default)]
+pub(super) struct Options {
+    pub(super) initial: PyInitialConditions,
+    pub(super) solver: PySolverOptions,
+    pub(super) results: PyResultOptions,
+    pub(super) limits: PyServiceLimits,
+}
+
+/// Calls methods of a builder with the arguments that were given.
+macro_rules! with_given {
+    ($builder:ident, $($method:ident($given:expr)),+ $(,)?) => {
+        $(if let Some(given) = $given {
+            $builder = $builder.$method(given);
+        })+
+    };
+}
+
+impl Options {
+    /// The builder with these options.
+    pub(super) fn set(&self, builder: SimulationBuilder) -> PyResult<SimulationBuilder> {
+        let Self { initial, solver, results, limits } = self;
+        let mut builder = builder.gravity_stage(initial.stage).serviceability(limits.0);
+        let scheme = solver.scheme.as_ref().map(|scheme| (scheme.make)().or_raise());
+        with_given!(
+            builder,
+            gravity(initial.gravity),
+            initial_displacement(initial.displacement.clone()),
+            initial_velocity(initial.velocity.clone()),
+            scheme(scheme.transpose()?),
+            contact_search(solver.search),
+            coordinates(solver.coordinates),
+            expected_steps(solver.expected_steps),
+            rotation_limit(solver.rotation_limit),
+            moment_center(results.moment_center),
+            safety_friction(results.safety_friction.map(|coefficient| [coefficient])),
+        );
+        if results.without_energy_balance {
+            builder = builder.without_energy_balance();
+        }
+        Ok(builder)
+    }
+}
+
+/// Options of each group: argument of the simulation, class, and names of the options.
+const GROUPS: [(&str, &str, &[&str]); 4] = [
+    (
+        "initial",
+        "InitialConditions",
+        &["gravity", "gravity_stage", "initial_displacement", "initial_velocity"],
+    ),
+    (
+        "solver",
+        "SolverOptions",
+        &["scheme", "coordinates", "expected_steps", "rotation_limit", "flow_chart_iterations"],
+    ),
+    ("results", "ResultOptions", &["moment_center", "energy_balance", "safety_friction"]),
+    (
+        "service_limits",
+        "ServiceLimits",
+        &["allowable_slip", "allowable_gap", "allowable_uplifted_fraction", "allowable_rotation"],
+    ),
+];
+
+/// A `TypeError` for an argument that a simulation does not have; of an option it names the group.
+pub(super) fn refuse_others(others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    let Some((name, _)) = others.and_then(|others| others.iter().next()) else { return Ok(()) };
+    let name = name.to_string();
+    let group = GROUPS.iter().find(|(.., options)| options.contains(&&*name));
+    Err(PyTypeError::new_err(match group {
+        Some((argument, class, _)) => {
+            let option = name.strip_prefix("allowable_").unwrap_or(&name);
+            let option = option.strip_prefix("initial_").unwrap_or(option);
+            format!("Simulation has no argument '{name}': give {argument}={class}({option}=…)")
+        }
+        None => format!("Simulation has no argument '{name}'"),
+    }))
+}
