@@ -7,12 +7,12 @@ use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 ///
-/// ``name``: that of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
-/// its label in tables; that of the quantity unless given.
+/// ``name``: name of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
+/// its label in tables; unless given, the quantity's.
 ///
 /// Displacements are changes against the static state, relative to the translation of the free
 /// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
-/// probes of a simulation have the same name, and none that of another time series of a run.
+/// probes of a simulation have the same name, and none the name of another time series of a run.
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
 pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) Order);
 
@@ -60,7 +60,7 @@ impl PyProbe {
     }
 
     /// Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
-    /// series ``name``; ``unit``: its label, that of the section unless given.
+    /// series ``name``; ``unit``: its label; unless given, the section's.
     #[pyo3(signature = (name, section, *, unit=None))]
     #[staticmethod]
     fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
@@ -79,7 +79,7 @@ impl PyProbe {
         &self.0.unit
     }
 
-    /// The :class:`DofCombination` of displacements, that of velocities and that of accelerations.
+    /// Three :class:`DofCombination`: of displacements, of velocities and of accelerations.
     #[getter]
     fn rows(&self) -> [PyDofCombination; 3] {
         let Probe { displacement, velocity, acceleration, .. } = &self.0;

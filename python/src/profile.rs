@@ -40,7 +40,7 @@ impl PyDampingLaw {
         damping(GeneralizedMaxwell::constant_q(ratio, band, reference))
     }
 
-    /// Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``ratios`` of the rest
+    /// Generalised Maxwell body: ratio ``long_term`` of its modulus to the soil's, ``ratios`` of the rest
     /// (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
     #[staticmethod]
     fn maxwell(long_term: f64, ratios: Numbers, rates: Numbers) -> PyResult<Self> {

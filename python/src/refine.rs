@@ -16,7 +16,7 @@ pub(crate) struct PyRefinement(Refinement);
 /// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
 ///
 /// ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-/// peaks, or a time series at times that all settings have (those of the coarsest). Settings are
+/// peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
 /// ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
 /// elements, and twice the elements with half the step.
 ///

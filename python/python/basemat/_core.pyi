@@ -286,7 +286,7 @@ class ElasticGround(Ground):
         exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
         A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
 
-        ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
+        ``soil`` and the options are as in the class; no option is needed: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
         ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
         """
@@ -309,7 +309,7 @@ class SharedKernels:
 @final
 class Impedances:
     """Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
-    arrays of shape (m,), one value per frequency; the imaginary part is that of radiation and damping.
+    arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
     """
 
     @property
@@ -332,8 +332,8 @@ class Impedances:
     def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> list[Any]:
         """Draws real and imaginary parts over the frequency; returns the list of four axes.
 
-        ``axes``: four of matplotlib to draw into; those of a new figure unless given. For several grounds in the same axes:
-        ``label``, a name before those of the curves, and ``color`` of both.
+        ``axes``: four of matplotlib to draw into; unless given, axes of a new figure. For several grounds in the same axes:
+        ``label``, a name before the names of the curves, and ``color`` of both.
         """
 
 @final
@@ -369,7 +369,7 @@ class SpringGround(Ground):
     ) -> SpringGround:
         """Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
         the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
-        and ``theta`` are those of the class, the last three if given.
+        and ``theta`` are as in the class, the last three if given.
         A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
         """
 
@@ -429,7 +429,7 @@ class Plan:
         """Middle of the bounding rectangle, x and y, m: what impedances refer to."""
     @property
     def area_error(self) -> float:
-        """Area of the cells inside the outline less that of the faces, relative to it."""
+        """Area of the cells inside the outline minus the area of the faces, relative to the latter."""
 
 @disjoint_base
 class InterfaceLaw:
@@ -439,7 +439,7 @@ class InterfaceLaw:
 
     @property
     def modes(self) -> list[_Mode]:
-        """List of the names of the modes that this law uses; the first is that of an element at rest."""
+        """List of the names of the modes that this law uses; the first is the mode of an element at rest."""
     def conditions(self, mode: _Mode, start: PreviousContact) -> tuple[Condition, Condition]:
         """The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
         (:class:`PreviousContact`) is.
@@ -539,7 +539,7 @@ class ThinLayer(InterfaceLaw):
         slip_sense: _SlipSense | None = None,
     ) -> ThinLayer:
         """Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
-        ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+        ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are as in the class, the last
         four if given.
         """
     @property
@@ -621,7 +621,7 @@ class Record(FreeField):
         time_step: float | None = None,
         header_lines: int | None = None,
     ) -> dict[str, Record]:
-        """Reads all components of the file at ``path``, such as those of a station in three directions: a
+        """Reads all components of the file at ``path``, such as the three directions of a station: a
         dict from the name of each to its :class:`Record`, in the order of the file.
 
         ``format``, ``unit``, ``time_step`` and ``header_lines`` as for :meth:`read`, none unless given; of columns all but
@@ -727,8 +727,8 @@ class Spectrum:
     def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> Any:
         """Draws total and pseudo-accelerations over the period; returns the axes.
 
-        ``axes``: those of matplotlib to draw into; those of a new figure unless given. For several spectra in the same axes:
-        ``label``, a name before those of the curves, and ``color`` of both.
+        ``axes``: those of matplotlib to draw into; unless given, axes of a new figure. For several spectra in the same axes:
+        ``label``, a name before the names of the curves, and ``color`` of both.
         """
     def __len__(self) -> int: ...
 
@@ -757,11 +757,11 @@ class PlaneWave:
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
     def field_from_horizontal(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
-        """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+        """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
         :func:`travelling_wave`.
         """
     def field_from_vertical(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
-        """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+        """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
         :func:`travelling_wave`.
         """
     @staticmethod
@@ -771,7 +771,7 @@ class PlaneWave:
         """
     def field_from_across(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
         """The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-        (rad; 0 by default) is that of :func:`travelling_wave`.
+        (rad; 0 by default) is as in :func:`travelling_wave`.
         """
 
 @final
@@ -787,7 +787,7 @@ class SoilColumn:
         *,
         control: _ControlPoint = "outcrop",
     ) -> NDArray[np.complex128]:
-        """Ratio of the motion of the surface to that of the ``control`` point for e^(iωt): complex array of
+        """Ratio of the motion of the surface to the motion of the ``control`` point for e^(iωt): complex array of
         shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
         base without layers) or "within" (the base under them).
         """
@@ -953,19 +953,19 @@ class InclinedWave:
         """The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
         (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
         "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-        default) is that of :func:`travelling_wave`.
+        default) is as in :func:`travelling_wave`.
         """
 
 @final
 class Probe:
     """A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 
-    ``name``: that of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
-    its label in tables; that of the quantity unless given.
+    ``name``: name of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
+    its label in tables; unless given, the quantity's.
 
     Displacements are changes against the static state, relative to the translation of the free
     field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
-    probes of a simulation have the same name, and none that of another time series of a run.
+    probes of a simulation have the same name, and none the name of another time series of a run.
     """
 
     @staticmethod
@@ -991,7 +991,7 @@ class Probe:
     @staticmethod
     def section(name: str, section: SectionRows, *, unit: str | None = None) -> Probe:
         """Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
-        series ``name``; ``unit``: its label, that of the section unless given.
+        series ``name``; ``unit``: its label; unless given, the section's.
         """
     @property
     def name(self) -> str:
@@ -1001,7 +1001,7 @@ class Probe:
         """Label of its unit; values are what the weights make of SI units."""
     @property
     def rows(self) -> list[DofCombination]:
-        """The :class:`DofCombination` of displacements, that of velocities and that of accelerations."""
+        """Three :class:`DofCombination`: of displacements, of velocities and of accelerations."""
 
 @final
 class DampingLaw:
@@ -1018,7 +1018,7 @@ class DampingLaw:
         """
     @staticmethod
     def maxwell(long_term: float, ratios: ArrayLike, rates: ArrayLike) -> DampingLaw:
-        """Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``ratios`` of the rest
+        """Generalised Maxwell body: ratio ``long_term`` of its modulus to the soil's, ``ratios`` of the rest
         (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
         """
     @staticmethod
@@ -1072,7 +1072,7 @@ class SoilProfile:
     def plot(self, axes: Any = None) -> Any:
         """Draws the speed of shear waves over the depth; returns the axes.
 
-        ``axes``: those of matplotlib to draw into; those of a new figure unless given.
+        ``axes``: those of matplotlib to draw into; unless given, axes of a new figure.
         """
     @property
     def depth(self) -> float:
@@ -1088,7 +1088,7 @@ class SoilProfile:
 class Summary:
     """The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 
-    Forces are those of the structure on the soil, per metre of thickness.
+    Forces act from the structure on the soil, per metre of thickness.
     """
 
     def extremes(self, quantity: _Quantity) -> Extremes:
@@ -1269,7 +1269,7 @@ class Run(Summary):
         """Number of steps made."""
     @property
     def in_plan(self) -> bool:
-        """Whether the ground was one in plan: results are then those of the whole body, N in place of N/m."""
+        """Whether the ground was one in plan: results are then of the whole body, N in place of N/m."""
     @property
     def start(self) -> float:
         """Time at the beginning, s."""
@@ -1292,7 +1292,7 @@ class Run(Summary):
         """The ground motion in words, as on the page of the run."""
     @property
     def time(self) -> NDArray[np.float64]:
-        """Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start."""
+        """Times of the kept steps: array of shape (steps + 1,), s; the first is the start."""
     def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
     @property
     def series(self) -> dict[str, Any]:
@@ -1356,8 +1356,8 @@ class Run(Summary):
         """Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
         contact. Returns the number of grids.
 
-        With a ``structure``, that of the simulation, there is also a grid of it for each snapshot of the motion; none unless
-        given. ``height`` (m): that of a rigid block or body, which is drawn as a box, and of any structure but a
+        With the simulation's ``structure`` there is also a grid of it for each snapshot of the motion; none unless
+        given. ``height`` (m): height of a rigid block or body, which is drawn as a box, and of any structure but a
         :class:`FemModel`, :class:`ShearBuilding` or :class:`StoreyBuilding`; None for these.
         """
     def foundation_frame(self) -> Any:
@@ -1394,14 +1394,14 @@ class Run(Summary):
         """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
         It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
-        matplotlib to draw into; those of a new figure unless given.
+        matplotlib to draw into; unless given, axes of a new figure.
         """
     def plot_contact_plan(self, time: float | None = None, axes: Any = None) -> Any:
         """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
 
         It needs snapshots of the contact on a ground in plan: ``contact_every`` of :meth:`Simulation.run`. ``time`` (s): the
         snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
-        into; those of a new figure unless given.
+        into; unless given, axes of a new figure.
         """
     def animate(self, scale: float | None = None) -> Any:
         """Moving picture of the base, its gaps and the pressure under it, element by element; in plan of what
@@ -1506,11 +1506,11 @@ class DofCombination:
         ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
         """
     def relative_to_base(self, structure: _Structure) -> DofCombination:
-        """This displacement to the right less that of the middle of the base of the ``structure``; in plan subtract a row of
+        """This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
         :meth:`of_base`.
         """
     def total_drift(self, structure: _Structure, height: float) -> DofCombination:
-        """This displacement to the right less that of the base of the ``structure``, its rotation included,
+        """This displacement to the right, relative to the base of the ``structure``, its rotation included,
         which moves what is ``height`` (m) above it: the lateral deformation.
         """
     def __add__(self, value: _RowLike, /) -> DofCombination: ...
@@ -1601,7 +1601,7 @@ class SolverOptions:
             coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
             relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
         expected_steps: number of steps that will be made. Memory and the ground's weights are then
-            ready before the first; unless given, those of the first run. More steps than fit into
+            ready before the first; unless given, the steps of the first run. More steps than fit into
             the memory of the ground's history raise an error.
         rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
             run goes on; infinite: runs end by their steps alone.
@@ -1629,7 +1629,7 @@ class ResultOptions:
             unless given.
         energy_balance: whether energies are booked; True by default. Without them a step takes less
             time, and :attr:`Run.energy_error` is NaN.
-        safety_friction: friction coefficient for the factor of safety against sliding; that of the
+        safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
             interface law unless given.
     """
 
@@ -1718,7 +1718,7 @@ class Simulation:
         motion_every: int | None = None,
         warn: bool = True,
     ) -> Run:
-        """Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
+        """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the
         motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
         :meth:`reset` goes back to the start.
 
@@ -1741,7 +1741,7 @@ class Simulation:
         solved; the simulation is then as it was before.
         """
     def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps:
-        """An iterator that makes a step and yields its state, ``steps`` times or those of a
+        """An iterator that makes a step and yields its state, ``steps`` times or for a
         ``duration`` (s); without either, those to the end of the motion.
         """
     @property
@@ -1880,7 +1880,7 @@ class State:
     """The simulation at the end of an accepted step.
 
     Displacements are changes against the static state, relative to the free field's translation
-    unless they say otherwise. Forces are those of the structure on the soil, per metre of thickness.
+    unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
     It belongs to its simulation and does not pickle: a :class:`Checkpoint` does.
     """
 
@@ -1922,7 +1922,7 @@ class State:
         """Total pressure on the soil, N/m."""
     @property
     def uplifted_fraction(self) -> float:
-        """Ratio of the length of open elements to that of the base, in plan of areas."""
+        """Ratio of the length of open elements to the length of the base, in plan of areas."""
     @property
     def mean_slip(self) -> float:
         """Slip averaged over the base, m."""
@@ -1987,7 +1987,7 @@ class State:
 
 @final
 class FoundationState:
-    """A foundation at the end of a step; forces are those of the structure on the soil, per metre
+    """A foundation at the end of a step; forces act from the structure on the soil, per metre
     of thickness in the plane, of the whole body in plan (N and N·m).
     """
 
@@ -2176,7 +2176,7 @@ class RigidBody(Structure):
         p_delta: float | None = None,
     ) -> RigidBody:
         """Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-        ``center`` and ``p_delta`` are those of :meth:`cuboid`, if given.
+        ``center`` and ``p_delta`` are as in :meth:`cuboid`, if given.
         """
     @property
     def total_mass(self) -> float:
@@ -2292,7 +2292,7 @@ class PlanStorey:
     """A storey of a :class:`StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
     ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
 
-    ``inertia``: of the floor about x, y and z through its centre of mass (kg m²), that of the rectangle unless given.
+    ``inertia``: of the floor about x, y and z through its centre of mass (kg m²); unless given, of the rectangle.
     ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default. ``damping``: dashpots
     beside the three stiffnesses, N s/m and N m s; 0 by default.
     """
@@ -2551,7 +2551,7 @@ class GmshMesh:
         hourglass_percent: int = 5,
     ) -> Mesh:
         """The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
-        ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
+        ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in :class:`Layer`.
         """
     def line(self, name: str) -> list[int]:
         """Numbers of the nodes of the group ``name`` of lines in one piece: list, from left to right."""
@@ -2632,7 +2632,7 @@ class LeadRubber(Hysteresis):
     @staticmethod
     def from_strength(stiffness: float, strength: float, *, stiffness_ratio: float = ...) -> LeadRubber:
         """Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
-        ``stiffness_ratio`` is that of the class.
+        ``stiffness_ratio`` is as in the class.
         """
     @property
     def strength(self) -> float:
@@ -2648,7 +2648,7 @@ class MatrixModel(Structure):
     ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
     (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
     points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
-    lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
+    lists of :class:`FaceNode` (or one list alone), each convex, flat and at one height, and matrices refer to the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
     (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
     list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
@@ -2944,7 +2944,7 @@ class Limits:
         """Friction coefficient; infinite where nothing slides."""
     @property
     def attraction(self) -> float:
-        """Pressure that friction acts on beside that of the contact, Pa."""
+        """Pressure that friction acts on in addition to the contact pressure, Pa."""
     @property
     def shear_strength(self) -> float:
         """Shear traction that is borne beside friction, Pa."""
@@ -2970,7 +2970,7 @@ def refine(
     """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
 
     ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-    peaks, or a time series at times that all settings have (those of the coarsest). Settings are
+    peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
     ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
     elements, and twice the elements with half the step.
 
@@ -2986,7 +2986,7 @@ def refine(elements: int, time_step: float, scene: Callable[[int, float], float 
     """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
 
     ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-    peaks, or a time series at times that all settings have (those of the coarsest). Settings are
+    peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
     ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
     elements, and twice the elements with half the step.
 

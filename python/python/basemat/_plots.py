@@ -27,7 +27,7 @@ def _pyplot() -> Any:
 
 
 def _axes(axes: Any, count: int, **options: Any) -> list[Any]:
-    """The axes that were given, or those of a new figure, one below the other."""
+    """The given axes, or axes of a new figure, one below the other."""
     if axes is None:
         size = (8.0, 1.0 + 2.2 * count)
         options = {"sharex": True, "figsize": size, "layout": "constrained", **options}
@@ -106,7 +106,7 @@ def plot_modes(self: Run, axes: Any = None) -> Any:
     """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
     It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
-    matplotlib to draw into; those of a new figure unless given.
+    matplotlib to draw into; unless given, axes of a new figure.
     """
     [own] = _axes(axes, 1)
     from matplotlib.colors import ListedColormap
@@ -157,7 +157,7 @@ def plot_contact_plan(self: Run, time: float | None = None, axes: Any = None) ->
 
     It needs snapshots of the contact on a ground in plan: ``contact_every`` of :meth:`Simulation.run`. ``time`` (s): the
     snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
-    into; those of a new figure unless given.
+    into; unless given, axes of a new figure.
     """
     times, modes = self.contact["time"], self.contact["mode"]
     open_ones = (modes == MODES.index("open")).sum(axis=1)
@@ -250,8 +250,8 @@ def plot_spectrum(
 ) -> Any:
     """Draws total and pseudo-accelerations over the period; returns the axes.
 
-    ``axes``: those of matplotlib to draw into; those of a new figure unless given. For several spectra in the same axes:
-    ``label``, a name before those of the curves, and ``color`` of both.
+    ``axes``: those of matplotlib to draw into; unless given, axes of a new figure. For several spectra in the same axes:
+    ``label``, a name before the names of the curves, and ``color`` of both.
     """
     [own] = _axes(axes, 1)
     total, pseudo = _named(label, "total acceleration"), _named(label, "pseudo-acceleration")
@@ -266,7 +266,7 @@ def plot_spectrum(
 def plot_profile(self: SoilProfile, axes: Any = None) -> Any:
     """Draws the speed of shear waves over the depth; returns the axes.
 
-    ``axes``: those of matplotlib to draw into; those of a new figure unless given.
+    ``axes``: those of matplotlib to draw into; unless given, axes of a new figure.
     """
     [own] = _axes(axes, 1, figsize=(4.0, 5.0))
     depths, speeds = [0.0], []
@@ -291,8 +291,8 @@ def plot_impedances(
 ) -> list[Any]:
     """Draws real and imaginary parts over the frequency; returns the list of four axes.
 
-    ``axes``: four of matplotlib to draw into; those of a new figure unless given. For several grounds in the same axes:
-    ``label``, a name before those of the curves, and ``color`` of both.
+    ``axes``: four of matplotlib to draw into; unless given, axes of a new figure. For several grounds in the same axes:
+    ``label``, a name before the names of the curves, and ``color`` of both.
     """
     own = _axes(axes, 4)
     units = {"horizontal": "N/m²", "vertical": "N/m²", "rocking": "N", "coupling": "N/m"}

@@ -67,7 +67,7 @@ class UserLaw(Protocol):
 
     @property
     def modes(self) -> Sequence[str]:
-        """The modes that it uses, of :data:`basemat.MODES`; the first is that of an element at rest."""
+        """The modes that it uses, of :data:`basemat.MODES`; the first is the mode of an element at rest."""
 
     def conditions(self, mode: str, start: PreviousContact) -> Sequence[Condition]:
         """The two conditions that ``mode`` imposes on the end of the step."""

@@ -104,7 +104,7 @@ impl PyElasticGround {
     /// exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
     ///
-    /// ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
+    /// ``soil`` and the options are as in the class; no option is needed: ``history``,
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
     /// ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
     #[staticmethod]

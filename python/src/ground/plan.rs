@@ -76,7 +76,7 @@ impl PyPlan {
         self.0.middle()
     }
 
-    /// Area of the cells inside the outline less that of the faces, relative to it.
+    /// Area of the cells inside the outline minus the area of the faces, relative to the latter.
     #[getter]
     fn area_error(&self) -> f64 {
         self.0.area_error()

@@ -50,7 +50,7 @@ impl PySpringGround {
 
     /// Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
     /// the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
-    /// and ``theta`` are those of the class, the last three if given.
+    /// and ``theta`` are as in the class, the last three if given.
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
     #[staticmethod]
     #[pyo3(

@@ -140,7 +140,7 @@ impl PyThinLayer {
     }
 
     /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
-    /// ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+    /// ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are as in the class, the last
     /// four if given.
     #[pyo3(signature = (normal, shear, friction, *, debonded_ratio=None, slip_stiffness_ratio=None, friction_limit=None, slip_sense=None))]
     #[staticmethod]

@@ -27,7 +27,7 @@ impl PyInterfaceLaw {
 
 #[pymethods]
 impl PyInterfaceLaw {
-    /// List of the names of the modes that this law uses; the first is that of an element at rest.
+    /// List of the names of the modes that this law uses; the first is the mode of an element at rest.
     #[getter]
     fn modes(&self) -> PyResult<Vec<&'static str>> {
         Ok((self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())

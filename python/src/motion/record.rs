@@ -156,7 +156,7 @@ impl PyRecord {
         Self::from_core(Record::read(path, options.reader(format)?.as_ref()))
     }
 
-    /// Reads all components of the file at ``path``, such as those of a station in three directions: a
+    /// Reads all components of the file at ``path``, such as the three directions of a station: a
     /// dict from the name of each to its :class:`Record`, in the order of the file.
     ///
     /// ``format``, ``unit``, ``time_step`` and ``header_lines`` as for :meth:`read`, none unless given; of columns all but

@@ -140,14 +140,14 @@ macro_rules! fields_from {
 }
 
 fields_from! {
-    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
     /// :func:`travelling_wave`.
     field_from_horizontal;
-    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is that of
+    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
     /// :func:`travelling_wave`.
     field_from_vertical;
     /// The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-    /// (rad; 0 by default) is that of :func:`travelling_wave`.
+    /// (rad; 0 by default) is as in :func:`travelling_wave`.
     field_from_across;
 }
 
@@ -236,7 +236,7 @@ impl PyColumn {
         Ok(Self(SoilColumn::new(profile.0.clone(), wave).or_raise()?))
     }
 
-    /// Ratio of the motion of the surface to that of the ``control`` point for e^(iωt): complex array of
+    /// Ratio of the motion of the surface to the motion of the ``control`` point for e^(iωt): complex array of
     /// shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
     /// base without layers) or "within" (the base under them).
     #[pyo3(signature = (frequencies, *, control="outcrop"))]
@@ -332,7 +332,7 @@ impl PyInclinedWave {
     /// The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
     /// (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
     /// "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-    /// default) is that of :func:`travelling_wave`.
+    /// default) is as in :func:`travelling_wave`.
     #[pyo3(signature = (record, origin, *, control="outcrop_horizontal", azimuth=0.0))]
     fn field(
         &self,

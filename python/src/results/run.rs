@@ -88,7 +88,7 @@ impl PyRun {
         self.run.steps
     }
 
-    /// Whether the ground was one in plan: results are then those of the whole body, N in place of N/m.
+    /// Whether the ground was one in plan: results are then of the whole body, N in place of N/m.
     #[getter]
     fn in_plan(&self) -> bool {
         self.run.in_plan
@@ -133,7 +133,7 @@ impl PyRun {
         self.run.ground_motion.to_string()
     }
 
-    /// Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start.
+    /// Times of the kept steps: array of shape (steps + 1,), s; the first is the start.
     #[getter]
     fn time(&self) -> PyResult<Array> {
         Ok(Array::from(self.kept()?.times()))
@@ -361,8 +361,8 @@ impl PyRun {
     /// Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
     /// contact. Returns the number of grids.
     ///
-    /// With a ``structure``, that of the simulation, there is also a grid of it for each snapshot of the motion; none unless
-    /// given. ``height`` (m): that of a rigid block or body, which is drawn as a box, and of any structure but a
+    /// With the simulation's ``structure`` there is also a grid of it for each snapshot of the motion; none unless
+    /// given. ``height`` (m): height of a rigid block or body, which is drawn as a box, and of any structure but a
     /// :class:`FemModel`, :class:`ShearBuilding` or :class:`StoreyBuilding`; None for these.
     #[pyo3(signature = (folder, name, structure=None, *, height=None))]
     fn save_paraview(

@@ -8,7 +8,7 @@ use crate::error::OrRaise;
 
 /// The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 ///
-/// Forces are those of the structure on the soil, per metre of thickness.
+/// Forces act from the structure on the soil, per metre of thickness.
 #[pyclass(name = "Summary", module = "basemat", frozen, subclass)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySummary(pub(super) Summary);

@@ -188,7 +188,7 @@ impl PySimulation {
         Ok(Self { simulation, structure, hysteresis, names, duration, start, given })
     }
 
-    /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
+    /// Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the
     /// motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
     /// :meth:`reset` goes back to the start.
     ///
@@ -276,7 +276,7 @@ impl PySimulation {
         })
     }
 
-    /// An iterator that makes a step and yields its state, ``steps`` times or those of a
+    /// An iterator that makes a step and yields its state, ``steps`` times or for a
     /// ``duration`` (s); without either, those to the end of the motion.
     #[pyo3(signature = (steps=None, *, duration=None))]
     fn steps(

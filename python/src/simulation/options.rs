@@ -60,7 +60,7 @@ impl PyInitialConditions {
 ///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
 ///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
 ///     expected_steps: number of steps that will be made. Memory and the ground's weights are then
-///         ready before the first; unless given, those of the first run. More steps than fit into
+///         ready before the first; unless given, the steps of the first run. More steps than fit into
 ///         the memory of the ground's history raise an error.
 ///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
 ///         run goes on; infinite: runs end by their steps alone.
@@ -105,7 +105,7 @@ impl PySolverOptions {
 ///         unless given.
 ///     energy_balance: whether energies are booked; True by default. Without them a step takes less
 ///         time, and :attr:`Run.energy_error` is NaN.
-///     safety_friction: friction coefficient for the factor of safety against sliding; that of the
+///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
 ///         interface law unless given.
 #[pyclass(name = "ResultOptions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]

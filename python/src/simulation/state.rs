@@ -12,12 +12,12 @@ use crate::results::PyEnergyBalance;
 /// The simulation at the end of an accepted step.
 ///
 /// Displacements are changes against the static state, relative to the free field's translation
-/// unless they say otherwise. Forces are those of the structure on the soil, per metre of thickness.
+/// unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
 /// It belongs to its simulation and does not pickle: a :class:`Checkpoint` does.
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 
-/// A foundation at the end of a step; forces are those of the structure on the soil, per metre
+/// A foundation at the end of a step; forces act from the structure on the soil, per metre
 /// of thickness in the plane, of the whole body in plan (N and N·m).
 #[pyclass(name = "FoundationState", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -196,7 +196,7 @@ impl PyState {
         self.0.normal_force
     }
 
-    /// Ratio of the length of open elements to that of the base, in plan of areas.
+    /// Ratio of the length of open elements to the length of the base, in plan of areas.
     #[getter]
     fn uplifted_fraction(&self) -> f64 {
         self.0.uplifted_fraction

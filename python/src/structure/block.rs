@@ -139,7 +139,7 @@ impl PyRigidBody {
     }
 
     /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center`` and ``p_delta`` are those of :meth:`cuboid`, if given.
+    /// ``center`` and ``p_delta`` are as in :meth:`cuboid`, if given.
     #[pyo3(
         signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"

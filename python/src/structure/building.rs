@@ -181,7 +181,7 @@ impl PyShearBuilding {
 /// A storey of a :class:`StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
 /// ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
 ///
-/// ``inertia``: of the floor about x, y and z through its centre of mass (kg m²), that of the rectangle unless given.
+/// ``inertia``: of the floor about x, y and z through its centre of mass (kg m²); unless given, of the rectangle.
 /// ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default. ``damping``: dashpots
 /// beside the three stiffnesses, N s/m and N m s; 0 by default.
 #[pyclass(name = "PlanStorey", module = "basemat", frozen, dict)]

@@ -73,14 +73,14 @@ impl PyDofCombination {
         Ok(rows(DofCombination::of_base(structure.as_ref(), place).or_raise()?))
     }
 
-    /// This displacement to the right less that of the middle of the base of the ``structure``; in plan subtract a row of
+    /// This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
     /// :meth:`of_base`.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = self.in_plane(&structure)?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
-    /// This displacement to the right less that of the base of the ``structure``, its rotation included,
+    /// This displacement to the right, relative to the base of the ``structure``, its rotation included,
     /// which moves what is ``height`` (m) above it: the lateral deformation.
     fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
         let structure = self.in_plane(&structure)?;

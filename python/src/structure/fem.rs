@@ -149,7 +149,7 @@ impl PyGmshMesh {
     }
 
     /// The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
-    /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
+    /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in :class:`Layer`.
     #[pyo3(signature = (materials, *, formulation="incompatible_modes", hourglass_percent=5))]
     fn mesh(
         &self,

@@ -142,7 +142,7 @@ impl PyLeadRubber {
     }
 
     /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
-    /// ``stiffness_ratio`` is that of the class.
+    /// ``stiffness_ratio`` is as in the class.
     #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
     #[staticmethod]
     fn from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) -> PyResult<Self> {

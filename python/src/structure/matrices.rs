@@ -18,7 +18,7 @@ use crate::recipe::Shared;
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
 /// (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
 /// points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
-/// lists of :class:`FaceNode` (one by itself will do), each convex, flat and at one height, and matrices are those of the whole body. ``damping`` (n × n, N s/m per
+/// lists of :class:`FaceNode` (or one list alone), each convex, flat and at one height, and matrices refer to the whole body. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
 /// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
 /// list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.

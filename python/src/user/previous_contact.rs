@@ -191,7 +191,7 @@ impl PyLimits {
         self.0.friction
     }
 
-    /// Pressure that friction acts on beside that of the contact, Pa.
+    /// Pressure that friction acts on in addition to the contact pressure, Pa.
     #[getter]
     fn attraction(&self) -> f64 {
         self.0.attraction
