@@ -8,10 +8,11 @@
 //! move towards each other, and stay there. A [`Sweep`] over widths and friction coefficients shows how far
 //! they move.
 
+use basemat::Result;
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
 use basemat::structure::DofCombination;
-use basemat::{CaseError, Result};
+use basemat::sweep::CaseError;
 
 /// Height of the columns and distance between them, m.
 const HEIGHT: f64 = 5.0;

@@ -211,12 +211,9 @@ pub mod sweep;
 
 pub use coupled::simulation::Simulation;
 pub use error::{
-    CaseError, CaseFileError, CheckpointError, CoarseBaseError, Error, KernelFileError, LawError,
-    LayeredError, MemoryError, Observer, PlanError, Progress, RecordError, ReducedError, Result,
-    SiteError, StabilityError, StepError, SweepError, memory_limit, set_memory_limit, unobserved,
+    Error, FileError, FileFault, MemoryError, Observer, Progress, Result, memory_limit,
+    set_memory_limit, unobserved,
 };
-#[cfg(feature = "io")]
-pub use error::{MatrixFileError, MeshFileError};
 pub use linalg::Complex;
 pub use soil::Soil;
 

@@ -122,7 +122,7 @@ pub(crate) fn in_python(mut text: String) -> String {
 /// The exception of user code that led to `error`, or that of the core with its full text.
 pub(crate) fn raise(error: basemat::Error) -> PyErr {
     use basemat::Error as Core;
-    use basemat::SweepError::{File, Missing, Twice, Unreadable, Unwritten};
+    use basemat::sweep::SweepError::{Missing, Unwritten};
     if let Some(own) = take_raised() {
         return own;
     }
@@ -138,13 +138,9 @@ pub(crate) fn raise(error: basemat::Error) -> PyErr {
             exception
         }
         Core::Checkpoint(_) => classes::CheckpointError::new_err(text),
-        Core::Record { .. }
-        | Core::MeshFile { .. }
-        | Core::MatrixFile { .. }
-        | Core::Write { .. }
-        | Core::Sweep(
-            File { .. } | Missing { .. } | Twice { .. } | Unreadable { .. } | Unwritten { .. },
-        ) => classes::FileError::new_err(text),
+        Core::File(_) | Core::Sweep(Missing { .. } | Unwritten { .. }) => {
+            classes::FileError::new_err(text)
+        }
         _ => classes::InputError::new_err(text),
     }
 }

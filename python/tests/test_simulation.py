@@ -344,7 +344,7 @@ def test_errors_have_classes_and_the_full_text(soil, rocking, tmp_path) -> None:
         bm.Record.read(tmp_path / "nowhere.AT2", format="peer")
     bad = tmp_path / "bad.csv"
     bad.write_text("0.00 0.1\n0.01 0.2\n0.03 0.3\n")
-    with pytest.raises(bm.FileError, match="bad.csv, line 3: time advances by 0.02 s"):
+    with pytest.raises(bm.FileError, match="bad.csv, line 3: time step is 0.02 s"):
         bm.Record.read(bad, unit="g")
     with pytest.raises(bm.InputError, match="more than one probe is called 'a'"):
         rocking(probes=[bm.Probe.displacement("a", 0), bm.Probe.displacement("a", 1)])

@@ -86,7 +86,7 @@ impl ElasticGround {
     /// Strips are coupled through the soil.
     ///
     /// Damping that is not causal serves [`impedances`](ElasticGround::impedances) only: a simulation
-    /// returns [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
+    /// returns [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no strips or rigid bedrock without layers,
@@ -201,8 +201,7 @@ impl ElasticGround {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// Coefficients may then also fail with [`LayeredError::File`](crate::LayeredError::File) and
-    /// [`Error::Write`](crate::Error::Write).
+    /// Coefficients may then also fail with [`Error::File`](crate::Error::File).
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         self.changed(|source| source.file = Some(path.into()))
@@ -258,12 +257,11 @@ impl ElasticGround {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step,
-    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that exists in the frequency domain
+    /// [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for damping that exists in the frequency domain
     /// only. `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
     /// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed;
-    /// [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
-    /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
-    /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
+    /// [`Error::NotPassive`](crate::Error::NotPassive),
+    /// [`SoilError::Modulus`](crate::soil::SoilError::Modulus) for a damping law that is not passive.
     pub fn weights(&self, time_step: f64) -> Result<Arc<dyn ConvolutionWeights>> {
         self.source.kernel(self.elements(), time_step)
     }

@@ -13,6 +13,7 @@
 
 mod elastic_ground;
 mod elastic_source;
+pub(crate) mod error;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod influence;
@@ -27,6 +28,7 @@ mod strip_impedance;
 mod weights_ground;
 
 pub use elastic_ground::ElasticGround;
+pub use error::{GroundError, PlanError};
 pub use influence::InfluenceKernel;
 pub use shared::SharedKernels;
 pub use spring::SpringGround;

@@ -39,7 +39,7 @@ impl ElasticGround {
     /// # Errors
     /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not
     /// finite, or 0 on a half-plane, whose static stiffness is 0;
-    /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) without damping at a frequency at which
+    /// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) without damping at a frequency at which
     /// guided waves begin; [`Error::Singular`] if elements are too similar to be distinguished;
     /// [`Error::Stopped`] by the observer.
     pub fn impedances(

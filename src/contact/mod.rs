@@ -70,7 +70,7 @@ words! { pub(crate) SearchMethod, "search method", {
 } }
 
 words_with_numbers! {
-    /// Parses one of its words, or returns [`Error::Word`].
+    /// Parses one of its words, or returns [`Error::Name`].
     ///
     /// ```
     /// use basemat::contact::ContactSearch;

@@ -10,7 +10,7 @@
 //! components.
 
 use super::delassus::Delassus;
-use crate::error::LawError;
+use crate::error::{Error, LawError};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
@@ -89,10 +89,8 @@ impl ContactInput<'_> {
             && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
         {
             return Err(match law.check_start(&start) {
-                Ok(()) => LawError::NotFinite { element, mode: mode.word(), quantity, value },
-                Err(reason) => {
-                    LawError::Refused { element, mode: mode.word(), reason: Box::new(reason) }
-                }
+                Ok(()) => LawError::not_finite(element, mode.word(), quantity, value),
+                Err(reason) => LawError { element, mode: mode.word(), reason: Box::new(reason) },
             });
         }
         Ok(pair)
@@ -114,7 +112,9 @@ impl ContactInput<'_> {
         if next == mode || law.modes().contains(&next) {
             return Ok(next);
         }
-        Err(LawError::UnknownMode { element, mode: mode.word(), next: next.word() })
+        let known = law.modes().iter().map(|mode| mode.word());
+        let reason = Box::new(Error::no_name("next mode in the law's `modes`", next.word(), known));
+        Err(LawError { element, mode: mode.word(), reason })
     }
 
     /// Traction by which a trial exceeds the strength of an element's bond; `None` without a bond.
@@ -126,7 +126,7 @@ impl ContactInput<'_> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {
                 let (mode, quantity) = (self.law(element).modes()[0], "overload of the bond");
-                Err(LawError::NotFinite { element, mode: mode.word(), quantity, value })
+                Err(LawError::not_finite(element, mode.word(), quantity, value))
             }
             overload => Ok(overload),
         }

@@ -88,7 +88,7 @@ impl Simulation {
     /// exponentials.
     ///
     /// # Errors
-    /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the
+    /// [`CheckpointError::Unsupported`](crate::coupled::CheckpointError::Unsupported) if the ground, its history or the
     /// structure cannot save its state.
     ///
     /// ```
@@ -248,7 +248,7 @@ impl Checkpoint {
             return Err(CheckpointError::Format { found: self.format, needed: FORMAT }.into());
         }
         if self.sum != self.sum() {
-            return Err(CheckpointError::Damaged.into());
+            return Err(CheckpointError::Corrupt { quantity: "contents" }.into());
         }
         if self.steps > MOST_STEPS {
             return Err(CheckpointError::Corrupt { quantity: "number of steps" }.into());

@@ -44,7 +44,7 @@ pub enum Coordinates {
     /// and their accelerations would be wrong first.
     ///
     /// They need a linear structure with symmetric matrices, a positive definite mass and proportional damping;
-    /// [`ReducedError`](crate::ReducedError) names the missing property. A load of the structure's own is sampled
+    /// An error names the missing property. A load of the structure's own is sampled
     /// 17 times over the expected steps; a load that acts only in between is projected without a check. Loads of
     /// the builder have no such gap. Building takes three to six times as long as with other coordinates:
     /// orthogonalizing 100 to 250 vectors takes 70 % of it, factors at other shifts take a tenth.
@@ -58,7 +58,7 @@ pub enum Coordinates {
 }
 
 words_with_numbers! {
-    /// Parses one of its words, or returns [`Error::Word`](crate::Error::Word).
+    /// Parses one of its words, or returns [`Error::Name`](crate::Error::Name).
     ///
     /// ```
     /// use basemat::coupled::Coordinates;

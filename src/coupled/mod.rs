@@ -51,7 +51,7 @@
 //! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state that is computed in stages:
 //! first the weight, as [`GravityStage`] defines, then the loads at t = 0 with the interface laws, in increments
 //! if elements slide or yield. Contact conditions hold, with the static compliance of the ground. Without
-//! equilibrium, the error names the cause ([`crate::StabilityError`]). The structure has no support of its own and
+//! equilibrium, the error names the cause ([`crate::coupled::StabilityError`]). The structure has no support of its own and
 //! the half-plane no static datum. The search is therefore a proximal point iteration: weak springs to the last
 //! iterate, whose forces vanish at convergence. An equilibrium need not be stable: a block that P–Δ would topple
 //! stands, and falls when the ground shakes.
@@ -75,6 +75,7 @@ pub(crate) mod base;
 mod checkpoint;
 mod conditioning;
 mod coordinates;
+pub(crate) mod error;
 mod free_vibration;
 mod gravity_stage;
 mod identity;
@@ -98,6 +99,7 @@ pub use crate::structure::probe::Probe;
 pub use checkpoint::Checkpoint;
 pub use conditioning::Conditioning;
 pub use coordinates::Coordinates;
+pub use error::{CheckpointError, CoarseBaseError, StabilityError, StepError};
 pub use gravity_stage::GravityStage;
 pub use identity::Change;
 pub use interaction::{Interaction, SystemMode, interaction};

@@ -226,8 +226,7 @@ impl Scene {
         match named.into_iter().find(|(_, value)| !value.is_finite()) {
             None => Ok(compliance),
             Some((quantity, value)) => {
-                let mode = mode.word();
-                Err(LawError::NotFinite { element, mode, quantity, value })
+                Err(LawError::not_finite(element, mode.word(), quantity, value))
             }
         }
     }

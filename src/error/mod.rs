@@ -4,30 +4,28 @@
 //! complete, and printed with its chain of sources nothing occurs twice. A field called `source` is therefore
 //! written `r#source`, which `thiserror` does not treat as a source.
 
-mod case;
 mod file;
-mod ground;
 pub(crate) mod memory;
 mod part;
 mod progress;
 mod requirement;
-mod step;
 
-pub use case::{CaseError, CaseFileError, SweepError};
-pub use file::RecordError;
-#[cfg(feature = "io")]
-pub use file::{MatrixFileError, MeshFileError};
-pub use ground::{KernelFileError, LayeredError, PlanError, SiteError};
+pub(crate) use crate::bem::error::{GroundError, PlanError};
+pub(crate) use crate::coupled::error::{
+    CheckpointError, CoarseBaseError, StabilityError, StepError, along,
+};
+pub(crate) use crate::interface::error::LawError;
+pub(crate) use crate::soil::error::SoilError;
+pub(crate) use crate::structure::error::StructureError;
+pub(crate) use crate::sweep::error::{CaseError, SweepError};
+pub use file::{FileError, FileFault};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
-pub use part::{LawError, ReducedError};
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress, unobserved};
 pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, short,
 };
-pub use step::{CheckpointError, CoarseBaseError, StabilityError, StepError};
-pub(crate) use step::{along, place};
 
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -83,14 +81,9 @@ pub enum Error {
         /// First value out of range.
         bound: usize,
     },
-    /// A file that cannot be written.
-    #[error("{file} cannot be written: {reason}")]
-    Write {
-        /// The file, or its folder.
-        file: String,
-        /// The system's own message.
-        reason: std::io::ErrorKind,
-    },
+    /// A file that cannot be read or written, or whose content cannot be right.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A name that does not exist.
     #[error("there is no {quantity} called '{name}'{}", names(.known))]
     Name {
@@ -109,22 +102,12 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// A word that is not one of the choices.
-    #[error("there is no {quantity} '{text}', only {}", known.join(", "))]
-    Word {
-        /// Choice to be made.
-        quantity: &'static str,
-        /// The given word, cut to 40 characters.
-        text: String,
-        /// The words that are known.
-        known: &'static [&'static str],
-    },
-    /// A probe that does not fit the structure.
-    #[error("probe '{name}': {source}")]
-    Probe {
-        /// Name of the probe.
-        name: String,
-        /// Reason.
+    /// A fault of one of several items: of a probe, a layer, an element, a parameter.
+    #[error("{item}: {source}")]
+    Item {
+        /// The item, with its name or number.
+        item: String,
+        /// Its fault.
         r#source: Box<Error>,
     },
     /// A point without a node.
@@ -142,16 +125,6 @@ pub enum Error {
         /// Distance to it, m.
         distance: f64,
     },
-    /// A node that no element moves in the given direction.
-    #[error(
-        "node {node} has no degree of freedom in direction {direction}: no element needs one there"
-    )]
-    NoDof {
-        /// The node.
-        node: usize,
-        /// The direction.
-        direction: &'static str,
-    },
     /// A part of the scene that is missing, or does not fit another part.
     #[error("{quantity}: {needed}")]
     Scene {
@@ -168,38 +141,6 @@ pub enum Error {
         /// Reason that the part gives.
         reason: String,
     },
-    /// A ground-motion record that cannot be read.
-    #[error("{}: {reason}", place(.file, *.line))]
-    Record {
-        /// File or source of the record.
-        file: String,
-        /// Line number, from 1 (0: the file as a whole).
-        line: usize,
-        /// Fault of the line.
-        reason: RecordError,
-    },
-    /// A file of a mesh that cannot be used.
-    #[cfg(feature = "io")]
-    #[error("{}: {reason}", place(.file, *.line))]
-    MeshFile {
-        /// File or source of the mesh.
-        file: String,
-        /// Line number, from 1 (0: the file as a whole).
-        line: usize,
-        /// Fault of the line.
-        reason: MeshFileError,
-    },
-    /// A Matrix Market file that cannot be read or written.
-    #[cfg(feature = "io")]
-    #[error("{}: {reason}", place(.file, *.line))]
-    MatrixFile {
-        /// File or source of the matrix.
-        file: String,
-        /// Line number, from 1 (0: the file as a whole).
-        line: usize,
-        /// Fault of the line.
-        reason: MatrixFileError,
-    },
     /// A matrix that cannot be factored.
     #[error("{matrix} of order {order} is singular or not finite")]
     Singular {
@@ -207,52 +148,6 @@ pub enum Error {
         matrix: &'static str,
         /// Order of the matrix.
         order: usize,
-    },
-    /// A structure with stiffness to a fixed point: the ground alone must hold it up.
-    #[error(
-        "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
-         {force:.2e} N at degree of freedom {dof}, {ratio:.1e} of the stiffness around (entries of a \
-         stiffness matrix in a file need eleven digits or more)"
-    )]
-    Restrained {
-        /// Direction of the translation that is resisted.
-        direction: &'static str,
-        /// Force per metre of translation at the degree of freedom, N/m; if the structure is held so that it can hardly
-        /// translate, the force at the contact nodes.
-        force: f64,
-        /// The degree of freedom with the largest force relative to the stiffness around.
-        dof: usize,
-        /// That force relative to the stiffness around.
-        ratio: f64,
-    },
-    /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on the ground
-    /// nor move.
-    #[error(
-        "part of the structure is not joined to its base by any stiffness: {place} (dashpots alone \
-         hold nothing up)"
-    )]
-    Detached {
-        /// The degrees of freedom of all such parts, ascending.
-        dofs: Vec<usize>,
-        /// The structure's names of them: see [`Structure::describe`](crate::structure::Structure::describe).
-        place: String,
-    },
-    /// An element in the place of another one, or given twice.
-    #[error("the element on nodes {nodes:?} lies where element {first} is, and would count twice")]
-    DuplicateElement {
-        /// Index of the element that is there.
-        first: usize,
-        /// Nodes of the element that was to be added.
-        nodes: Vec<usize>,
-    },
-    /// A structure that buckles, held at its contact nodes, under the axial forces of its static state.
-    #[error(
-        "the structure buckles under the axial forces of its static state: held at its contact \
-         nodes it carries {factor:.3e} of them"
-    )]
-    Buckling {
-        /// Fraction of the axial forces at which it buckles.
-        factor: f64,
     },
     /// A matrix that would let a motion gain energy without end: negative mass or damping, or columns above their
     /// buckling load.
@@ -319,63 +214,57 @@ pub enum Error {
     /// An interface law returned an invalid value before the first step.
     #[error(transparent)]
     Law(#[from] LawError),
-    /// A structure that cannot be stepped in reduced coordinates, or not with the given accuracy.
-    #[error("reduced coordinates: {0}")]
-    Reduced(#[from] ReducedError),
-    /// A history by exponentials that does not reach the given accuracy.
-    #[error("history by exponentials: relative error {reached:e}, but {tolerance:e} was asked for")]
+    /// A structure that cannot stand on a ground, whatever its loads.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// An accuracy that is not reached.
+    #[error("{quantity}: relative error {reached:e}, but {tolerance:e} was asked for ({remedy})")]
     Accuracy {
-        /// Given tolerance of the relative error.
-        tolerance: f64,
-        /// Relative error with the largest number of poles tried.
+        /// Name of the approximation.
+        quantity: &'static str,
+        /// Smallest relative error that was reached.
         reached: f64,
+        /// Relative error that is allowed.
+        tolerance: f64,
+        /// Circumstances and remedies.
+        remedy: String,
     },
-    /// A kernel that does not allow a history by exponentials.
-    #[error("history by exponentials needs {needed}")]
-    NoExponentials {
-        /// Property that the kernel lacks.
-        needed: &'static str,
-    },
-    /// A history by exponentials that could generate energy, so that runs could grow.
+    /// Convolution weights or their exponentials that could generate energy, so that runs could grow.
     #[error(
-        "history by exponentials is not passive: least eigenvalue {margin:e} of its instantaneous \
-         part, at {frequency} radians per step (a smaller tolerance helps)"
+        "{quantity} is not passive: least eigenvalue {margin:e}, but at least {allowed:e} is needed, at {angle} radians \
+         per step on the circle |z| = {radius} (a smaller tolerance helps)"
     )]
     NotPassive {
-        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), relative to the step compliance.
+        /// Name of the operator.
+        quantity: &'static str,
+        /// Least eigenvalue of its Hermitian part: of exponentials relative to the step compliance, of weights relative
+        /// to its trace.
         margin: f64,
-        /// Angle on the unit circle, radians per step.
-        frequency: f64,
+        /// Smallest accepted value.
+        allowed: f64,
+        /// Angle on the circle, radians per step.
+        angle: f64,
+        /// Radius of the circle.
+        radius: f64,
     },
     /// A call that its [`Observer`] stopped; everything is as before the call.
     #[error("stopped by its observer: {0}")]
     Stopped(Progress),
-    /// A layered ground that cannot be computed.
-    #[error("layered ground: {0}")]
-    Layered(#[from] LayeredError),
+    /// A soil through which waves do not travel as asked.
+    #[error(transparent)]
+    Soil(#[from] SoilError),
+    /// A ground that cannot be computed or used.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
     /// A mat in plan that cannot be computed.
     #[error("mat in plan: {0}")]
     Plan(#[from] PlanError),
-    /// A soil profile that is invalid, or without strain-compatible properties.
-    #[error("site: {0}")]
-    Site(#[from] SiteError),
     /// Parameters, a table or files of a sweep that cannot be used.
     #[error(transparent)]
     Sweep(#[from] SweepError),
     /// A run could not be saved or resumed.
     #[error("checkpoint: {0}")]
-    Checkpoint(CheckpointError),
-    /// A boundary equation whose perturbations grow from step to step.
-    #[error(
-        "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \
-         fastest by {growth_per_step:.1e} per step (take a longer step or another kernel, or allow it)"
-    )]
-    Unstable {
-        /// Factor minus one by which the fastest mode grows in a step.
-        growth_per_step: f64,
-        /// Number of growing modes.
-        growing_modes: usize,
-    },
+    Checkpoint(#[from] CheckpointError),
     /// A time step that could not be solved; the simulation stays at the last accepted step.
     #[error("step {step} (t = {} s): {source}", short(*.time))]
     Step {

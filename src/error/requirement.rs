@@ -88,6 +88,11 @@ pub(crate) fn short(value: f64) -> String {
 }
 
 impl Error {
+    /// This fault of an item, named in the error.
+    pub(crate) fn within(self, item: impl Into<String>) -> Self {
+        Self::Item { item: item.into(), r#source: Box::new(self) }
+    }
+
     /// [`Error::Name`] for a name that is not in `known`.
     pub(crate) fn no_name<T: Into<String>>(
         quantity: &'static str,
@@ -102,12 +107,4 @@ impl Error {
 pub(crate) fn names(known: &[String]) -> String {
     let listed = known[..known.len().min(12)].join(", ");
     if known.is_empty() { listed } else { format!(", only {listed}") }
-}
-
-/// Message for an error of the file system.
-pub(super) fn fault_of_file(kind: std::io::ErrorKind) -> String {
-    match kind {
-        std::io::ErrorKind::NotFound => "it does not exist".to_owned(),
-        other => other.to_string(),
-    }
 }

@@ -66,8 +66,8 @@ impl Mesh {
     ///
     /// # Errors
     /// [`Error::Index`] when one of its nodes does not exist; [`Error::Size`] when it has no nodes or no
-    /// directions; [`Error::Scene`] when a node or direction occurs twice. [`Error::DuplicateElement`] when
-    /// another element has the same [`corners`](Element::corners). [`Error::DuplicateElement`] also when the
+    /// directions; [`Error::Scene`] when a node or direction occurs twice. [`Error::Part`] when
+    /// another element has the same [`corners`](Element::corners). [`Error::Part`] also when the
     /// element has mass and at least two nodes, and another element on these nodes has the same stiffness,
     /// mass and damping: enter two equal bars as one bar of twice the section. Any error of
     /// [`Element::check`].
@@ -83,7 +83,9 @@ impl Mesh {
         let key = place(&element);
         let others = self.places.get(&key).map_or(&[][..], Vec::as_slice);
         if let Some(&first) = others.iter().find(|&&other| self.counts_twice(other, &element)) {
-            return Err(Error::DuplicateElement { first, nodes: nodes.to_vec() });
+            let item = format!("element on nodes {nodes:?}");
+            let reason = format!("it lies where element {first} is, and would count twice");
+            return Err(Error::part(item, reason));
         }
         self.places.entry(key).or_default().push(self.elements.len());
         self.elements.push(Arc::new(element));

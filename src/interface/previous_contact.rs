@@ -284,7 +284,7 @@ fn check_state_variables(
 ) -> std::result::Result<(), LawError> {
     let quantity = "state variable";
     match state_variables.iter().find(|value| !value.is_finite()) {
-        Some(&value) => Err(LawError::NotFinite { element, mode: mode.word(), quantity, value }),
+        Some(&value) => Err(LawError::not_finite(element, mode.word(), quantity, value)),
         None => Ok(()),
     }
 }

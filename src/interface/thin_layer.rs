@@ -84,7 +84,7 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed
 /// element vanishes with its pressure, as the friction limit does. An open element with r > 0 carries some
 /// shear until it lands, and then loses it. A few steps in a hundred thousand then have no solution, closed
-/// or open. They return a [`StepError::Contact`](crate::StepError::Contact), which states this for up to
+/// or open. They return a [`StepError::Contact`](crate::coupled::StepError::Contact), which states this for up to
 /// eight elements. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no such steps.
 /// The other options let a closed element carry shear up to its opening, or slide against its traction, and
 /// have such steps more often.

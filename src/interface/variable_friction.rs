@@ -48,7 +48,7 @@ short_debug! { VariableFriction; self; contact: self.contact }
 impl VariableFriction {
     /// Law with the friction coefficient `coefficient(start)`: zero or more; if infinite, nothing slides.
     ///
-    /// If the coefficient is negative or NaN, the step returns a [`LawError`](crate::LawError) that names it.
+    /// If the coefficient is negative or NaN, the step returns a [`LawError`](crate::interface::LawError) that names it.
     pub fn new(coefficient: impl Fn(&PreviousContact) -> f64 + Send + 'static) -> Self {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::frictionless() }
     }

@@ -7,13 +7,13 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
-use crate::error::{Error, MatrixFileError, Result, memory};
+use crate::error::{FileFault, Result, memory};
 use crate::linalg::SparseMatrix;
 use crate::linalg::matrix::check_order;
 use crate::structure::Triplets;
 use crate::text::bounded_line;
-use crate::text::column::{excerpt, finite};
-use crate::text::file::replaced;
+use crate::text::column::{excerpt, finite, quoted};
+use crate::text::file::{replaced, unwritten};
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
@@ -22,13 +22,13 @@ impl Triplets {
     /// Entries at the same place are summed.
     ///
     /// # Errors
-    /// [`Error::MatrixFile`] with the line and the reason.
+    /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read_matrix_market(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let name = path.display().to_string();
         match File::open(path) {
             Ok(file) => Self::from_matrix_market(&name, file),
-            Err(error) => Err(whole(name, MatrixFileError::Unreadable(error.kind()))),
+            Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
         }
     }
 
@@ -44,18 +44,14 @@ impl Triplets {
     ///
     /// let wrong = text.replace("2 1 -5.0", "3 1 -5.0");
     /// let error = Triplets::from_matrix_market("spring", wrong.as_bytes()).unwrap_err();
-    /// assert_eq!(error.to_string(), "spring, line 5: index 3, but the matrix has 2 rows and columns");
+    /// assert_eq!(error.to_string(), "spring, line 5: index is 3, but must be from 1 to 2");
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::MatrixFile`] with the line and the reason.
+    /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn from_matrix_market(name: &str, mut source: impl Read) -> Result<Self> {
-        read(&mut source).map_err(|(line, reason)| Error::MatrixFile {
-            file: name.to_owned(),
-            line,
-            reason,
-        })
+        read(&mut source).map_err(|(line, fault)| fault.of(name, line))
     }
 
     /// Writes the matrix to a Matrix Market file, in the coordinate format.
@@ -65,14 +61,14 @@ impl Triplets {
     /// numbers.
     ///
     /// # Errors
-    /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite, [`Error::Memory`] for
-    /// more rows than fit into memory, [`Error::MatrixFile`] when the file cannot be written.
+    /// [`Error::Index`](crate::Error::Index) or [`Error::Input`](crate::Error::Input) for an entry out of range or not finite, [`Error::Memory`](crate::Error::Memory) for
+    /// more rows than fit into memory, [`Error::File`](crate::Error::File) when the file cannot be written.
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let mut text = Vec::new();
         write(&self.checked()?, &mut text)
             .and_then(|()| replaced(path, &text))
-            .map_err(|error| unwritable(path.display().to_string(), &error))
+            .map_err(unwritten(path))
     }
 
     /// Writes the same to any sink of bytes; errors use `name` for the sink.
@@ -80,21 +76,13 @@ impl Triplets {
     /// # Errors
     /// As for [`Triplets::write_matrix_market`].
     pub fn to_matrix_market(&self, name: &str, mut sink: impl Write) -> Result<()> {
-        write(&self.checked()?, &mut sink).map_err(|error| unwritable(name.to_owned(), &error))
+        write(&self.checked()?, &mut sink)
+            .map_err(|error| FileFault::Unwritable(error.kind()).of(name, 0))
     }
 
     fn checked(&self) -> Result<SparseMatrix> {
         SparseMatrix::new("matrix to be written", self)
     }
-}
-
-fn unwritable(file: String, error: &std::io::Error) -> Error {
-    whole(file, MatrixFileError::Unwritable(error.kind()))
-}
-
-/// The error for a file as a whole, without a line number.
-fn whole(file: String, reason: MatrixFileError) -> Error {
-    Error::MatrixFile { file, line: 0, reason }
 }
 
 /// Coordinate format; `{:e}` prints the shortest digits that read back as the same number.
@@ -118,9 +106,9 @@ fn write(matrix: &SparseMatrix, sink: &mut dyn Write) -> std::io::Result<()> {
 const ROWS: &str = "rows of the matrix";
 
 /// Contents of a line, or its fault.
-type Fallible<T> = std::result::Result<T, MatrixFileError>;
+type Fallible<T> = std::result::Result<T, FileFault>;
 /// Contents of lines; the error holds the number of the line and its fault.
-type Reason<T> = std::result::Result<T, (usize, MatrixFileError)>;
+type Reason<T> = std::result::Result<T, (usize, FileFault)>;
 
 /// The first line.
 struct Header {
@@ -142,22 +130,26 @@ fn data(lines: &mut Lines) -> Reason<Option<String>> {
 }
 
 /// The next line with data; the error `missing` at the end of the file.
-fn needed_data(lines: &mut Lines, missing: MatrixFileError) -> Reason<String> {
+fn needed_data(lines: &mut Lines, missing: FileFault) -> Reason<String> {
     data(lines)?.ok_or_else(|| lines.refuse(missing))
 }
 
 fn read(source: &mut dyn Read) -> Reason<Triplets> {
     let mut lines = Lines::new(source);
-    let Some(first) = lines.next()? else { return Err((0, MatrixFileError::Empty)) };
+    let Some(first) = lines.next()? else { return Err((0, FileFault::missing("header"))) };
     let header = header(&first).map_err(|reason| lines.refuse(reason))?;
     let needed = if header.coordinate { 3 } else { 2 };
-    let line = needed_data(&mut lines, MatrixFileError::Fields { found: 0, needed })?;
+    let line = needed_data(&mut lines, wrong_fields(0, needed))?;
     let size = fields(&line, needed)
         .and_then(|fields| fields.into_iter().map(whole_number).collect::<Fallible<Vec<_>>>())
         .map_err(|reason| lines.refuse(reason))?;
     let (rows, columns) = (size[0], size[1]);
     if rows != columns {
-        return Err(lines.refuse(MatrixFileError::NotSquare { rows, columns }));
+        return Err(lines.refuse(FileFault::value(
+            "size of the matrix",
+            format!("{rows} x {columns}"),
+            "square",
+        )));
     }
     let fits = || {
         check_order(ROWS, rows)?;
@@ -176,13 +168,17 @@ fn read(source: &mut dyn Read) -> Reason<Triplets> {
 }
 
 fn header(line: &str) -> Fallible<Header> {
-    let cut = || line.chars().take(80).collect::<String>();
     let words: Vec<String> = line.split_whitespace().map(str::to_ascii_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let &["%%matrixmarket", object, format, field, symmetry] = words.as_slice() else {
-        return Err(MatrixFileError::Header { text: cut() });
+        let found: String = line.chars().take(80).collect();
+        let needed = "'%%MatrixMarket matrix <format> <field> <symmetry>'";
+        return Err(FileFault::format(found, needed));
     };
-    let unsupported = |word: &str| MatrixFileError::Unsupported { text: word.to_owned() };
+    let unsupported = |word: &str| {
+        let needed = "a real matrix, coordinate or array, general or symmetric";
+        FileFault::format(excerpt(word), needed)
+    };
     if object != "matrix" {
         return Err(unsupported(object));
     }
@@ -206,19 +202,23 @@ fn header(line: &str) -> Fallible<Header> {
 fn fields(line: &str, needed: usize) -> Fallible<Vec<&str>> {
     let fields: Vec<&str> = line.split_ascii_whitespace().collect();
     let found = fields.len();
-    if found == needed { Ok(fields) } else { Err(MatrixFileError::Fields { found, needed }) }
+    if found == needed { Ok(fields) } else { Err(wrong_fields(found, needed)) }
 }
 
-fn not_a_number(field: &str) -> MatrixFileError {
-    MatrixFileError::NotANumber { text: excerpt(field) }
+fn wrong_fields(found: usize, needed: usize) -> FileFault {
+    FileFault::count("fields", found, needed.to_string())
+}
+
+fn wrong_entries(found: usize, needed: usize) -> FileFault {
+    FileFault::count("entries", found, format!("{needed}, as the size line states"))
 }
 
 fn whole_number(field: &str) -> Fallible<usize> {
-    field.parse().map_err(|_| not_a_number(field))
+    field.parse().map_err(|_| FileFault::value("field", quoted(field), "a whole number"))
 }
 
 fn number(field: &str) -> Fallible<f64> {
-    finite(field).ok_or_else(|| not_a_number(field))
+    finite(field).ok_or_else(|| FileFault::value("field", quoted(field), "a finite number"))
 }
 
 /// Converts an index that starts from 1 to one that starts from 0.
@@ -227,7 +227,7 @@ fn index(field: &str, order: usize) -> Fallible<usize> {
     if (1..=order).contains(&index) {
         Ok(index - 1)
     } else {
-        Err(MatrixFileError::Index { index, order })
+        Err(FileFault::value("index", index.to_string(), format!("from 1 to {order}")))
     }
 }
 
@@ -244,12 +244,12 @@ fn coordinates(
         Ok((index(fields[0], order)?, index(fields[1], order)?, number(fields[2])?))
     };
     for found in 0..needed {
-        let line = needed_data(lines, MatrixFileError::Entries { found, needed })?;
+        let line = needed_data(lines, wrong_entries(found, needed))?;
         let (row, column, value) = entry(&line).map_err(|reason| lines.refuse(reason))?;
         if header.symmetric && row < column {
-            return Err(
-                lines.refuse(MatrixFileError::AboveDiagonal { row: row + 1, column: column + 1 })
-            );
+            let found = format!("({}, {})", row + 1, column + 1);
+            let needed = "on or below the diagonal of a symmetric matrix";
+            return Err(lines.refuse(FileFault::value("entry", found, needed)));
         }
         matrix.add(row, column, value);
         if header.symmetric && row != column {
@@ -266,7 +266,7 @@ fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()
     let mut found = 0;
     for column in 0..order {
         for row in if header.symmetric { column } else { 0 }..order {
-            let line = needed_data(lines, MatrixFileError::Entries { found, needed })?;
+            let line = needed_data(lines, wrong_entries(found, needed))?;
             let value = fields(&line, 1)
                 .and_then(|fields| number(fields[0]))
                 .map_err(|reason| lines.refuse(reason))?;
@@ -286,7 +286,7 @@ fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()
 /// Error for more entries than the size line announced.
 fn end(lines: &mut Lines, needed: usize) -> Reason<()> {
     match data(lines)? {
-        Some(_) => Err(lines.refuse(MatrixFileError::Entries { found: needed + 1, needed })),
+        Some(_) => Err(lines.refuse(wrong_entries(needed + 1, needed))),
         None => Ok(()),
     }
 }

@@ -38,7 +38,7 @@ use crate::text::file::{unwritten, write_file};
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if no motion was kept ([`crate::results::Recorder::motion`]) or the
 /// name contains anything but letters, digits, `-` and `_`; [`Error::Index`](crate::Error::Index) if `shape`
-/// belongs to another structure; [`Error::Write`](crate::Error::Write) if a file cannot be written.
+/// belongs to another structure; [`Error::File`](crate::Error::File) if a file cannot be written.
 pub fn write_series(
     folder: impl AsRef<Path>,
     name: &str,
@@ -56,7 +56,7 @@ pub fn write_series(
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if no contact was kept ([`crate::results::Recorder::contact`]) or for the
-/// name, [`Error::Write`](crate::Error::Write) if a file cannot be written.
+/// name, [`Error::File`](crate::Error::File) if a file cannot be written.
 pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries) -> Result<usize> {
     let needed = "tell the recorder to keep the contact";
     require_part("series of the base", time_series.contact_frames().next().is_some(), needed)?;

@@ -8,13 +8,14 @@ use std::io::Read;
 
 use super::agreement;
 use super::column_title::check_acceleration;
+use super::fault::{not_in_header, unclear, unequal_columns};
 use super::header_line::titles_of_words;
 use super::lines::{
     Lines, Reason, Series, component, count, is_like_number, push_numbers, record, records,
 };
-use super::unit::{HeaderNumber, unclear};
+use super::unit::HeaderNumber;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 use crate::text::column::finite;
 
 /// The text files of the Turkish network (AFAD).
@@ -74,7 +75,7 @@ struct Header {
 }
 
 impl Header {
-    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), RecordError> {
+    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), FileFault> {
         let upper = key.to_ascii_uppercase();
         if upper.starts_with("NUMBER OF DATA") {
             self.points = HeaderNumber::Points.read(value)?.and_then(count);
@@ -88,7 +89,7 @@ impl Header {
     }
 
     /// Peak of a component, gal; zero if there is none: `(N-S) 13.2 (E-W) 12.2`.
-    fn peak(&self, name: &str) -> std::result::Result<f64, RecordError> {
+    fn peak(&self, name: &str) -> std::result::Result<f64, FileFault> {
         let name = name.split(['(', '[']).next().unwrap_or(name).trim().to_ascii_uppercase();
         let text = self.peaks.split_once(&format!("({name})")).map_or("", |(_, text)| text);
         match text.split_whitespace().next() {
@@ -100,7 +101,7 @@ impl Header {
 
 fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
     let (header, names, first) = head(lines)?;
-    let missing = |quantity| lines.refuse(RecordError::Missing { quantity });
+    let missing = |quantity| lines.refuse(not_in_header(quantity));
     let step = header.interval.filter(|&step| step > 0.0);
     let step = step.ok_or_else(|| missing("sampling interval (SAMPLING INTERVAL)"))?;
     let needed = header.points.ok_or_else(|| missing("number of samples (NUMBER OF DATA)"))?;
@@ -110,7 +111,7 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
     loop {
         if row.len() != names.len() {
             let (found, expected) = (row.len(), names.len());
-            return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
+            return Err(lines.refuse(unequal_columns(found, expected)));
         }
         for (column, value) in columns.iter_mut().zip(&row) {
             column.push(value * gal);
@@ -126,7 +127,7 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
     }
     let found = columns[0].len();
     if found != needed {
-        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
     }
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
@@ -163,5 +164,5 @@ fn head(lines: &mut Lines) -> Reason<(Header, Vec<String>, Vec<f64>)> {
         }
     }
     let quantity = "line with the names of the components, and numbers below it";
-    Err(lines.refuse(RecordError::Missing { quantity }))
+    Err(lines.refuse(FileFault::missing(quantity)))
 }

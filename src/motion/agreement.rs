@@ -1,6 +1,6 @@
 //! Quantities that a file states in two places, which must agree.
 
-use crate::error::RecordError;
+use crate::error::FileFault;
 
 /// Difference of a stated and the samples' duration that counts as rounding, relative to the duration.
 const DURATION: f64 = 0.03;
@@ -19,7 +19,7 @@ pub(super) fn duration(
     step: f64,
     stated: f64,
     rounding: f64,
-) -> Result<(), RecordError> {
+) -> Result<(), FileFault> {
     let found = points as f64 * step;
     // Some agencies count the samples, others the intervals between them.
     let agrees = (found - stated).abs() <= DURATION * stated.abs() + rounding + 2.0 * step;
@@ -28,7 +28,7 @@ pub(super) fn duration(
 }
 
 /// Error unless two places state the same number, up to its last printed digit.
-pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<(), RecordError> {
+pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<(), FileFault> {
     let agrees = (found - stated).abs() <= 1e-3 * found.abs();
     if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
 }
@@ -36,7 +36,7 @@ pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<
 /// Error if the peak that a file states differs from the samples' peak, for example by its unit.
 ///
 /// Both in m/s². A stated peak of zero is not checked.
-pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), RecordError> {
+pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), FileFault> {
     let largest = |mean: f64| samples.iter().fold(0.0_f64, |most, a| most.max((a - mean).abs()));
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     // The stated peak may refer to the samples before or after removal of the mean.
@@ -52,12 +52,7 @@ pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), RecordError> {
 }
 
 /// Error unless the samples have the extreme that a file states (m/s², at a time in s), in time and size.
-pub(super) fn extreme(
-    samples: &[f64],
-    step: f64,
-    time: f64,
-    stated: f64,
-) -> Result<(), RecordError> {
+pub(super) fn extreme(samples: &[f64], step: f64, time: f64, stated: f64) -> Result<(), FileFault> {
     peak(samples, stated)?;
     let close = |a: f64| (a - stated).abs() <= NEAR * stated.abs();
     let mut times = (0..samples.len()).filter(|&k| close(samples[k])).map(|k| k as f64 * step);
@@ -69,8 +64,8 @@ pub(super) fn extreme(
     Err(contradiction("time of the peak acceleration (s)", first, time))
 }
 
-fn contradiction(quantity: &'static str, found: f64, stated: f64) -> RecordError {
-    RecordError::Contradiction { quantity, found, stated }
+fn contradiction(quantity: &'static str, found: f64, stated: f64) -> FileFault {
+    FileFault::value(quantity, found.to_string(), format!("{stated}, as the file states elsewhere"))
 }
 
 #[cfg(test)]

@@ -60,7 +60,7 @@ pub enum Baseline {
 }
 
 words_with_numbers! {
-    /// Parses one of its words, or returns [`Error::Word`]. The degree is checked when a treatment is applied.
+    /// Parses one of its words, or returns [`Error::Name`]. The degree is checked when a treatment is applied.
     ///
     /// ```
     /// use basemat::motion::Baseline;

@@ -2,10 +2,10 @@
 
 use super::AccelerationUnit;
 use super::agreement;
+use super::fault::{no_acceleration, not_in_header, unclear, unprocessed};
 use super::fixed_columns::FixedColumns;
 use super::lines::{Lines, Reason, count, line_after_block, read_numbers, scaled};
-use super::unit::unclear;
-use crate::error::RecordError;
+use crate::error::FileFault;
 use crate::text::column::finite;
 
 /// Description of a block of numbers by its title.
@@ -34,19 +34,18 @@ impl Block {
 }
 
 /// The number at the beginning of a title.
-pub(super) fn points(title: &str, quantity: &'static str) -> Result<usize, RecordError> {
+pub(super) fn points(title: &str, quantity: &'static str) -> Result<usize, FileFault> {
     let first = title.split_whitespace().next();
-    first.and_then(|field| count(finite(field)?)).ok_or(RecordError::Missing { quantity })
+    first.and_then(|field| count(finite(field)?)).ok_or_else(|| not_in_header(quantity))
 }
 
 /// A time step of more than zero.
-pub(super) fn step(value: Option<f64>) -> Result<f64, RecordError> {
-    let missing = RecordError::Missing { quantity: "sampling interval" };
-    value.filter(|&step| step > 0.0).ok_or(missing)
+pub(super) fn step(value: Option<f64>) -> Result<f64, FileFault> {
+    value.filter(|&step| step > 0.0).ok_or_else(|| not_in_header("sampling interval"))
 }
 
 /// Columns of the format in a title; an error if the text after the unit contains more than a format.
-pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, RecordError> {
+pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, FileFault> {
     if !FixedColumns::is_all_of(rest) {
         return Err(unclear("unit or format", rest.trim()));
     }
@@ -59,20 +58,19 @@ pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, R
 pub(super) fn unit<'a>(
     title: &str,
     text: &'a str,
-) -> Result<(AccelerationUnit, &'a str), RecordError> {
+) -> Result<(AccelerationUnit, &'a str), FileFault> {
     let signs = text.find([',', '(', ')']).unwrap_or(text.len());
     let end = text.find("format").unwrap_or(text.len()).min(signs);
     let (name, rest) = text.split_at(end);
     let name = name.trim_matches([' ', '\t', '.']);
-    let excerpt = || title.chars().take(60).collect();
     if is_raw(name) {
-        return Err(RecordError::Unprocessed { kind: RAW, text: excerpt() });
+        return Err(unprocessed(title, RAW));
     }
     let code = rest.trim_start_matches([' ', ',']).strip_prefix('(');
     let code = code.and_then(|rest| rest.split_once(')')?.0.trim().parse().ok());
     let unit = AccelerationUnit::named(name);
     let unit = unit.filter(|&unit| code.is_none_or(|code| of_code(code) == Some(unit)));
-    let unit = unit.ok_or_else(|| RecordError::NotAcceleration { text: excerpt() })?;
+    let unit = unit.ok_or_else(|| no_acceleration(title))?;
     Ok((unit, rest.trim_start_matches(')')))
 }
 
@@ -90,11 +88,11 @@ pub(super) fn of_code(code: i64) -> Option<AccelerationUnit> {
 pub(super) fn unnamed(
     title: &str,
     known: Option<AccelerationUnit>,
-) -> Result<AccelerationUnit, RecordError> {
+) -> Result<AccelerationUnit, FileFault> {
     let words = title.split([' ', '\t', ',', '(', ')']);
     let mut others = words.filter_map(AccelerationUnit::named);
     let known = known.filter(|&unit| others.all(|word| word == unit));
-    known.ok_or_else(|| RecordError::NotAcceleration { text: title.chars().take(60).collect() })
+    known.ok_or_else(|| no_acceleration(title))
 }
 
 /// Kind of data in counts.
@@ -127,11 +125,11 @@ mod tests {
         }
         for text in ["mgal", "mg (8f10.3)", "", "cm/sec,", "g (4)", "cm/s^2 (25)", "cm/s^2 (50)"] {
             let error = unit("title", text).unwrap_err();
-            assert!(matches!(error, RecordError::NotAcceleration { .. }), "{text}: {error}");
+            assert_eq!(error, no_acceleration("title"), "{text}");
         }
         for text in ["counts (50),format=(10i8)", "volts", "counts(50)"] {
             let error = unit("title", text).unwrap_err();
-            assert!(matches!(error, RecordError::Unprocessed { .. }), "{text}: {error}");
+            assert_eq!(error, unprocessed("title", RAW), "{text}");
         }
         assert_eq!(unnamed("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)), Ok(Gal));
         assert_eq!(unnamed("4 points, in the gallery", Some(Gal)), Ok(Gal));

@@ -1,9 +1,9 @@
 //! The title of a column, and the unit that it names.
 
 use super::AccelerationUnit;
+use super::fault::title_unit;
 use super::unit_name::{LONGEST, SECONDS, is_ratio, is_unit};
-use crate::error::RecordError;
-use crate::text::column::excerpt;
+use crate::error::FileFault;
 
 /// Names of units, in lower case, that have another meaning without brackets: the least, the input, the main shock.
 const AMBIGUOUS: [&str; 11] =
@@ -12,20 +12,17 @@ const AMBIGUOUS: [&str; 11] =
 const OTHER_QUANTITIES: [&str; 5] = ["time", "vel", "velocity", "disp", "displacement"];
 
 /// Error if the title of a column of times names a unit other than the second.
-pub(super) fn check_time(title: &str) -> Result<(), RecordError> {
+pub(super) fn check_time(title: &str) -> Result<(), FileFault> {
     match time_unit(title) {
         Some(unit) if !SECONDS.contains(&unit.to_lowercase().trim_end_matches('.')) => {
-            Err(RecordError::TitleUnit { text: excerpt(title), unit: "s".into() })
+            Err(title_unit(title, "s"))
         }
         _ => Ok(()),
     }
 }
 
 /// Error if the title of a column of accelerations names a unit other than `expected`, or another quantity.
-pub(super) fn check_acceleration(
-    title: &str,
-    expected: AccelerationUnit,
-) -> Result<(), RecordError> {
+pub(super) fn check_acceleration(title: &str, expected: AccelerationUnit) -> Result<(), FileFault> {
     let same = |unit: &str| AccelerationUnit::named(unit) == Some(expected);
     let word = first_word(title);
     // `T` may be the transverse component.
@@ -33,7 +30,7 @@ pub(super) fn check_acceleration(
         || word == "t" && title.trim_start_matches(['"', '\'']).starts_with('t'))
         && !title.to_lowercase().contains("acc");
     if other || acceleration_unit(title).is_some_and(|unit| !same(unit)) {
-        return Err(RecordError::TitleUnit { text: excerpt(title), unit: expected.to_string() });
+        return Err(title_unit(title, &expected.to_string()));
     }
     Ok(())
 }

@@ -9,10 +9,10 @@ use std::io::Read;
 use super::agreement;
 use super::block::{self, Block};
 use super::csmip;
+use super::fault::{no_acceleration, out_of_range, unclear, unprocessed};
 use super::lines::{Lines, Reason, Series, component, read_numbers, record, records};
-use super::unit::unclear;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 use crate::text::column::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
@@ -121,8 +121,7 @@ fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reas
             if other.is_none()
                 && (is_title(&lower, &["vel", "disp"]) || csmip::is_other_title(&lower))
             {
-                let text = line.trim().chars().take(60).collect();
-                other = Some(lines.refuse(RecordError::NotAcceleration { text }));
+                other = Some(lines.refuse(no_acceleration(line.trim())));
             }
             if lines.number == 1 && lower.contains("uncorrected accelerogram") {
                 uncorrected = Some(line);
@@ -147,13 +146,10 @@ fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reas
     }
     match (uncorrected, wanted) {
         (Some(line), _) if found == 0 => {
-            let kind = "uncorrected data in unequal steps";
-            Err((1, RecordError::Unprocessed { kind, text: line.chars().take(60).collect() }))
+            Err((1, unprocessed(&line, "uncorrected data in unequal steps")))
         }
         (_, None) if found > 0 => Ok(channels),
-        (_, wanted) => {
-            Err(lines.refuse(RecordError::Channel { found, needed: wanted.unwrap_or(1) }))
-        }
+        (_, wanted) => Err(lines.refuse(out_of_range("channel", found, wanted.unwrap_or(1)))),
     }
 }
 
@@ -219,7 +215,7 @@ impl Header {
         &self,
         line: &str,
         unnamed: Option<AccelerationUnit>,
-    ) -> std::result::Result<Block, RecordError> {
+    ) -> std::result::Result<Block, FileFault> {
         let title = line.to_ascii_lowercase();
         let title = title.as_str();
         let points = block::points(title, "number of points")?;

@@ -7,9 +7,10 @@
 use super::AccelerationUnit;
 use super::agreement;
 use super::block::{self, Block};
+use super::fault::no_acceleration;
 use super::unit::{HeaderNumber, clause_end};
 use super::unit_name::is_unit;
-use crate::error::RecordError;
+use crate::error::FileFault;
 use crate::text::column::finite;
 
 /// Whether a line in lower case is the title of a block of acceleration.
@@ -72,7 +73,7 @@ impl Notes {
         &self,
         line: &str,
         unnamed: Option<AccelerationUnit>,
-    ) -> Result<Block, RecordError> {
+    ) -> Result<Block, FileFault> {
         let title = line.to_ascii_lowercase();
         let title = title.as_str();
         let points = block::points(title, "number of points")?;
@@ -95,18 +96,16 @@ impl Notes {
     }
 
     /// The peak acceleration, if the word behind it is a unit. Error if it is another unit than of acceleration.
-    fn peak(&self) -> Result<Option<(f64, AccelerationUnit)>, RecordError> {
+    fn peak(&self) -> Result<Option<(f64, AccelerationUnit)>, FileFault> {
         let Some((value, name)) = &self.peak else { return Ok(None) };
         match AccelerationUnit::named(name) {
-            None if is_unit(name) => {
-                Err(RecordError::NotAcceleration { text: format!("peak of {value} {name}") })
-            }
+            None if is_unit(name) => Err(no_acceleration(&format!("peak of {value} {name}"))),
             unit => Ok(unit.map(|unit| (*value, unit))),
         }
     }
 
     /// Error if the header states another number of points or another interval than the title.
-    fn agree(&self, points: usize, step: f64) -> Result<(), RecordError> {
+    fn agree(&self, points: usize, step: f64) -> Result<(), FileFault> {
         if let Some(stated) = self.points {
             agreement::number("number of points of the title", points as f64, stated)?;
         }
@@ -125,7 +124,7 @@ fn peak(text: &str) -> Option<(f64, String)> {
 }
 
 /// Time step of a title, s.
-fn step(title: &str) -> Result<Option<f64>, RecordError> {
+fn step(title: &str) -> Result<Option<f64>, FileFault> {
     if let Some(text) = volume_1(title) {
         let rate = text.split_once("pts/sec").map_or("", |(rate, _)| rate);
         return Ok(HeaderNumber::Frequency.read(rate)?.map(f64::recip));

@@ -7,10 +7,11 @@
 use std::io::Read;
 
 use super::agreement;
+use super::fault::{no_acceleration, not_in_header};
 use super::lines::{Lines, Reason, Series, count, push_numbers, record, records, scaled};
 use super::unit::HeaderNumber;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
 ///
@@ -54,10 +55,8 @@ struct Header {
 }
 
 impl Header {
-    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), RecordError> {
-        let not_acceleration = || RecordError::NotAcceleration {
-            text: format!("{key}: {value}").chars().take(60).collect(),
-        };
+    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), FileFault> {
+        let not_acceleration = || no_acceleration(&format!("{key}: {value}"));
         match key.to_ascii_uppercase().as_str() {
             "SAMPLING_INTERVAL_S" => self.interval = HeaderNumber::TimeStep.read(value)?,
             "NDATA" => self.points = HeaderNumber::Points.read(value)?.and_then(count),
@@ -93,14 +92,14 @@ fn read(lines: &mut Lines) -> Reason<Series> {
         };
         understood.map_err(|reason| lines.refuse(reason))?;
     }
-    let missing = |quantity| lines.refuse(RecordError::Missing { quantity });
+    let missing = |quantity| lines.refuse(not_in_header(quantity));
     let step = header.interval.filter(|&step| step > 0.0);
     let step = step.ok_or_else(|| missing("sampling interval (SAMPLING_INTERVAL_S)"))?;
     let needed = header.points.ok_or_else(|| missing("number of samples (NDATA)"))?;
     let unit = header.unit.ok_or_else(|| missing("unit (UNITS)"))?;
     let found = values.len();
     if found != needed {
-        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
     }
     let samples = scaled(values, unit.in_metres_per_second_squared());
     let agrees = || {

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::Record;
-use crate::error::{Error, RecordError, Result};
+use crate::error::{FileFault, Result};
 
 /// A file format of records; implement it for a format of your own.
 ///
@@ -19,7 +19,7 @@ pub trait RecordFormat {
     /// Reads the record; errors call the file `name`.
     ///
     /// # Errors
-    /// [`Error::Record`](crate::Error::Record) with the line and the reason, or
+    /// [`Error::File`](crate::Error::File) with the line and the reason, or
     /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
 
@@ -41,7 +41,7 @@ impl Record {
     /// [`PeerFormat`](super::PeerFormat) for `.AT2`, or any other [`RecordFormat`].
     ///
     /// # Errors
-    /// [`Error::Record`] with the line and the reason.
+    /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
         let (name, mut file) = open(path.as_ref())?;
         format.parse(&name, &mut file)
@@ -63,7 +63,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Record`] with the line and the reason.
+    /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read_all(
         path: impl AsRef<Path>,
         format: &dyn RecordFormat,
@@ -85,7 +85,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Record`] with the line and the reason.
+    /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn from_reader(
         name: &str,
         mut source: impl Read,
@@ -100,9 +100,6 @@ fn open(path: &Path) -> Result<(String, File)> {
     let name = path.display().to_string();
     match File::open(path) {
         Ok(file) => Ok((name, file)),
-        Err(error) => {
-            let reason = RecordError::Unreadable(error.kind());
-            Err(Error::Record { file: name, line: 0, reason })
-        }
+        Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
     }
 }

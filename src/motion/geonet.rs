@@ -7,6 +7,7 @@
 use std::io::Read;
 
 use super::agreement;
+use super::fault::{no_acceleration, not_in_header};
 use super::fixed_columns::FixedColumns;
 use super::lines::{
     Lines, Reason, Series, component, count, read_numbers, record, records, scaled,
@@ -14,7 +15,7 @@ use super::lines::{
 use super::unit::HeaderNumber;
 use super::unit_name::is_unit;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 use crate::text::column::finite;
 
 /// The `.V1A` and `.V2A` files of GeoNet (New Zealand).
@@ -75,7 +76,7 @@ struct Header {
 }
 
 impl Header {
-    fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
+    fn read(&mut self, line: &str) -> std::result::Result<(), FileFault> {
         let words: Vec<&str> = line.split_whitespace().collect();
         let after = |key: &str| {
             let at = words.iter().position(|word| word.eq_ignore_ascii_case(key))?;
@@ -91,7 +92,7 @@ impl Header {
             self.peak = after("peak").unwrap_or(0.0);
             self.unit.get_or_insert(1.0);
         } else if lower.starts_with("acceleration:") && words.iter().any(|word| is_unit(word)) {
-            return Err(RecordError::NotAcceleration { text: line.chars().take(60).collect() });
+            return Err(no_acceleration(line));
         } else if let Some((_, text)) = lower.split_once("in units of") {
             let (value, _) = text.split_once("mm/s/s").unwrap_or(("", ""));
             self.unit = HeaderNumber::Peak.read(value)?;
@@ -113,8 +114,7 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
             continue;
         }
         if !first.to_ascii_lowercase().contains("accelerogram") {
-            let text = first.chars().take(60).collect();
-            return Err(lines.refuse(RecordError::NotAcceleration { text }));
+            return Err(lines.refuse(no_acceleration(&first)));
         }
         components.push(read_component(lines)?);
     }
@@ -126,13 +126,13 @@ fn read_component(lines: &mut Lines) -> Reason<Series> {
     let mut header = Header::default();
     for _ in 1..TEXT_LINES {
         let Some(line) = lines.next()? else {
-            return Err(lines.refuse(RecordError::Missing { quantity: "header of 16 lines" }));
+            return Err(lines.refuse(FileFault::missing("header of 16 lines")));
         };
         header.read(&line).map_err(|reason| lines.refuse(reason))?;
     }
     let integers = read_numbers(lines, 40, Some(INTEGERS))?;
     let reals = read_numbers(lines, 60, Some(REALS))?;
-    let missing = |quantity| lines.refuse(RecordError::Missing { quantity });
+    let missing = |quantity| lines.refuse(not_in_header(quantity));
     let points = count(integers[33]).ok_or_else(|| missing("number of points (34th integer)"))?;
     let step = Some(reals[25]).filter(|&step| step > 0.0);
     let step = step.ok_or_else(|| missing("sampling interval (26th real)"))?;

@@ -8,7 +8,7 @@ use super::column_title::{
     acceleration_unit, check_acceleration, check_time, first_word, is_unit_alone, time_unit,
 };
 use super::unit_name::is_unit;
-use crate::error::RecordError;
+use crate::error::FileFault;
 use crate::text::column::finite;
 
 /// Most lines before the numbers in which titles are sought.
@@ -46,7 +46,7 @@ pub(super) struct ColumnTitles(Vec<LineTitles>);
 
 impl ColumnTitles {
     /// Error if the titles of a column of times, counted from 1, name a unit other than the second.
-    pub(super) fn check_time(&self, column: usize) -> Result<(), RecordError> {
+    pub(super) fn check_time(&self, column: usize) -> Result<(), FileFault> {
         let alone = |word: &str| word == "t" || word == "time";
         let lines = self.0.iter().rev();
         let mut titles = lines.filter_map(|line| line.title(column).or_else(|| line.alone(alone)));
@@ -58,7 +58,7 @@ impl ColumnTitles {
         &self,
         column: usize,
         expected: AccelerationUnit,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), FileFault> {
         if let Some(name) = self.name(column) {
             check_acceleration(name, expected)?;
         }

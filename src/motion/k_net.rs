@@ -7,10 +7,11 @@ use std::io::Read;
 
 use super::agreement;
 use super::column_title::check_acceleration;
+use super::fault::{not_in_header, unclear};
 use super::lines::{Lines, Reason, Series, push_numbers, record, records, scaled};
-use super::unit::{HeaderNumber, unclear};
+use super::unit::HeaderNumber;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 use crate::text::column::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
@@ -62,7 +63,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     let mut header = Header::default();
     loop {
         let Some(line) = lines.next()? else {
-            return Err(lines.refuse(RecordError::Missing { quantity: "line `Memo.`" }));
+            return Err(lines.refuse(FileFault::missing("line `Memo.`")));
         };
         if line.to_ascii_lowercase().starts_with("memo") {
             break;
@@ -70,9 +71,8 @@ fn read(lines: &mut Lines) -> Reason<Series> {
         let understood = header.read(&line);
         understood.map_err(|reason| lines.refuse(reason))?;
     }
-    let need = |value: Option<f64>, quantity| {
-        value.ok_or_else(|| lines.refuse(RecordError::Missing { quantity }))
-    };
+    let need =
+        |value: Option<f64>, quantity| value.ok_or_else(|| lines.refuse(not_in_header(quantity)));
     let frequency = need(header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
     let duration = need(header.duration, "duration (`Duration Time(s)`)")?;
     let scale = need(header.scale, "scale (`Scale Factor`, gal per count)")?;
@@ -86,10 +86,10 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     if needed != found as f64 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let needed = needed as usize;
-        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
     }
     if found < 2 {
-        return Err(lines.refuse(RecordError::TooShort { found, needed: 2 }));
+        return Err(lines.refuse(FileFault::count("samples", found, "at least 2")));
     }
     let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
     let samples = scaled(values, scale * gal);
@@ -100,14 +100,14 @@ fn read(lines: &mut Lines) -> Reason<Series> {
 
 impl Header {
     /// Stores the value of a header line with a needed key.
-    fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
+    fn read(&mut self, line: &str) -> std::result::Result<(), FileFault> {
         let lower = line.to_ascii_lowercase();
         let positive = |quantity: HeaderNumber, unit: &str| match lower.find(unit) {
             Some(at) => {
                 let value = quantity.read(&line[at + unit.len()..])?;
                 Ok(value.filter(|&value| value > 0.0))
             }
-            None => Ok::<_, RecordError>(None),
+            None => Ok::<_, FileFault>(None),
         };
         let (known, value) = if lower.starts_with("sampling freq") {
             (&mut self.frequency, positive(HeaderNumber::Frequency, "(hz)")?)
@@ -133,7 +133,7 @@ impl Header {
 }
 
 /// Gal per count: `3920(gal)/6182761`. `None` if the text has another form or is not a scale.
-fn scale(text: &str) -> std::result::Result<Option<f64>, RecordError> {
+fn scale(text: &str) -> std::result::Result<Option<f64>, FileFault> {
     let Some(at) = text.to_ascii_lowercase().find("(gal)/") else { return Ok(None) };
     let (range, counts) = (&text[..at], &text[at + "(gal)/".len()..]);
     let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));

@@ -9,11 +9,11 @@ use std::io::Read;
 use super::agreement;
 use super::clock::Clock;
 use super::column_title::check_acceleration;
+use super::fault::{drifting, not_a_number, not_in_header, unequal_columns};
 use super::lines::{Lines, Reason, Series, component, number, record, records};
 use super::unit::HeaderNumber;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
-use crate::text::column::excerpt;
+use crate::error::{FileFault, Result};
 
 const GAL: AccelerationUnit = AccelerationUnit::Gal;
 /// Difference of a time from equal steps that counts as rounding, in units of the times' last digit.
@@ -75,7 +75,7 @@ struct Header {
 }
 
 impl Header {
-    fn read(&mut self, fields: &[&str]) -> std::result::Result<(), RecordError> {
+    fn read(&mut self, fields: &[&str]) -> std::result::Result<(), FileFault> {
         let [key, values @ ..] = fields else { return Ok(()) };
         let value = values.first().copied().unwrap_or("");
         let key = key.trim_start_matches('#').trim_start().to_ascii_lowercase();
@@ -120,14 +120,14 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
                 header.read(&fields).map_err(|reason| lines.refuse(reason))?;
                 continue;
             }
-            return Err(lines.refuse(RecordError::NotANumber { text: excerpt(fields[0]) }));
+            return Err(lines.refuse(not_a_number(fields[0])));
         };
         if columns.is_empty() {
             columns.resize(header.names.len().saturating_sub(1), Vec::new());
         }
         let (found, expected) = (fields.len(), header.names.len());
         if found != expected || expected < 2 {
-            return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
+            return Err(lines.refuse(unequal_columns(found, expected)));
         }
         times.push(time);
         for (k, column) in columns.iter_mut().enumerate() {
@@ -145,14 +145,14 @@ fn check(
     times: &[f64],
     resolution: f64,
     columns: &[Vec<f64>],
-) -> std::result::Result<Vec<Series>, RecordError> {
-    let missing = RecordError::Missing { quantity: "sampling frequency (`Sampling Freq(Hz)`)" };
-    let frequency = header.frequency.filter(|&frequency| frequency > 0.0).ok_or(missing)?;
+) -> std::result::Result<Vec<Series>, FileFault> {
+    let missing = || not_in_header("sampling frequency (`Sampling Freq(Hz)`)");
+    let frequency = header.frequency.filter(|&frequency| frequency > 0.0).ok_or_else(missing)?;
     let step = 1.0 / frequency;
     for (k, &time) in times.iter().enumerate() {
         let expected = times[0] + k as f64 * step;
         if (time - expected).abs() > ROUNDING * resolution + 0.01 * step {
-            return Err(RecordError::DriftingStep { found: time, expected });
+            return Err(drifting(time, expected));
         }
     }
     if let Some(stated) = header.duration {

@@ -3,25 +3,26 @@
 use std::io::Read;
 
 use super::clock::Clock;
+use super::fault::{not_a_number, off_columns, out_of_range};
 use super::fixed_columns::FixedColumns;
-use crate::error::{Error, RecordError, Result};
+use crate::error::{Error, FileFault, Result};
 use crate::text::bounded_line;
-use crate::text::column::{distinct, excerpt, finite, has_implied_point, in_field};
+use crate::text::column::{distinct, finite, has_implied_point, in_field};
 
 /// Contents of lines, or the number and the fault of a line that cannot be read.
-pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
+pub(super) type Reason<T> = std::result::Result<T, (usize, FileFault)>;
 
 /// The lines of a text.
 pub(super) type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
 /// Converts a line's fault to an error that names `file`.
-pub(super) fn refused(file: &str) -> impl Fn((usize, RecordError)) -> Error {
-    move |(line, reason)| Error::Record { file: file.to_owned(), line, reason }
+pub(super) fn refused(file: &str) -> impl Fn((usize, FileFault)) -> Error {
+    move |(line, fault)| fault.of(file, line)
 }
 
 /// A finite number.
-pub(super) fn number(field: &str) -> std::result::Result<f64, RecordError> {
-    finite(field).ok_or_else(|| RecordError::NotANumber { text: excerpt(field) })
+pub(super) fn number(field: &str) -> std::result::Result<f64, FileFault> {
+    finite(field).ok_or_else(|| not_a_number(field))
 }
 
 /// The numbers of a line; a sign may begin a number right after another.
@@ -49,7 +50,7 @@ fn free_fields(line: &str) -> Vec<&str> {
 pub(super) fn push_numbers(
     line: &str,
     values: &mut Vec<f64>,
-) -> std::result::Result<(), RecordError> {
+) -> std::result::Result<(), FileFault> {
     for field in free_fields(line) {
         values.push(number(field)?);
     }
@@ -71,7 +72,7 @@ fn push_columns(
     columns: FixedColumns,
     points: &mut Points,
     values: &mut Vec<f64>,
-) -> std::result::Result<(), RecordError> {
+) -> std::result::Result<(), FileFault> {
     let value = |field: &&str| in_field(field, columns.decimals, columns.scale);
     let in_columns = columns.fields(line).and_then(|fields| {
         let numbers: Option<Vec<f64>> = fields.iter().map(value).collect();
@@ -94,7 +95,7 @@ fn push_columns(
     values.extend(numbers);
     // A scale factor applies only to lines that match the format.
     if points.implied && points.whole || columns.scale > 0 && !kept {
-        return Err(RecordError::OffColumns { text: excerpt(line) });
+        return Err(off_columns(line));
     }
     Ok(())
 }
@@ -110,7 +111,7 @@ pub(super) fn read_numbers(
     while values.len() < needed {
         let Some(line) = lines.next_columns()? else {
             let found = values.len();
-            return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+            return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
         };
         let pushed = match columns {
             Some(columns) => push_columns(&line, columns, &mut points, &mut values),
@@ -120,7 +121,7 @@ pub(super) fn read_numbers(
     }
     if values.len() > needed {
         let found = values.len();
-        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
     }
     Ok(values)
 }
@@ -129,7 +130,7 @@ pub(super) fn read_numbers(
 pub(super) fn end_of_numbers(lines: &mut Lines, needed: usize) -> Reason<()> {
     while let Some(line) = lines.next()? {
         if !line.is_empty() {
-            return Err(lines.refuse(RecordError::SampleCount { found: needed + 1, needed }));
+            return Err(lines.refuse(FileFault::count("samples", needed + 1, needed.to_string())));
         }
     }
     Ok(())
@@ -144,7 +145,7 @@ pub(super) fn line_after_block(lines: &mut Lines, needed: usize) -> Reason<Optio
         }
         if !line.is_empty() {
             let found = needed + free_fields(&line).len();
-            return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+            return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
         }
     }
     Ok(None)
@@ -175,7 +176,7 @@ pub(super) struct Series {
 pub(super) fn record(file: &str, parsed: Reason<Series>) -> Result<super::Record> {
     let series = parsed.map_err(refused(file))?;
     // Faults of the whole file.
-    let reason = |error| RecordError::Unusable(Box::new(error));
+    let reason = |error| FileFault::Unusable(Box::new(error));
     super::Record::new(series.step, series.samples)
         .map_err(|error| refused(file)((0, reason(error))))
 }
@@ -197,7 +198,7 @@ pub(super) fn component(number: usize, parsed: Reason<Vec<Series>>) -> Reason<Se
     let found = parsed.len();
     let index = number.checked_sub(1);
     let series = index.and_then(|index| parsed.into_iter().nth(index));
-    series.ok_or((0, RecordError::Channel { found, needed: number }))
+    series.ok_or_else(|| (0, out_of_range("channel", found, number)))
 }
 
 /// The fields of a line, separated by commas, or else semicolons, or else white space.
@@ -249,7 +250,7 @@ impl<'a> Fields<'a> {
         &self,
         column: usize,
         clock: &mut Clock,
-    ) -> std::result::Result<f64, RecordError> {
+    ) -> std::result::Result<f64, FileFault> {
         let field = column.checked_sub(1).and_then(|index| self.texts.get(index));
         let of_day = field.filter(|field| field.contains(':'));
         if let Some(time) = of_day.and_then(|field| clock.read(field)) {
@@ -261,14 +262,14 @@ impl<'a> Fields<'a> {
     }
 
     /// Finite number in a column, counted from 1.
-    pub(super) fn number(&self, column: usize) -> std::result::Result<f64, RecordError> {
-        let missing = RecordError::Column { found: self.texts.len(), needed: column };
-        let index = column.checked_sub(1).filter(|&index| index < self.texts.len());
-        let index = index.ok_or(missing)?;
+    pub(super) fn number(&self, column: usize) -> std::result::Result<f64, FileFault> {
+        let found = self.texts.len();
+        let index = column.checked_sub(1).filter(|&index| index < found);
+        let index = index.ok_or_else(|| out_of_range("column", found, column))?;
         // The previous field, too, may be the other part of a number.
         for first in index.saturating_sub(1)..=index {
             if let Some(text) = self.decimal_comma_after(first) {
-                return Err(RecordError::NotANumber { text: excerpt(&text) });
+                return Err(not_a_number(&text));
             }
         }
         number(self.texts[index])

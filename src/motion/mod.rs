@@ -14,6 +14,7 @@ mod column_title;
 mod cosmos;
 mod csmip;
 mod esm;
+mod fault;
 mod filter;
 mod fixed_columns;
 mod format;

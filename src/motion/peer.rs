@@ -6,10 +6,11 @@
 
 use std::io::Read;
 
+use super::fault::{no_acceleration, not_in_header, unclear};
 use super::lines::{Lines, Reason, Series, count, end_of_numbers, read_numbers, record, scaled};
-use super::unit::{HeaderNumber, clause_end, unclear};
+use super::unit::{HeaderNumber, clause_end};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 use crate::text::column::finite;
 
 const G: AccelerationUnit = AccelerationUnit::StandardGravity;
@@ -49,27 +50,26 @@ impl RecordFormat for PeerFormat {
 }
 
 fn read(lines: &mut Lines) -> Reason<Series> {
-    let missing = RecordError::Missing { quantity: "number of points and time step (NPTS, DT)" };
+    let missing = || not_in_header("number of points and time step (NPTS, DT)");
     let mut in_g = false;
     let (points, step) = loop {
         let line = match lines.next()? {
             Some(line) if lines.number <= HEADER_LINES => line.to_ascii_uppercase(),
-            _ => return Err(lines.refuse(missing)),
+            _ => return Err(lines.refuse(missing())),
         };
         match acceleration_in_g(&line) {
             Some(false) => {
-                let text = line.chars().take(60).collect();
-                return Err(lines.refuse(RecordError::NotAcceleration { text }));
+                return Err(lines.refuse(no_acceleration(&line)));
             }
             said => in_g |= said.is_some(),
         }
         if has_word(&line, "NPTS") && has_word(&line, "DT") {
             let header = header(&line).map_err(|reason| lines.refuse(reason))?;
-            break header.ok_or_else(|| lines.refuse(missing))?;
+            break header.ok_or_else(|| lines.refuse(missing()))?;
         }
     };
     if !in_g {
-        return Err(lines.refuse(RecordError::Missing { quantity: "unit (UNITS OF G)" }));
+        return Err(lines.refuse(not_in_header("unit (UNITS OF G)")));
     }
     let factor = G.in_metres_per_second_squared();
     let values = read_numbers(lines, points, None)?;
@@ -154,7 +154,7 @@ fn has_word(line: &str, word: &str) -> bool {
 }
 
 /// Number of points and time step, s.
-fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, RecordError> {
+fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, FileFault> {
     let (points, step) = if line.contains(['=', ':']) {
         (
             assigned(line, "NPTS", HeaderNumber::Points)?,
@@ -175,7 +175,7 @@ fn assigned(
     line: &str,
     key: &str,
     quantity: HeaderNumber,
-) -> std::result::Result<Option<f64>, RecordError> {
+) -> std::result::Result<Option<f64>, FileFault> {
     let mut pieces = line.split(['=', ':']).peekable();
     let mut found = None;
     // The key at the end of the previous piece.
@@ -206,7 +206,7 @@ fn last_clause(text: &str) -> &str {
 }
 
 /// Points and step of `4  .01  NPTS, DT`, perhaps with the unit of time at the end.
-fn listed(line: &str) -> std::result::Result<(Option<f64>, Option<f64>), RecordError> {
+fn listed(line: &str) -> std::result::Result<(Option<f64>, Option<f64>), FileFault> {
     const GAPS: [char; 3] = [' ', '\t', ','];
     let (values, keys) = line.split_once("NPTS").unwrap_or((line, ""));
     let values = values.trim_matches(GAPS);

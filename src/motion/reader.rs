@@ -5,14 +5,14 @@
 use std::io::Read;
 
 use super::clock::Clock;
+use super::fault::{drifting, header_line, unequal_columns};
 use super::header_line::{ColumnTitles, HeaderLines};
 use super::lines::{
     Fields, Lines, Reason, Series, component, is_failure, is_header, is_like_number, record,
     records,
 };
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
-use crate::text::column::excerpt;
+use crate::error::{FileFault, Result};
 
 /// Largest difference of a sample from equal steps, relative to the step.
 ///
@@ -53,7 +53,7 @@ const COARSE: f64 = 3.0;
 ///     ..ColumnFormat::new(AccelerationUnit::StandardGravity)
 /// };
 /// let error = Record::from_reader("my.txt", text.as_bytes(), &format).unwrap_err();
-/// assert_eq!(error.to_string(), "my.txt, line 3: time advances by 0.02 s, but by 0.01 s before");
+/// assert_eq!(error.to_string(), "my.txt, line 3: time step is 0.02 s, but must be 0.01 s, as before");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -133,10 +133,10 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Serie
     let last_line = table.lines.last().copied().unwrap_or(0);
     let found = table.lines.len();
     if found < 2 {
-        return Err((last_line, RecordError::TooShort { found, needed: 2 }));
+        return Err((last_line, FileFault::count("samples", found, "at least 2")));
     }
     if let Some(needed) = format.samples.filter(|&needed| needed != found) {
-        return Err((last_line, RecordError::SampleCount { found, needed }));
+        return Err((last_line, FileFault::count("samples", found, needed.to_string())));
     }
     let step = match format.time_step {
         Some(step) => step,
@@ -190,7 +190,7 @@ impl Table {
                 chosen = chosen_columns(format, all, filled);
                 // Without times, only this check distinguishes `Station 7` from a sample.
                 if let Some(field) = first_word(&fields).filter(|_| format.time_step.is_some()) {
-                    return Err(lines.refuse(RecordError::HeaderLine { text: excerpt(field) }));
+                    return Err(lines.refuse(header_line(field)));
                 }
             }
             if format.time_step.is_none() {
@@ -199,7 +199,8 @@ impl Table {
                     .push(fields.time(format.time_column, &mut table.clock).map_err(refuse)?);
             }
             if !all && format.acceleration_column.is_none() && filled > 1 {
-                return Err(refuse(RecordError::SeveralColumns { found: filled }));
+                let needed = "1 (name the one of the acceleration)";
+                return Err(refuse(FileFault::count("columns", filled, needed)));
             }
             for (k, &column) in chosen.iter().enumerate() {
                 let value = fields.number(column).map_err(refuse)?;
@@ -216,7 +217,7 @@ impl Table {
             let found = if all { filled } else { found };
             let expected = *columns.get_or_insert(found);
             if found != expected && (all || fields.may_be_shifted(&text)) {
-                return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
+                return Err(lines.refuse(unequal_columns(found, expected)));
             }
             table.lines.push(lines.number);
         }
@@ -229,18 +230,17 @@ impl Table {
         let first = times[1] - times[0];
         let last = times.len() - 1;
         let mean = (times[last] - times[0]) / last as f64;
-        let unequal =
-            |k: usize, why: RecordError| (self.lines[k], self.rounded(mean).unwrap_or(why));
+        let unequal = |k: usize, why: FileFault| (self.lines[k], self.rounded(mean).unwrap_or(why));
         for k in 1..=last {
             let found = times[k] - times[k - 1];
             // the difference of huge times may be infinite
             if !(found > 0.0 && found < f64::INFINITY) {
-                let why = RecordError::TimeNotIncreasing { found: decimal(found) };
+                let why = time_step(found, "above zero".into());
                 return Err(if found == 0.0 { unequal(k, why) } else { (self.lines[k], why) });
             }
             if (found - first).abs() > STEP_TOLERANCE * first {
-                let (found, expected) = (decimal(found), decimal(first));
-                return Err(unequal(k, RecordError::UnequalStep { found, expected }));
+                let needed = format!("{} s, as before", decimal(first));
+                return Err(unequal(k, time_step(found, needed)));
             }
         }
         let exact = |(k, &time): (usize, &f64)| time == k as f64 * first;
@@ -251,15 +251,14 @@ impl Table {
         for (k, &time) in times.iter().enumerate() {
             let expected = times[0] + k as f64 * mean;
             if (time - expected).abs() > STEP_TOLERANCE * mean {
-                let (found, expected) = (decimal(time), decimal(expected));
-                return Err(unequal(k, RecordError::DriftingStep { found, expected }));
+                return Err(unequal(k, drifting(decimal(time), decimal(expected))));
             }
         }
         Ok(decimal(mean))
     }
 
     /// The error for times that are equally spaced up to rounding; `None` if they are not.
-    fn rounded(&self, mean: f64) -> Option<RecordError> {
+    fn rounded(&self, mean: f64) -> Option<FileFault> {
         let resolution = self.clock.resolution()?;
         let begin = self.times[0];
         let near = |(k, time): (usize, &f64)| {
@@ -273,7 +272,11 @@ impl Table {
         let equal = (coarse || mean > COARSE * resolution)
             && most - least <= (1.0 + 1e-6) * resolution
             && self.times.iter().enumerate().all(near);
-        equal.then(|| RecordError::RoundedTimes { resolution, step: decimal(mean) })
+        equal.then(|| {
+            let needed =
+                format!("given (`time_step`): times rounded to {resolution} s do not tell it");
+            FileFault::value("time step", format!("near {} s", decimal(mean)), needed)
+        })
     }
 }
 
@@ -291,7 +294,7 @@ fn names(
     format: &ColumnFormat,
     titles: &ColumnTitles,
     chosen: &[usize],
-) -> std::result::Result<Vec<String>, RecordError> {
+) -> std::result::Result<Vec<String>, FileFault> {
     if format.time_step.is_none() {
         titles.check_time(format.time_column)?;
     }
@@ -303,17 +306,13 @@ fn names(
 }
 
 /// Turns a line's fault into a header's fault, for a line before all numbers that starts with a word.
-fn in_header(why: RecordError, fields: &Fields, no_number_yet: bool) -> RecordError {
-    let of_header = matches!(
-        why,
-        RecordError::NotANumber { .. }
-            | RecordError::Column { .. }
-            | RecordError::SeveralColumns { .. }
-    );
-    match first_word(fields).filter(|_| of_header && no_number_yet) {
-        Some(field) => RecordError::HeaderLine { text: excerpt(field) },
-        None => why,
-    }
+fn in_header(why: FileFault, fields: &Fields, no_number_yet: bool) -> FileFault {
+    first_word(fields).filter(|_| no_number_yet).map_or(why, header_line)
+}
+
+/// A time step (s) that is not as it must be.
+fn time_step(found: f64, needed: String) -> FileFault {
+    FileFault::value("time step", format!("{} s", decimal(found)), needed)
 }
 
 /// The first field of a line; `None` unless it is a word.

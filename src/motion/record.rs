@@ -2,9 +2,7 @@
 
 use super::Baseline;
 use super::integral::{Motion, integrate};
-use crate::error::{
-    Error, MemoryError, RecordError, Result, all_finite, finite, memory, positive, require,
-};
+use crate::error::{MemoryError, Result, all_finite, at_least, finite, memory, positive, require};
 use crate::text::column::{Cell, line};
 use crate::text::csv::Csv;
 
@@ -51,17 +49,11 @@ impl Record {
     /// Record from its time step (s) and at least two samples of acceleration (m/s²).
     ///
     /// # Errors
-    /// [`Error::Input`] unless the time step is positive and all slopes, velocities and displacements are finite;
-    /// [`Error::NotFinite`] for a sample that is not finite; [`Error::Record`] for fewer than two samples.
+    /// [`Error::Input`](crate::Error::Input) unless the time step is positive and all slopes, velocities and displacements are finite;
+    /// [`Error::NotFinite`](crate::Error::NotFinite) for a sample that is not finite; [`Error::Size`](crate::Error::Size) for fewer than two samples.
     pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
         positive("time step of the record", time_step)?;
-        if acceleration.len() < 2 {
-            return Err(Error::Record {
-                file: "samples".into(),
-                line: 0,
-                reason: RecordError::TooShort { found: acceleration.len(), needed: 2 },
-            });
-        }
+        at_least("samples of the record", acceleration.len(), 2)?;
         all_finite("acceleration of the record", &acceleration)?;
         let (velocity, displacement) = integrate(time_step, &acceleration);
         for pair in acceleration.windows(2) {
@@ -89,7 +81,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// As for [`Record::new`]; [`Error::Input`] for a duration that is not positive, [`Error::Memory`] for more
+    /// As for [`Record::new`]; [`Error::Input`](crate::Error::Input) for a duration that is not positive, [`Error::Memory`](crate::Error::Memory) for more
     /// samples than fit into memory.
     pub fn from_fn(
         time_step: f64,
@@ -153,7 +145,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the step is positive, [`Error::Memory`] for more samples than fit into memory.
+    /// [`Error::Input`](crate::Error::Input) unless the step is positive, [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
     pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
@@ -174,7 +166,7 @@ impl Record {
     /// Record with all samples multiplied by `factor`, which may be negative.
     ///
     /// # Errors
-    /// [`Error::Input`] if the factor or a product is not finite.
+    /// [`Error::Input`](crate::Error::Input) if the factor or a product is not finite.
     pub fn scaled(&self, factor: f64) -> Result<Self> {
         finite("scale factor of the record", factor)?;
         Self::new(self.step, self.acceleration.iter().map(|a| a * factor).collect())
@@ -189,7 +181,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless `peak` is positive and the record is not zero throughout.
+    /// [`Error::Input`](crate::Error::Input) unless `peak` is positive and the record is not zero throughout.
     pub fn scaled_to_peak(&self, peak: f64) -> Result<Self> {
         positive("wanted peak acceleration", peak)?;
         let present = positive("peak acceleration of the record", self.peak_acceleration())?;
@@ -208,7 +200,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] for a degree out of its range, or too high for the number of samples.
+    /// [`Error::Input`](crate::Error::Input) for a degree out of its range, or too high for the number of samples.
     pub fn with_baseline(&self, baseline: Baseline) -> Result<Self> {
         Self::new(self.step, baseline.apply(&self.acceleration)?)
     }
@@ -270,7 +262,7 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 ≤ `start` < `end` and `end` is not after the last sample.
+    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `start` < `end` and `end` is not after the last sample.
     pub fn trimmed(&self, start: f64, end: f64) -> Result<Self> {
         let (step, last) = (self.time_step(), self.len() - 1);
         let needed = "from zero to before the last sample";

@@ -7,12 +7,13 @@
 use std::io::Read;
 
 use super::agreement;
+use super::fault::{no_acceleration, not_in_header, unprocessed};
 use super::fixed_columns::FixedColumns;
 use super::lines::{
     Lines, Reason, Series, count, line_after_block, read_numbers, record, records, scaled,
 };
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{RecordError, Result};
+use crate::error::{FileFault, Result};
 
 /// The `.smc` files of the U.S. Geological Survey, one component a file, in cm/s².
 ///
@@ -51,7 +52,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     let mut number = 0;
     while number < TEXT_LINES {
         let Some(line) = lines.next()? else {
-            return Err(lines.refuse(RecordError::Missing { quantity: "header of 11 lines" }));
+            return Err(lines.refuse(FileFault::missing("header of 11 lines")));
         };
         // Blank lines before the first one.
         if number == 0 && line.is_empty() {
@@ -60,8 +61,7 @@ fn read(lines: &mut Lines) -> Reason<Series> {
         number += 1;
         let accelerogram = line.to_ascii_uppercase().contains("CORRECTED ACCELEROGRAM");
         if number == 1 && !accelerogram {
-            let text = line.chars().take(60).collect();
-            return Err(lines.refuse(RecordError::NotAcceleration { text }));
+            return Err(lines.refuse(no_acceleration(&line)));
         }
         if let Some((_, component)) = line.split_once("component=") {
             component.trim().clone_into(&mut name);
@@ -72,10 +72,10 @@ fn read(lines: &mut Lines) -> Reason<Series> {
     // The first value of each kind means unknown.
     let real = |index: usize| Some(reals[index]).filter(|&value| value != reals[0]);
     let Some(rate) = real(1).filter(|&rate| rate > 0.0 && rate < FASTEST) else {
-        let (kind, text) = ("data in unequal steps", "no number of samples a second".to_owned());
-        return Err(lines.refuse(RecordError::Unprocessed { kind, text }));
+        let kind = "no number of samples a second is stated";
+        return Err(lines.refuse(unprocessed("data in unequal steps", kind)));
     };
-    let missing = |quantity| lines.refuse(RecordError::Missing { quantity });
+    let missing = |quantity| lines.refuse(not_in_header(quantity));
     let needed = count(integers[16]).ok_or_else(|| missing("number of samples (17th integer)"))?;
     // A whole number from 0: the number of comments.
     let comments = (0..=10_000).find(|&number| f64::from(number) == integers[15]);

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use crate::error::RecordError;
-use crate::text::column::{excerpt, finite};
+use super::fault::unclear;
+use crate::error::FileFault;
+use crate::text::column::finite;
 
 /// Standard gravity, 9.80665 m/s² (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -125,7 +126,7 @@ impl HeaderNumber {
     /// The value of `text` in SI units: a number or a fraction, with or without a unit.
     ///
     /// `None` if the text is empty; an error unless all of it is understood.
-    pub(super) fn read(self, text: &str) -> std::result::Result<Option<f64>, RecordError> {
+    pub(super) fn read(self, text: &str) -> std::result::Result<Option<f64>, FileFault> {
         let text = text.trim_matches(PADDING);
         if text.is_empty() {
             return Ok(None);
@@ -156,11 +157,6 @@ fn number_or_fraction(text: &str) -> Option<f64> {
         None => finite(text)?,
     };
     value.is_finite().then_some(value)
-}
-
-/// The error for a quantity of the header.
-pub(super) fn unclear(quantity: &'static str, text: &str) -> RecordError {
-    RecordError::Unclear { quantity, text: excerpt(text) }
 }
 
 /// Place of the comma or semicolon that ends the first clause, or the text's end.

@@ -57,7 +57,7 @@ impl Svg {
     /// Writes the bitmap of [`Svg::png`] to a file; its folder is made if it does not exist.
     ///
     /// # Errors
-    /// As for [`Svg::png`]; [`Error::Write`] if the file cannot be written.
+    /// As for [`Svg::png`]; [`Error::File`] if the file cannot be written.
     pub fn save_png(&self, path: impl AsRef<Path>, scale: f64) -> Result<()> {
         write_file(path.as_ref(), self.png(scale)?)
     }

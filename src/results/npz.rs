@@ -75,7 +75,7 @@ impl TimeSeries {
     /// Writes the archive of [`TimeSeries::write_npz`] to a file; creates its folder if necessary.
     ///
     /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if the file cannot be written.
+    /// [`Error::File`](crate::Error::File) if the file cannot be written.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
         let (path, mut bytes) = (path.as_ref(), Vec::new());
         self.write_npz(&mut bytes).map_err(unwritten(path))?;

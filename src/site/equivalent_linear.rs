@@ -97,7 +97,8 @@ impl SoilColumn {
     /// ```
     ///
     /// # Errors
-    /// [`SiteError`](crate::SiteError) for curves that do not fit the layers or have parameters out of range, and
+    /// [`Error::Size`](crate::Error::Size) for curves that do not fit the layers, [`Error::Item`](crate::Error::Item) for
+    /// parameters of a layer out of range, and
     /// for a column of pressure waves; [`Error::Input`](crate::Error::Input) for options out of range and motions
     /// that overflow; [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn equivalent_linear(

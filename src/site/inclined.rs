@@ -7,7 +7,7 @@ use super::pace::Pace;
 use super::sampled::{Functions, evaluate};
 use super::site_motion::SiteMotion;
 use super::transform::{Contour, ContourPoint};
-use crate::error::{LayeredError, Observer, Result, Watch, finite, not_negative, positive};
+use crate::error::{Error, Observer, Result, SoilError, Watch, finite, not_negative, positive};
 use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
 use crate::soil::{Bedrock, Soil, SoilProfile};
@@ -60,7 +60,7 @@ impl InclinedWave {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
-    /// [`LayeredError::InclinedOverRigidBase`].
+    /// [`Error::Scene`](crate::Error::Scene).
     pub fn sv(profile: SoilProfile, angle: f64) -> Result<Self> {
         Self::new(profile, angle, WaveKind::Sv)
     }
@@ -103,7 +103,9 @@ impl InclinedWave {
 
     fn new(profile: SoilProfile, angle: f64, kind: WaveKind) -> Result<Self> {
         let Bedrock::HalfPlane { soil: base, .. } = *profile.bedrock() else {
-            return Err(LayeredError::InclinedOverRigidBase.into());
+            let needed = "waves at an angle come from a half-plane below the layers, not from rigid bedrock \
+                          (site::SoilColumn takes the motion of rigid bedrock to the surface)";
+            return Err(Error::Scene { quantity: "inclined wave", needed });
         };
         let (outcrop, speed) = match kind {
             WaveKind::Sv => (PlaneWave::sv(base, angle)?, base.shear_wave_speed()),
@@ -146,7 +148,7 @@ impl InclinedWave {
     ///
     /// # Errors
     /// As for [`InclinedWave::transfer`] and [`SoilColumn::to_surface`](super::SoilColumn::to_surface);
-    /// [`LayeredError::BeyondCritical`] where waves are out of phase and so have no first arrival.
+    /// [`SoilError::BeyondCritical`] where waves are out of phase and so have no first arrival.
     pub fn to_surface(
         &self,
         control: InclinedControl,
@@ -265,7 +267,7 @@ impl InclinedWave {
             let slowness = self.slowness.abs();
             if slowness >= limit {
                 let layer = index + 1;
-                return Err(LayeredError::BeyondCritical { layer, slowness, limit }.into());
+                return Err(SoilError::BeyondCritical { layer, slowness, limit }.into());
             }
         }
         Ok(())

@@ -7,11 +7,11 @@ use super::site_motion::SiteMotion;
 use super::soil_column::SoilColumn;
 use super::transform::Transform;
 use super::vertical::{ControlPoint, Sought, VerticalWave};
-use crate::error::{Error, LayeredError, Result, SiteError, Watch, positive, require};
+use crate::error::{Error, Result, Watch, positive, require, require_part, same_length};
 use crate::motion::Record;
 use crate::soil::{
     Bedrock, GeneralizedMaxwell, Hysteretic, Relaxation, Resolved, Soil, SoilLayer, SoilProfile,
-    StrainCurves,
+    StrainCurves, layer_name,
 };
 
 /// Smallest effective strain of the iteration; it replaces zero.
@@ -62,9 +62,9 @@ impl ComplexModulus {
             return Ok([modulus, damping]);
         }
         if damping >= MOST_DAMPED {
-            let (layer, quantity) = (index + 1, "strain-compatible damping ratio");
+            let quantity = "strain-compatible damping ratio";
             let needed = "below 0.52 for a complex modulus by its magnitude";
-            return Err(SiteError::Layer { layer, quantity, value: damping, needed }.into());
+            return Err(Error::Input { quantity, value: damping, needed }.within(layer_name(index)));
         }
         let square = damping * damping;
         let real = 1.0 - 2.0 * square;
@@ -118,7 +118,7 @@ impl SoilColumn {
                 complex_modulus.real_part_and_ratio(k, [*modulus, *damping])?;
             let made = Soil::new(modulus * soil.shear_modulus(), soil.poisson(), soil.density());
             let made = made.and_then(|soil| Ok((soil, law(damping)?)));
-            let (soil, damping) = made.map_err(|error| of_layer(k, error))?;
+            let (soil, damping) = made.map_err(|error| of_layer(k, damping, error))?;
             Ok(SoilLayer { soil, thickness: *thickness, damping: Arc::new(damping) })
         };
         let layers = self.profile.layers().iter().zip(properties).enumerate().map(layer);
@@ -152,21 +152,22 @@ impl<'a> Iteration<'a> {
         options: &'a EquivalentLinearOptions,
     ) -> Result<Self> {
         options.check()?;
-        if column.wave != VerticalWave::Shear {
-            return Err(SiteError::PressureWaves.into());
-        }
+        let shear = column.wave == VerticalWave::Shear;
+        require_part(
+            "soil column",
+            shear,
+            "strain curves are those of shear: shear waves are needed",
+        )?;
         let layers = column.profile.layers().len();
-        if curves.len() != layers {
-            return Err(SiteError::Curves { curves: curves.len(), layers }.into());
-        }
+        same_length("list of strain curves, one for each layer,", curves.len(), layers)?;
         let base = column.profile.bedrock();
         let reflects = matches!(base, Bedrock::Rigid) || options.control == ControlPoint::Within;
         let resolved = |(index, curves): (usize, &StrainCurves)| {
-            let resolved = curves.resolved().map_err(|error| of_layer(index, error))?;
+            let resolved = curves.resolved().map_err(|error| error.within(layer_name(index)))?;
             if reflects && resolved.at(0.0)[1] == 0.0 {
-                let (quantity, layer) = ("damping ratio at small strain", index + 1);
+                let quantity = "damping ratio at small strain";
                 let needed = "above 0 on rigid bedrock or under a motion within: nothing leaves";
-                return Err(SiteError::Layer { layer, quantity, value: 0.0, needed }.into());
+                return Err(Error::Input { quantity, value: 0.0, needed }.within(layer_name(index)));
             }
             Ok(resolved)
         };
@@ -288,11 +289,10 @@ fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
 }
 
 /// Adds the layer (`index` from 0) to an error; for a damping ratio that no law represents, also the ratio.
-fn of_layer(index: usize, error: Error) -> Error {
-    let Error::Layered(LayeredError::Fit { ratio, .. }) = error else {
-        return SiteError::of_layer(index, error);
-    };
+fn of_layer(index: usize, ratio: f64, error: Error) -> Error {
+    let unfit = matches!(error, Error::Accuracy { .. });
     let quantity = "strain-compatible damping ratio";
     let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
-    SiteError::Layer { layer: index + 1, quantity, value: ratio, needed }.into()
+    let error = if unfit { Error::Input { quantity, value: ratio, needed } } else { error };
+    error.within(layer_name(index))
 }

@@ -116,7 +116,7 @@ impl SoilColumn {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite,
-    /// [`Error::Size`](crate::Error::Size) for none, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for
+    /// [`Error::Size`](crate::Error::Size) for none, [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for
     /// hysteretic damping, [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn to_surface(
         &self,

@@ -1,9 +1,7 @@
 //! Nearly constant damping over a band of frequencies, causal and passive.
 
 use super::relaxation::{DampingKind, Relaxation, rounded};
-use crate::error::{
-    LayeredError, Result, damping_ratio, not_negative, positive, require, same_length,
-};
+use crate::error::{Error, Result, damping_ratio, not_negative, positive, require, same_length};
 use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
 
 /// Nearly constant damping over a band: a generalised Maxwell body.
@@ -83,7 +81,7 @@ impl GeneralizedMaxwell {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a ratio below 0 or not below 1, for frequencies that are not
     /// positive, and for a band that does not increase or spans more than a factor of 1e6.
-    /// [`LayeredError::Fit`] for a ratio that no body reaches.
+    /// [`Error::Accuracy`] for a ratio that no body reaches.
     pub fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> Result<Self> {
         damping_ratio("damping ratio of a layer", ratio)?;
         positive("lowest frequency of the damping band", band[0])?;
@@ -120,7 +118,14 @@ impl GeneralizedMaxwell {
         let worst = (0..SAMPLES)
             .map(|i| (body.damping_ratio(at(i) / std::f64::consts::TAU) / ratio - 1.0).abs())
             .fold(0.0, f64::max);
-        if worst <= WORST { Ok(body) } else { Err(LayeredError::Fit { ratio, worst }.into()) }
+        if worst <= WORST {
+            return Ok(body);
+        }
+        let quantity = "damping ratio over the band";
+        let remedy =
+            "no generalised Maxwell body comes closer: a shorter band or a smaller ratio helps"
+                .to_owned();
+        Err(Error::Accuracy { quantity, reached: worst, tolerance: WORST, remedy })
     }
 
     /// Damping ratio Im μ/(2 Re μ) at `frequency` (Hz).
@@ -314,7 +319,7 @@ mod tests {
             assert!(matches!(found, Err(Error::Input { .. })), "{found:?}");
         }
         let found = GeneralizedMaxwell::constant_q(0.99, [0.1, 10.0], 1.0);
-        assert!(matches!(found, Err(Error::Layered(LayeredError::Fit { .. }))), "{found:?}");
+        assert!(matches!(found, Err(Error::Accuracy { .. })), "{found:?}");
         assert!(GeneralizedMaxwell::new(1.0, vec![-0.1], vec![1.0]).is_err());
         assert!(GeneralizedMaxwell::new(1.0, vec![0.1], vec![]).is_err());
     }

@@ -2,12 +2,15 @@
 
 #[cfg(feature = "serde")]
 mod damping_form;
+pub(crate) mod error;
 mod maxwell;
 mod profile;
 mod relaxation;
 mod strain_curves;
 
+pub use error::SoilError;
 pub use maxwell::GeneralizedMaxwell;
+pub(crate) use profile::layer_name;
 pub use profile::{Bedrock, SoilLayer, SoilProfile};
 pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
 pub(crate) use strain_curves::Resolved;

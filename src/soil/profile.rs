@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{LayeredError, Result, SiteError, at_least, positive, require, require_part};
+use crate::error::{Error, Result, SoilError, at_least, positive, require, require_part};
 use crate::linalg::Complex;
 
 /// Layer: an elastic soil, its thickness and its damping.
@@ -95,7 +95,7 @@ impl SoilProfile {
     /// Profile from its layers, from the surface down, and its bedrock.
     ///
     /// # Errors
-    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
+    /// [`Error::Item`] for a thickness that is not finite and positive, [`Error::Input`] for
     /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
     pub fn new(layers: Vec<SoilLayer>, bedrock: Bedrock) -> Result<Self> {
         let profile = Self { layers, bedrock, damped_first: false };
@@ -109,7 +109,7 @@ impl SoilProfile {
     /// It is elastic until [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
-    /// [`SiteError::Layer`] for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
+    /// [`Error::Item`] for a thickness that is not finite and positive, [`Error::Input`] for
     /// more than 1000 layers, [`Error::Scene`](crate::Error::Scene) for the first layer after
     /// [`with_damping`](SoilProfile::with_damping), which does not damp it.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
@@ -211,7 +211,7 @@ impl SoilProfile {
         let count = self.layers.len();
         require("number of soil layers", count as f64, count <= MOST_LAYERS, "at most 1000")?;
         for (index, layer) in self.layers.iter().enumerate() {
-            let of_layer = |error| SiteError::of_layer(index, error);
+            let of_layer = |error: Error| error.within(layer_name(index));
             positive("thickness (m)", layer.thickness).map_err(of_layer)?;
         }
         if !self.layers.is_empty() {
@@ -225,7 +225,7 @@ impl SoilProfile {
         for (index, (_, damping)) in self.soils().enumerate() {
             if !damping.is_causal() {
                 let law = damping.describe();
-                return Err(LayeredError::NotCausal { law, layer: index + 1 }.into());
+                return Err(SoilError::NotCausal { law, layer: index + 1 }.into());
             }
         }
         Ok(())
@@ -278,22 +278,28 @@ impl SoilProfile {
     }
 }
 
+/// Name of a layer, from 0 at the surface, in errors.
+pub(crate) fn layer_name(index: usize) -> String {
+    format!("layer {}", index + 1)
+}
+
 /// Error for the modulus of a soil, from 0 at the surface, at `s` that no passive soil has.
 fn check_modulus(index: usize, s: Complex, modulus: Complex) -> Result<()> {
     let layer = index + 1;
     let at_rest = s == Complex::default();
     if !(modulus.is_finite() && modulus.abs() > 0.0) || (at_rest && modulus.re <= 0.0) {
         let needed = if at_rest { "finite and above zero" } else { "finite and not zero" };
-        let (value, re, im) = (modulus.re, s.re, s.im);
-        return Err(LayeredError::Modulus { layer, value, re, im, needed }.into());
+        let (quantity, value) = ("shear modulus (Pa)", modulus.re);
+        return Err(SoilError::Modulus { layer, quantity, value, s: [s.re, s.im], needed }.into());
     }
     let ratio = modulus / s;
     let value = ratio.re / ratio.abs();
     // On the imaginary axis Re(μ/s) of an elastic law is zero up to rounding. Its modulus must then be positive.
     let passive = value >= ROUNDING || (value >= -ROUNDING && modulus.re > 0.0);
     if !(at_rest || passive) {
-        let (re, im) = (s.re, s.im);
-        return Err(LayeredError::ActiveDamping { layer, value, re, im }.into());
+        let quantity = "Re(mu/s)/|mu/s|";
+        let needed = "not negative: the damping law gives energy away";
+        return Err(SoilError::Modulus { layer, quantity, value, s: [s.re, s.im], needed }.into());
     }
     Ok(())
 }

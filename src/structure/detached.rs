@@ -2,7 +2,7 @@
 
 use super::matrix_checks::massless;
 use super::{Structure, Triplets};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, StructureError};
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, sparse_condition};
 
 /// Condition of a part's stiffness above which the part counts as floating.
@@ -30,7 +30,7 @@ pub(crate) fn check_attached(
         return Ok(());
     }
     let place = structure.describe(&dofs).unwrap_or_else(|| numbers(&dofs));
-    Err(Error::Detached { dofs, place })
+    Err(StructureError::Detached { dofs, place }.into())
 }
 
 /// Degrees of freedom by their numbers.

@@ -24,6 +24,7 @@ mod base_motion;
 mod contact_node;
 mod detached;
 mod dof_combination;
+pub(crate) mod error;
 mod held_base;
 mod hysteresis;
 mod matrix_checks;
@@ -41,6 +42,7 @@ pub use contact_node::{ContactNode, FaceNode};
 pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
+pub use error::StructureError;
 pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber, SpringResponse, WithSprings,
@@ -82,8 +84,8 @@ use crate::error::Result;
 ///
 /// No support is fixed; the ground holds the structure up. Neither K nor the tangent of f at rest may resist
 /// a rigid translation to the right or upwards. Building a simulation returns
-/// [`Error::Restrained`](crate::Error::Restrained) for stiffness to a fixed point. It returns
-/// [`Error::Detached`](crate::Error::Detached) for a part that has mass or stiffness but is not connected by
+/// [`StructureError::Restrained`] for stiffness to a fixed point. It returns
+/// [`StructureError::Detached`] for a part that has mass or stiffness but is not connected by
 /// stiffness to the degrees of freedom of a contact node. Modal and other base-relative coordinates are
 /// allowed: their own stiffness holds them, and mass couples them to the base.
 ///
@@ -195,7 +197,7 @@ pub trait Structure: Any + Send {
     ///
     /// # Errors
     /// Any: at t = 0 `build` returns it; later it is the source of
-    /// [`StepError::Structure`](crate::StepError::Structure).
+    /// [`StepError::Part`](crate::coupled::StepError::Part).
     fn load(&self, _time: f64, _load: &mut [f64]) -> Result<()> {
         Ok(())
     }

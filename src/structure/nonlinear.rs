@@ -88,7 +88,7 @@ pub trait NonlinearForce {
     ///
     /// # Errors
     /// Any error, [`Error::part`](crate::Error::part) for a reason of your own, ends the step with
-    /// [`StepError::Structure`](crate::StepError::Structure), and nothing of the step is committed. An error
+    /// [`StepError::Part`](crate::coupled::StepError::Part), and nothing of the step is committed. An error
     /// at an iterate ends the step even if Newton's method would have left that iterate again. To report that
     /// the structure has passed a limit, return an error from the observer of
     /// [`Simulation::run`](crate::Simulation::run): it ends the run after the step.

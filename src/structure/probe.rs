@@ -110,7 +110,7 @@ impl Probe {
     ) -> Result<Self> {
         let Self { name, displacement, velocity, acceleration, .. } = self.clone();
         let mapped = |row: DofCombination| {
-            let named = |source: Error| Error::Probe { name: name.clone(), source: source.into() };
+            let named = |fault: Error| fault.within(format!("probe '{name}'"));
             map(row).map_err(named)
         };
         let (displacement, velocity) = (mapped(displacement)?, mapped(velocity)?);
@@ -125,7 +125,7 @@ pub(crate) fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     for probe in probes {
         let name = || probe.name.clone();
         for row in probe.rows() {
-            let named = |source| Error::Probe { name: name(), source: Box::new(source) };
+            let named = |fault: Error| fault.within(format!("probe '{}'", name()));
             row.check("degree of freedom", dofs).map_err(named)?;
         }
         if !names.insert(&probe.name) {

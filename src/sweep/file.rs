@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::table::{Row, heading, name, parameter_cells};
 use super::{Grid, LAST_COLUMNS};
-use crate::error::{CaseFileError, Result, SweepError};
-use crate::text::column::excerpt;
+use crate::error::{FileFault, Result};
+use crate::text::column::quoted;
 
 /// Columns and rows of a file, in the file's order.
 pub(super) struct Content {
@@ -35,8 +35,8 @@ pub(super) fn read(
     ending: Ending,
 ) -> Result<Content> {
     let bytes = std::fs::read(path)
-        .map_err(|error| SweepError::Unreadable { file: name(path), reason: error.kind() })?;
-    let fault = |(line, reason)| SweepError::File { file: name(path), line, reason };
+        .map_err(|error| FileFault::Unreadable(error.kind()).of(name(path), 0))?;
+    let fault = |(line, fault): (usize, FileFault)| fault.of(name(path), line);
     // The file may end within a character as well as within a line.
     let text = match std::str::from_utf8(&bytes) {
         Ok(text) => text,
@@ -45,7 +45,7 @@ pub(super) fn read(
         }
         Err(error) => {
             let line = bytes[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
-            return Err(fault((line, CaseFileError::NotText)).into());
+            return Err(fault((line, FileFault::format("other bytes", "UTF-8"))));
         }
     };
     // A byte-order mark is skipped.
@@ -67,17 +67,17 @@ pub(super) fn read(
                 let names = heading.as_deref().or(columns).unwrap_or_default();
                 let is_row = |record: &Record| row(record, grid, wanted, names).is_ok();
                 match reason {
-                    CaseFileError::Cut if holds_row(&rows[end..], &is_row) => {
-                        return Err(fault((line, CaseFileError::Quote)).into());
+                    FileFault::Cut if holds_row(&rows[end..], &is_row) => {
+                        return Err(fault((line, misplaced_quote())));
                     }
-                    CaseFileError::Cut if ending == Ending::Anywhere => break,
-                    reason => return Err(fault((line, reason)).into()),
+                    FileFault::Cut if ending == Ending::Anywhere => break,
+                    reason => return Err(fault((line, reason))),
                 }
             }
         }
     }
     if heading.is_none() && ending == Ending::Whole {
-        return Err(fault((1, CaseFileError::Cut)).into());
+        return Err(fault((1, FileFault::Cut)));
     }
     let end = if end > 0 { (mark + end) as u64 } else { 0 };
     Ok(Content { columns: heading.unwrap_or_default(), rows: found, end })
@@ -99,7 +99,7 @@ fn headed(
     record: &Record,
     grid: &Grid,
     columns: Option<&[String]>,
-) -> std::result::Result<Vec<String>, (usize, CaseFileError)> {
+) -> std::result::Result<Vec<String>, (usize, FileFault)> {
     let own = if let Some(columns) = columns {
         columns
     } else {
@@ -114,14 +114,14 @@ fn headed(
     for (column, needed) in wanted.iter().enumerate() {
         let found = record.cells.get(column).map_or("", String::as_str);
         if found != needed {
-            let (found, needed) = (found.to_owned(), needed.clone());
-            let reason = CaseFileError::Heading { column: column + 1, found, needed };
-            return Err((record.line, reason));
+            let quantity = format!("heading of column {}", column + 1);
+            let fault = FileFault::value(quantity, quoted(found), format!("'{needed}'"));
+            return Err((record.line, fault));
         }
     }
     let (found, needed) = (record.cells.len(), wanted.len());
     if found != needed {
-        return Err((record.line, CaseFileError::Cells { found, needed }));
+        return Err((record.line, FileFault::count("cells", found, needed.to_string())));
     }
     Ok(own.to_vec())
 }
@@ -132,11 +132,11 @@ fn row(
     grid: &Grid,
     wanted: &dyn Fn(usize) -> bool,
     columns: &[String],
-) -> std::result::Result<Row, (usize, CaseFileError)> {
+) -> std::result::Result<Row, (usize, FileFault)> {
     let line = record.line;
     let (found, needed) = (record.cells.len(), 3 + grid.parameters.len() + columns.len());
     if found != needed {
-        return Err((line, CaseFileError::Cells { found, needed }));
+        return Err((line, FileFault::count("cells", found, needed.to_string())));
     }
     let (parameters, results) = record.cells[1..].split_at(grid.parameters.len());
     let (results, last) = results.split_at(columns.len());
@@ -144,7 +144,9 @@ fn row(
     let text = &record.cells[0];
     let digits = !text.is_empty() && text.bytes().all(|sign| sign.is_ascii_digit());
     let case = digits.then(|| text.parse().ok()).flatten().filter(|&case| wanted(case));
-    let case = case.ok_or_else(|| (line, CaseFileError::Case { text: excerpt(text) }))?;
+    let case = case.ok_or_else(|| {
+        (line, FileFault::value("case", quoted(text), "one of this sweep, in digits"))
+    })?;
     for (index, (cell, needed)) in parameters.iter().zip(parameter_cells(grid, case)).enumerate() {
         let parameter = &grid.parameters[index];
         // Another program may have printed the numbers, but they must be the same to the last bit.
@@ -153,17 +155,17 @@ fn row(
             None => *cell == needed,
         };
         if !same {
-            let (parameter, found) = (parameter.name().to_owned(), excerpt(cell));
-            return Err((line, CaseFileError::Parameter { case, parameter, found, needed }));
+            let quantity = format!("{} of case {case}", parameter.name());
+            return Err((line, FileFault::value(quantity, quoted(cell), format!("'{needed}'"))));
         }
     }
     let has_failed = !reason.is_empty();
     if has_failed && results.iter().any(|cell| !cell.is_empty()) {
-        return Err((line, CaseFileError::ErrorAndResults { case }));
+        let found = "a row with an error and results";
+        return Err((line, FileFault::value(format!("case {case}"), found, "a row with either")));
     }
     let number = |(cell, column): (&String, &String)| {
-        let wrong = || CaseFileError::NotANumber { column: column.clone(), text: excerpt(cell) };
-        parsed(cell).ok_or_else(|| (line, wrong()))
+        parsed(cell).ok_or_else(|| (line, FileFault::value(column, quoted(cell), "a number")))
     };
     let outcome = if has_failed {
         Err(reason.clone())
@@ -174,8 +176,13 @@ fn row(
     if row.check(grid, columns) == *check {
         Ok(row)
     } else {
-        Err((line, CaseFileError::Damaged { case }))
+        Err((line, FileFault::Damaged { quantity: format!("case {case}") }))
     }
+}
+
+/// A quotation mark within a cell without quotes, or text behind a cell with them.
+fn misplaced_quote() -> FileFault {
+    FileFault::value("quotation mark", "out of place", "around a whole cell")
 }
 
 /// The number in a cell, as [`Cell`](crate::text::column::Cell) writes it or in any other decimal form.
@@ -210,18 +217,18 @@ impl<'a> Records<'a> {
     }
 
     /// The next cell and whether it ends the row; moves past the comma or line end.
-    fn cell(&mut self) -> std::result::Result<(String, bool), CaseFileError> {
+    fn cell(&mut self) -> std::result::Result<(String, bool), FileFault> {
         let rest = &self.text[self.at..];
         let (cell, length) = if let Some(quoted) = rest.strip_prefix('"') {
-            let (cell, length) = unquoted(quoted).ok_or(CaseFileError::Cut)?;
+            let (cell, length) = unquoted(quoted).ok_or(FileFault::Cut)?;
             (cell, length + 1)
         } else {
-            let length = rest.find([',', '\n']).ok_or(CaseFileError::Cut)?;
+            let length = rest.find([',', '\n']).ok_or(FileFault::Cut)?;
             let (cell, behind) = rest.split_at(length);
             let windows = behind.starts_with('\n').then(|| cell.strip_suffix('\r')).flatten();
             let cell = windows.unwrap_or(cell);
             if cell.contains('"') {
-                return Err(CaseFileError::Quote);
+                return Err(misplaced_quote());
             }
             (cell.to_owned(), length)
         };
@@ -230,8 +237,8 @@ impl<'a> Records<'a> {
             [b',', ..] => (1, false),
             [b'\n', ..] => (1, true),
             [b'\r', b'\n', ..] => (2, true),
-            [] | [b'\r'] => return Err(CaseFileError::Cut),
-            _ => return Err(CaseFileError::Quote),
+            [] | [b'\r'] => return Err(FileFault::Cut),
+            _ => return Err(misplaced_quote()),
         };
         self.at += length + signs;
         Ok((cell, ends))
@@ -256,7 +263,7 @@ fn unquoted(text: &str) -> Option<(String, usize)> {
 }
 
 impl Iterator for Records<'_> {
-    type Item = std::result::Result<Record, (usize, CaseFileError)>;
+    type Item = std::result::Result<Record, (usize, FileFault)>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let (start, line) = (self.at, self.line);
@@ -322,12 +329,12 @@ mod tests {
         assert_eq!(found[1], (3, ["1", "", "2"].map(str::to_owned).to_vec()));
         assert_eq!(rows("").unwrap(), []);
         for (text, line, fault) in [
-            ("a,b\n1", 2, CaseFileError::Cut),
-            ("a,b\n1,2\r", 2, CaseFileError::Cut),
-            ("a,b\n1,\"2", 2, CaseFileError::Cut),
-            ("a,b\n1,\"2\"", 2, CaseFileError::Cut),
-            ("\"x\ny\",b\n1,\"2\"3\n", 3, CaseFileError::Quote),
-            ("a\"\n", 1, CaseFileError::Quote),
+            ("a,b\n1", 2, FileFault::Cut),
+            ("a,b\n1,2\r", 2, FileFault::Cut),
+            ("a,b\n1,\"2", 2, FileFault::Cut),
+            ("a,b\n1,\"2\"", 2, FileFault::Cut),
+            ("\"x\ny\",b\n1,\"2\"3\n", 3, misplaced_quote()),
+            ("a\"\n", 1, misplaced_quote()),
         ] {
             assert_eq!(rows(text).unwrap_err(), (line, fault), "{text:?}");
         }

@@ -34,18 +34,20 @@
 //! [`Sweep::table_in`] stores its rows in a file, from which a restarted process continues. [`Sweep::merge`]
 //! combines the files of all shards. `docs/guide.md` has a complete job array.
 
+pub(crate) mod error;
 mod file;
 mod run;
 mod table;
 mod tables;
 
+pub use error::{CaseError, SweepError};
 pub use run::{Sweep, SweepCase};
 pub use table::{CaseRow, CaseTable};
 
 use std::collections::HashSet;
 use std::hash::Hash;
 
-use crate::error::{Error, Result, SweepError, memory};
+use crate::error::{Error, Result, all_finite, at_least, memory, require_part};
 
 // Parameters and the grid of cases that they span.
 
@@ -121,9 +123,7 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
     let mut before = HashSet::from(LAST_COLUMNS);
     before.insert("case");
     for name in names {
-        if name.is_empty() {
-            return Err(SweepError::Unnamed { quantity: "column" }.into());
-        }
+        require_part("column", !name.is_empty(), "it must have a name")?;
         if !before.insert(name) {
             return Err(Error::DuplicateName { quantity: "column", name: name.to_owned() });
         }
@@ -175,11 +175,6 @@ impl Parameter {
         }
     }
 
-    /// Whether the parameter has no values, which is an error.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// Number at `place`; `None` for a parameter with texts or beyond the last value.
     pub(super) fn number(&self, place: usize) -> Option<f64> {
         match &self.values {
@@ -198,28 +193,23 @@ impl Parameter {
 
     /// Error for no values, a value twice, a number that is not finite, or an empty text.
     pub(super) fn check(&self) -> Result<()> {
-        let parameter = || self.name.clone();
-        if self.is_empty() {
-            return Err(SweepError::NoValues { parameter: parameter() }.into());
-        }
+        let named = |error: Error| error.within(format!("parameter '{}'", self.name));
+        at_least("list of values", self.len(), 1).map_err(named)?;
         let repeated = match &self.values {
             Values::Numbers(numbers) => {
-                if let Some(&value) = numbers.iter().find(|value| !value.is_finite()) {
-                    return Err(SweepError::NotFinite { parameter: parameter(), value }.into());
-                }
+                all_finite("list of values", numbers).map_err(named)?;
                 // Positive and negative zero are the same value.
                 let bits = |value: &f64| (value + 0.0).to_bits();
                 first_repeated(numbers, bits).map(f64::to_string)
             }
             Values::Texts(texts) => {
-                if texts.iter().any(String::is_empty) {
-                    return Err(SweepError::Unnamed { quantity: "value of a parameter" }.into());
-                }
+                let filled = !texts.iter().any(String::is_empty);
+                require_part("value", filled, "it must not be an empty text").map_err(named)?;
                 first_repeated(texts, String::as_str).cloned()
             }
         };
         match repeated {
-            Some(value) => Err(SweepError::RepeatedValue { parameter: parameter(), value }.into()),
+            Some(name) => Err(named(Error::DuplicateName { quantity: "value", name })),
             None => Ok(()),
         }
     }

@@ -12,7 +12,7 @@ use crate::error::{CaseError, Error, Result};
 ///
 /// ```
 /// use basemat::sweep::Parameter;
-/// use basemat::CaseError;
+/// use basemat::sweep::CaseError;
 /// use basemat::sweep::Sweep;
 ///
 /// let roots = Sweep::new(4).collect(|case| match case.index {

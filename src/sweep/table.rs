@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Grid, LAST_COLUMNS};
-use crate::error::{Result, SweepError};
+use crate::error::{Error, Result};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::{Cell, number};
 use crate::text::csv::{Csv, csv_line};
@@ -128,7 +128,7 @@ impl<'a> CaseRow<'a> {
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no column of numbers has this name;
-    /// [`SweepError::Failed`] for a result of a case that failed.
+    /// [`Error::Part`] for a result of a case that failed.
     pub fn value(&self, column: &str) -> Result<f64> {
         if let Some(number) = self.table.grid.number(self.index, column) {
             return Ok(number);
@@ -139,9 +139,7 @@ impl<'a> CaseRow<'a> {
         })?;
         match self.results {
             Ok(results) => Ok(results[index]),
-            Err(reason) => {
-                Err(SweepError::Failed { case: self.index, reason: reason.to_owned() }.into())
-            }
+            Err(reason) => Err(Error::part(format!("case {} failed", self.index), reason)),
         }
     }
 

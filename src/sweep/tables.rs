@@ -12,7 +12,7 @@ use super::file::{Content, Ending, read};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading, name};
 use super::{Parameter, check_names};
-use crate::error::{CaseError, Error, Result, SweepError, same_length};
+use crate::error::{CaseError, Error, FileFault, Result, SweepError, same_length};
 use crate::text::csv::csv_line;
 use crate::text::file::{make_folder_of, replaced, unwritten};
 
@@ -47,7 +47,7 @@ impl Sweep<'_> {
     ///
     /// # Errors
     /// Errors of cases are not returned. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
-    /// (parameters, `case`, `error` and `check` among them) have the same name, [`SweepError::Unnamed`] if
+    /// (parameters, `case`, `error` and `check` among them) have the same name, [`Error::Scene`] if
     /// one has no name.
     pub fn table<const N: usize, E: Display + Send>(
         &self,
@@ -72,9 +72,9 @@ impl Sweep<'_> {
     /// ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
     ///
     /// # Errors
-    /// As for [`Sweep::table`]; [`Error::Write`] if the file of rows cannot be opened.
+    /// As for [`Sweep::table`]; [`Error::File`] if the file of rows cannot be opened.
     /// [`SweepError::Unwritten`] if a row cannot be written: it holds all computed rows, and no further case
-    /// is started. [`SweepError::File`] if an existing file has other columns, other values of parameters or
+    /// is started. [`Error::File`] if an existing file has other columns, other values of parameters or
     /// cases outside this shard, or if a row does not agree with its check sum.
     pub fn table_in<const N: usize, E: Display + Send>(
         &self,
@@ -144,10 +144,9 @@ impl Sweep<'_> {
     /// into shards.
     ///
     /// # Errors
-    /// [`Error::Sweep`]: [`SweepError::File`] for a file that was cut off, has other columns than the first
+    /// [`Error::File`] for a file that cannot be read, that was cut off, has other columns than the first
     /// one or other values of parameters than this sweep, bit for bit, or has a row that does not agree with
-    /// its check sum; [`SweepError::Twice`] and [`SweepError::Missing`] for cases that occur twice or not at
-    /// all; [`SweepError::Unreadable`].
+    /// its check sum, or has a case that another file has; [`SweepError::Missing`] for cases in no file.
     pub fn merge(&self, paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<CaseTable> {
         let (mut rows, mut columns, mut files) = (Rows::new(), None, 0);
         for path in paths {
@@ -222,8 +221,10 @@ impl Sweep<'_> {
                 Entry::Occupied(entry) => {
                     let (before, first) = entry.get();
                     if ending == Ending::Whole || *before != row {
-                        let (case, first) = (row.case, name(first));
-                        return Err(SweepError::Twice { case, first, second: name(path) }.into());
+                        let found = format!("here and in {}", name(first));
+                        let case = format!("case {}", row.case);
+                        let fault = FileFault::value(case, found, "in one place");
+                        return Err(fault.of(name(path), 0));
                     }
                 }
             }

@@ -106,6 +106,11 @@ pub(crate) fn finite(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// An [`excerpt`] of a file in the quotation marks of messages.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("'{}'", excerpt(text))
+}
+
 /// The number in a field of Fortran's format `kPFw.d`.
 ///
 /// Without a decimal point, the last `decimals` digits are after the point. Without an exponent, 10ᵏ times

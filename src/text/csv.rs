@@ -30,7 +30,7 @@ impl Csv {
     /// The file is written under another name and renamed, so it is either complete or unchanged.
     ///
     /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if the file cannot be written.
+    /// [`Error::File`](crate::Error::File) if the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         write_file(path.as_ref(), self)
     }

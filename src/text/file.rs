@@ -4,11 +4,11 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
 use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, FileFault, Result};
 
-/// Makes the [`Error::Write`] of `path`.
+/// Makes the error for `path`, which cannot be written.
 pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
-    move |error| Error::Write { file: path.display().to_string(), reason: error.kind() }
+    move |error| FileFault::Unwritable(error.kind()).of(path.display().to_string(), 0)
 }
 
 /// Replaces a file by one with this content; if that fails, the file is unchanged.

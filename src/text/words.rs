@@ -27,7 +27,7 @@ macro_rules! words {
             }
         }
 
-        #[doc = concat!("One of" $(, " `", $word, "`")+, ", or an [`Error::Word`](crate::Error::Word).")]
+        #[doc = concat!("One of" $(, " `", $word, "`")+, ", or an [`Error::Name`](crate::Error::Name).")]
         impl std::str::FromStr for $type {
             type Err = crate::error::Error;
 
@@ -87,7 +87,7 @@ pub(crate) fn unknown(quantity: &'static str, text: &str, known: &'static [&'sta
     let spelled = text.trim().to_lowercase().replace([' ', '-'], "_");
     let right = known.iter().position(|word| *word == spelled);
     let known = right.map_or(known, |place| &known[place..=place]);
-    Error::Word { quantity, text: excerpt(text), known }
+    Error::no_name(quantity, &excerpt(text), known.iter().copied())
 }
 
 /// Splits a word from the number that may follow it in brackets: `reduced(1e-6)`.

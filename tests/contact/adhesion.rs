@@ -4,10 +4,11 @@
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::State;
+use basemat::coupled::StepError;
 use basemat::interface::Cohesive;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
-use basemat::{Error, Result, Simulation, Soil, StepError};
+use basemat::{Error, Result, Simulation, Soil};
 
 use basemat_problems::random::Random;
 

@@ -8,10 +8,11 @@
 //! `CONTACT_SCENES=600 cargo test --release --test contact extreme_scenes -- --nocapture` runs more.
 
 use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::StepError;
 use basemat::interface::{Coulomb, FrictionLimit, InterfaceLaw, SlipSense, ThinLayer};
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
-use basemat::{Error, Result, Simulation, Soil, StepError};
+use basemat::{Error, Result, Simulation, Soil};
 
 use basemat_problems::random::Random;
 

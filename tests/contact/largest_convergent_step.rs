@@ -3,11 +3,12 @@
 //! REFERENCE: the limit.
 
 use basemat::bem::SpringGround;
+use basemat::coupled::StepError;
 use basemat::coupled::largest_convergent_step;
 use basemat::interface::{Coulomb, Mode, PreviousContact};
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
-use basemat::{Error, Result, Simulation, StepError};
+use basemat::{Error, Result, Simulation};
 
 use basemat_problems::wrapped::Wayward;
 

@@ -3,9 +3,11 @@
 //! REFERENCE: Coulomb's law itself for a constant coefficient; slips, pressures and shears of the
 //! states.
 
+use basemat::Error;
 use basemat::coupled::State;
+use basemat::coupled::StepError;
+use basemat::interface::LawError;
 use basemat::interface::{Coulomb, InterfaceLaw, UnilateralCondition, VariableFriction};
-use basemat::{Error, LawError, StepError};
 
 use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, states};
 
@@ -95,7 +97,7 @@ fn a_coefficient_that_is_none_is_an_error() {
         println!("{error}");
         let Error::Step { source, .. } = error else { panic!("{error:?}") };
         let StepError::Law(error) = source else { panic!("{source:?}") };
-        let LawError::Refused { element, reason, .. } = &error else { panic!("{error:?}") };
+        let LawError { element, reason, .. } = &error;
         let Error::Input { quantity: "friction coefficient", value, .. } = **reason else {
             panic!("{reason:?}")
         };

@@ -4,7 +4,9 @@
 
 use basemat::bem::Grading;
 use basemat::prelude::*;
-use basemat::{CaseError, Error, Result};
+use basemat::sweep::CaseError;
+use basemat::{Error, Result};
+use basemat_problems::faults::is_unwritable;
 
 const BAD: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 
@@ -148,7 +150,10 @@ fn records_of_functions() {
     assert!(matches!(Record::from_fn(1e-9, 1.0, |t| t), Err(Error::Memory(_))));
     let endless = Record::from_fn(0.1, 1.0, |t| 1.0 / (t - 0.5));
     assert!(matches!(endless, Err(Error::NotFinite { index: 5, .. })), "{endless:?}");
-    assert!(matches!(Record::from_fn(1.0, 0.1, |t| t), Err(Error::Record { .. })));
+    assert!(matches!(
+        Record::from_fn(1.0, 0.1, |t| t),
+        Err(Error::Size { found: 1, needed: 2, .. })
+    ));
 }
 
 #[test]
@@ -167,7 +172,7 @@ fn runs_and_histories_are_saved() -> Result<()> {
     comparison.csv().save(folder.join("cases.csv"))?;
     assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), *comparison.csv());
     let nowhere = folder.join("run.csv/below_a_file.csv");
-    assert!(matches!(time_series.csv().save(&nowhere), Err(Error::Write { .. })));
-    assert!(matches!(comparison.csv().save(&nowhere), Err(Error::Write { .. })));
+    assert!(is_unwritable(&time_series.csv().save(&nowhere)));
+    assert!(is_unwritable(&comparison.csv().save(&nowhere)));
     Ok(())
 }

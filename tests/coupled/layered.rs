@@ -101,7 +101,7 @@ fn the_stages_are_said_and_follow_the_rule() {
 fn exponentials_are_refused() {
     let mut ground = layered(3).with_history(HistoryMethod::Exponentials).unwrap();
     let found = ground.prepare(0.002, None, &mut unobserved).unwrap_err();
-    assert!(matches!(found, Error::NoExponentials { .. }), "{found}");
+    assert!(matches!(found, Error::Scene { quantity: "history by exponentials", .. }), "{found}");
 }
 
 /// Equal profiles share one kernel in a sweep; other stages, tolerances and laws have their own.

@@ -16,7 +16,7 @@ use basemat::structure::{
     DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure, StructureGroup,
     Triplets,
 };
-use basemat::{Error, ReducedError, Simulation, Soil};
+use basemat::{Error, Simulation, Soil};
 
 use basemat_problems::needed_from;
 use basemat_problems::scenes::{Rider, SI, apart, block, friction, scene, shake, states};
@@ -241,24 +241,29 @@ fn others_are_refused_by_name() {
     let refused = |builder: SimulationBuilder, tolerance: f64| {
         let builder = builder.interface(Bonded).motion(el_centro_1940());
         match builder.coordinates(reduced(tolerance)).build().map(|_| ()) {
-            Err(Error::Reduced(cause)) => cause,
+            Err(error) => error,
             other => panic!("{other:?}"),
         }
     };
     let small = || scene(SI, 0.1);
     let cause = refused(small().structure(Rider { block: block(SI) }), 1e-6);
-    assert_eq!(cause, ReducedError::Nonlinear);
+    let needed = "they need a linear structure";
+    assert_eq!(cause, Error::Scene { quantity: "reduced coordinates", needed });
     let cause = refused(small().structure(Dashpot(tower())), 1e-6);
-    assert!(matches!(cause, ReducedError::Damping { coupling } if coupling > 1e-10), "{cause}");
+    let Error::Item { item, source } = &cause else { panic!("{cause}") };
+    let Error::Input { quantity, value: coupling, .. } = **source else { panic!("{cause}") };
+    assert!(item == "reduced coordinates" && quantity.contains("coupling of the modes"), "{cause}");
+    assert!(coupling > 1e-10, "{cause}");
     let undamped = || bare(-2.0..2.0, 20, 25);
     let probe = Probe::acceleration("roof", roof());
     let cause = refused(small().structure(undamped()).probe(probe), 1e-3);
-    assert!(matches!(cause, ReducedError::Accuracy { reached, .. } if reached > 1e-3), "{cause}");
+    assert!(matches!(cause, Error::Accuracy { reached, .. } if reached > 1e-3), "{cause}");
     let cause = refused(small().structure(tower()), 1e-15);
     let asked = |tolerance: f64| (tolerance / 1e-15 - 1.0).abs() < 1e-9;
+    let vectors = |remedy: &str| remedy.split(' ').nth(1).unwrap().parse::<usize>().unwrap();
     assert!(
-        matches!(cause, ReducedError::Accuracy { tolerance, reached, vectors }
-            if asked(tolerance) && reached > tolerance && vectors > 20),
+        matches!(&cause, Error::Accuracy { tolerance, reached, remedy, .. }
+            if asked(*tolerance) && reached > tolerance && vectors(remedy) > 20),
         "{cause}"
     );
     for tolerance in [0.0, -1.0, 1.0, f64::NAN, f64::INFINITY] {

@@ -7,8 +7,9 @@ use std::sync::Mutex;
 use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
+use basemat::sweep::CaseError;
 use basemat::sweep::Sweep;
-use basemat::{CaseError, Error, Soil, unobserved};
+use basemat::{Error, Soil, unobserved};
 
 use basemat_problems::scenes::{SI, block, scene, soil, states};
 

@@ -59,12 +59,12 @@ fn builders_refuse_parts_that_do_not_fit() {
     let probe = Probe::velocity("far", 3);
     let error = unbuilt("probe", good().probe(probe));
     let source = Box::new(Error::Index { quantity: "degree of freedom", index: 3, bound: 3 });
-    assert_eq!(error, Error::Probe { name: "far".to_owned(), source });
+    assert_eq!(error, Error::Item { item: "probe 'far'".to_owned(), source });
     for bad in NOT_FINITE {
         let probe = Probe::displacement("bad", (0, bad));
         let error = unbuilt("probe 'bad': weight of a degree of freedom", good().probe(probe));
         assert!(
-            matches!(error, Error::Probe { source, .. } if matches!(*source, Error::Input { .. }))
+            matches!(error, Error::Item { source, .. } if matches!(*source, Error::Input { .. }))
         );
     }
 

@@ -5,14 +5,13 @@
 use std::error::Error as StandardError;
 
 use basemat::bem::SpringGround;
+use basemat::coupled::{CheckpointError, StabilityError, StepError};
 use basemat::interface::VariableFriction;
 use basemat::io::GmshMesh;
 use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
 use basemat::structure::{RigidBlock, Triplets};
-use basemat::{
-    CaseError, CheckpointError, Error, MatrixFileError, MeshFileError, RecordError, Simulation,
-    StabilityError, StepError,
-};
+use basemat::sweep::CaseError;
+use basemat::{Error, FileError, FileFault, MemoryError, Simulation};
 
 /// `error` prints `inside` once, alone and with its sources.
 #[track_caller]
@@ -37,32 +36,39 @@ fn part() -> Error {
 fn errors_print_what_is_inside_them_once() {
     let torn = "my part: has torn";
     let step = |source| Error::Step { step: 3, time: 0.03, source };
-    let in_structure = || StepError::Structure { quantity: "load", source: Box::new(part()) };
-    let file = || "file".to_owned();
-    let record = RecordError::Unusable(Box::new(part()));
+    let in_structure = || StepError::Part { quantity: "load", source: Box::new(part()) };
+    let record = FileFault::Unusable(Box::new(part()));
+    let in_file = |line, fault| Error::File(FileError { file: "file".to_owned(), line, fault });
     for error in [
-        Error::Probe { name: "roof".to_owned(), source: Box::new(part()) },
-        step(StepError::Ground(Box::new(part()))),
+        Error::Item { item: "probe 'roof'".to_owned(), source: Box::new(part()) },
+        step(StepError::Part { quantity: "history of the ground", source: Box::new(part()) }),
         step(in_structure()),
         // A probe inside a step inside a record.
-        Error::Record { file: file(), line: 0, reason: record.clone() },
-        Error::Probe { name: "roof".to_owned(), source: Box::new(step(in_structure())) },
+        in_file(0, record.clone()),
+        Error::Item { item: "probe 'roof'".to_owned(), source: Box::new(step(in_structure())) },
     ] {
         says_once(&error, torn);
         says_once(&CaseError::Failed(error), torn);
     }
     says_once(&in_structure(), torn);
-    says_once(&StepError::Ground(Box::new(part())), torn);
+    says_once(
+        &StepError::Part { quantity: "history of the ground", source: Box::new(part()) },
+        torn,
+    );
     says_once(&record, torn);
     let checkpoint = CheckpointError::Unsupported { part: "roof" };
     says_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
     let standing = StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0 };
     says_once(&Error::Stability(Box::new(standing.clone())), &standing.to_string());
-    let mesh = MeshFileError::LineTooLong { bytes: 9 };
-    says_once(&Error::MeshFile { file: file(), line: 1, reason: mesh.clone() }, &mesh.to_string());
-    let matrix = MatrixFileError::Empty;
-    let error = Error::MatrixFile { file: file(), line: 0, reason: matrix.clone() };
-    says_once(&error, &matrix.to_string());
+    let (quantity, remedy) = ("rows", "less");
+    for fault in [
+        FileFault::Missing { quantity: "header".to_owned() },
+        FileFault::Unreadable(std::io::ErrorKind::NotFound),
+        FileFault::Memory(MemoryError { quantity, asked: 1.0, needed: 2.0, limit: 1.0, remedy }),
+    ] {
+        says_once(&in_file(0, fault.clone()), &fault.to_string());
+        says_once(&in_file(1, fault.clone()), &fault.to_string());
+    }
 }
 
 /// Numbers of a law are errors of steps, and of the crate.
@@ -99,7 +105,7 @@ fn files_that_are_not_there_have_no_line() {
         Triplets::new(1).write_matrix_market(name).unwrap_err(),
     ] {
         let text = error.to_string();
-        assert!(text.starts_with("there/is/no.file: cannot be "), "{text}");
+        assert!(text.starts_with("there/is/no.file cannot be "), "{text}");
         assert!(!text.contains("line"), "{text}");
     }
     let error = Triplets::from_matrix_market("m", &b"%%MatrixMarket matrix x"[..]).unwrap_err();

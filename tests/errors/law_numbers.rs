@@ -7,10 +7,12 @@
 use basemat::bem::SpringGround;
 use basemat::contact::ContactProblem;
 use basemat::coupled::GravityStage;
+use basemat::coupled::StepError;
+use basemat::interface::LawError;
 use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
-use basemat::{Error, LawError, Simulation, StepError};
+use basemat::{Error, Simulation};
 
 use super::NOT_FINITE;
 use basemat_problems::scenes::{SI, block, scene};
@@ -130,7 +132,8 @@ fn expected(place: Place) -> &'static str {
 }
 
 fn assert_named(error: &LawError, place: Place, value: f64) {
-    let LawError::NotFinite { element, mode, quantity, value: found } = error else {
+    let LawError { element, mode, reason } = error;
+    let Error::Input { quantity, value: found, needed: "finite" } = &**reason else {
         panic!("{error:?}")
     };
     assert_eq!((*element, *quantity), (ELEMENT, expected(place)), "{error}");
@@ -188,7 +191,8 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
     let Err(Error::Law(error)) = built.gravity_stage(GravityStage::Frictional).build() else {
         panic!("accepted");
     };
-    assert!(matches!(error, LawError::NotFinite { element: 0, mode: "stick", .. }));
+    assert_eq!((error.element, error.mode), (0, "stick"));
+    assert!(matches!(*error.reason, Error::Input { needed: "finite", .. }), "{error}");
 }
 
 /// Remembers as many numbers as it is told to.
@@ -240,8 +244,10 @@ fn hosts_are_told_too_and_keep_their_start() {
         let Err(Error::Step { step: 1, source: StepError::Law(error), .. }) = done else {
             panic!("{place:?}: {done:?}");
         };
-        let LawError::NotFinite { element: 0, quantity, .. } = error else { panic!("{error:?}") };
-        assert_eq!(quantity, expected(place));
+        let Error::Input { quantity, needed: "finite", .. } = *error.reason else {
+            panic!("{error:?}")
+        };
+        assert_eq!((error.element, quantity), (0, expected(place)));
         assert_eq!(start, before);
     }
     let spoilt = Spoilt { place: Some(Place::InitialMemory), value: f64::NAN, slid: 0.0 };

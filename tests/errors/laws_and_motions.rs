@@ -28,7 +28,10 @@ fn motions() {
         assert!(matches!(error, Error::NotFinite { index: 1, .. }));
     }
     for few in [vec![], vec![1.0]] {
-        assert!(matches!(error_with("samples", Record::new(0.1, few)), Error::Record { .. }));
+        assert!(matches!(
+            error_with("samples", Record::new(0.1, few)),
+            Error::Size { needed: 2, .. }
+        ));
     }
     let record = Record::new(0.1, vec![0.0, 1.0, 0.0, -1.0]).unwrap();
     refused("new time step", &BAD, |x| record.resampled(x));

@@ -6,13 +6,14 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use basemat::coupled::StepError;
 use basemat::interface::Bonded;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::{
     ContactNode, CraigBampton, ModalDamping, NonlinearForce, Structure, StructureGroup, Triplets,
     WithSprings,
 };
-use basemat::{Error, Result, Simulation, StepError};
+use basemat::{Error, Result, Simulation};
 
 use basemat_problems::block_on_springs::bed;
 
@@ -154,7 +155,7 @@ fn a_step_that_the_structure_refuses_commits_nothing() {
         assert_eq!(commits.load(Ordering::Relaxed), accepted, "{part:?}");
         let Error::Step { step, source, .. } = &error else { panic!("{error:?}") };
         assert_eq!(*step, accepted + 1);
-        let expected = StepError::Structure { quantity: name, source: Box::new(reason()) };
+        let expected = StepError::Part { quantity: name, source: Box::new(reason()) };
         assert_eq!(*source, expected);
         assert!(error.to_string().contains(&format!("{name}: my structure: a spring")), "{error}");
         // Again: the same error, and still nothing committed.

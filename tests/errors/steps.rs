@@ -5,9 +5,10 @@
 
 use std::fmt::Debug;
 
+use basemat::coupled::StepError;
 use basemat::interface::{Coulomb, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::FreeFieldFn;
-use basemat::{Error, Simulation, StepError};
+use basemat::{Error, Simulation};
 
 use super::builder::good;
 use super::spoilt::Spoilt;

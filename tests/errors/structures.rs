@@ -4,11 +4,12 @@
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::GravityStage;
+use basemat::coupled::StabilityError;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
     ContactNode, CraigBampton, DofCombination, ModalDamping, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, MemoryError, Simulation, Soil, StabilityError};
+use basemat::{Error, MemoryError, Simulation, Soil};
 
 use super::builder::unbuilt;
 use super::spoilt::Spoilt;

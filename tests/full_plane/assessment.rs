@@ -2,6 +2,7 @@
 //! with three free ones on either side, steps that grow and steps that do not. REFERENCE: growth of
 //! the march itself; the number of coefficients requested.
 
+use basemat::bem::GroundError;
 use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, GroundStability, Segment,
     TimeKernel,
@@ -64,7 +65,7 @@ fn marched(ground: &mut FullPlaneGround, steps: usize) -> f64 {
 #[test]
 fn growth_is_refused_and_is_that_of_the_march() {
     // β = 1/2.
-    let Err(Error::Unstable { growth_per_step, growing_modes }) =
+    let Err(Error::Ground(GroundError::Unstable { growth_per_step, growing_modes })) =
         ground().prepare(0.25, None, &mut unobserved)
     else {
         panic!("prepared")
@@ -125,7 +126,7 @@ fn a_simulation_is_refused_or_reports() {
             .build()
     }
     let refused = build(ground(), 0.25).err().unwrap();
-    assert!(matches!(refused, Error::Unstable { .. }));
+    assert!(matches!(refused, Error::Ground(GroundError::Unstable { .. })));
     assert!(refused.to_string().contains("per step"), "{refused}");
     let allowed = build(ground().allow_growth(), 0.25).unwrap();
     assert!(!stability(allowed.ground()).unwrap().is_bounded());

@@ -2,6 +2,7 @@
 //! SCENE: twenty unit elements, both kernels, over β = c₁Δt/l; a kernel with known zeros.
 //! REFERENCE: marches, a quadrature in space and time, and exact figures.
 
+use basemat::bem::GroundError;
 use basemat::bem::full_plane::{
     BoundaryCondition, BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment, Stability,
     TimeKernel,
@@ -261,7 +262,8 @@ fn figures_of_a_kernel_with_known_zeros() {
     let found = Stability::assess(&known([1.1, 1.05], 1.0), &free, 1e-3).unwrap();
     close("growth", found.growth_per_step, 0.1, 1e-9, 0.0);
     assert!(found.growing_modes == 2 && found.turn_per_step < 1e-9, "{found:?}");
-    let Err(Error::Unstable { growth_per_step, growing_modes: 2, .. }) = found.require_bounded()
+    let Err(Error::Ground(GroundError::Unstable { growth_per_step, growing_modes: 2, .. })) =
+        found.require_bounded()
     else {
         panic!("{found}")
     };

@@ -13,7 +13,8 @@ use basemat::site::{
     SoilColumn, VerticalWave,
 };
 use basemat::soil::{Hysteretic, SoilProfile, StrainCurves};
-use basemat::{Complex, Error, SiteError, Soil, unobserved};
+use basemat::{Complex, Error, Soil, unobserved};
+use basemat_problems::faults::is_input_of;
 
 const SITES: [&str; 3] = ["clay", "sand", "alternate"];
 const PEAKS: [f64; 3] = [0.05, 0.2, 0.5];
@@ -442,9 +443,8 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
             &EquivalentLinearOptions::default(),
             &mut unobserved,
         );
-        let Err(Error::Site(SiteError::Layer { layer: 2, .. })) = found else {
-            panic!("{bad:?}: {found:?}");
-        };
+        let Err(Error::Item { item, .. }) = found else { panic!("{bad:?}: {found:?}") };
+        assert_eq!(item, "layer 2", "{bad:?}");
     }
     assert!(good.at(-1e-9).is_err() && good.at(nan).is_err());
     let curves = [good.clone(), good.clone()];
@@ -480,28 +480,30 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
             &mut unobserved,
         )
         .unwrap_err();
-    assert_eq!(found, SiteError::Curves { curves: 1, layers: 2 }.into());
+    let quantity = "list of strain curves, one for each layer,";
+    assert_eq!(found, Error::Size { quantity, found: 1, needed: 2 });
     let pressure = SoilColumn::new(profile, VerticalWave::Pressure).unwrap();
     let found = pressure
         .equivalent_linear(&quiet, &curves, &EquivalentLinearOptions::default(), &mut unobserved)
         .unwrap_err();
-    assert_eq!(found, SiteError::PressureWaves.into());
+    assert!(matches!(found, Error::Scene { quantity: "soil column", .. }), "{found}");
     // Nothing damps what a rigid base sends back.
     let rings = [good.clone(), StrainCurves::Linear { damping: 0.0 }];
     let found = column
         .equivalent_linear(&quiet, &rings, &EquivalentLinearOptions::default(), &mut unobserved)
         .unwrap_err();
-    assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.0, .. })), "{found}");
+    assert!(is_input_of(&found, "layer 2", "damping ratio at small strain", 0.0), "{found}");
     // A modulus by its magnitude has no real part left at so much damping.
     let options = EquivalentLinearOptions {
         complex_modulus: ComplexModulus::Magnitude,
         ..Default::default()
     };
+    const COMPATIBLE: &str = "strain-compatible damping ratio";
     let half = StrainCurves::Linear { damping: 0.6 };
     let found = column
         .equivalent_linear(&quiet, &[good.clone(), half], &options, &mut unobserved)
         .unwrap_err();
-    assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.6, .. })), "{found}");
+    assert!(is_input_of(&found, "layer 2", COMPATIBLE, 0.6), "{found}");
     // So much damping that no body has it, and a motion beyond all numbers.
     let damped = StrainCurves::Linear { damping: 0.99 };
     let found = column
@@ -512,10 +514,7 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
             &mut unobserved,
         )
         .unwrap_err();
-    assert!(
-        matches!(found, Error::Site(SiteError::Layer { layer: 1, value: 0.99, .. })),
-        "{found}"
-    );
+    assert!(is_input_of(&found, "layer 1", COMPATIBLE, 0.99), "{found}");
     let shaken = |size: f64| {
         let motion = Record::new(1.0, vec![size, -size, size]).unwrap();
         column.equivalent_linear(

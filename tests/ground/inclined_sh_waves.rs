@@ -8,9 +8,10 @@ use basemat::bem::ElasticGround;
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, PlaneWave, Record};
 use basemat::site::{ControlPoint, InclinedControl, InclinedWave, SoilColumn, VerticalWave};
+use basemat::soil::SoilError;
 use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBody;
-use basemat::{Complex, Error, LayeredError, Simulation, Soil, unobserved};
+use basemat::{Complex, Error, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{constant_q, one_layer, rock, soft, two_layers};
 
@@ -86,7 +87,7 @@ fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
     let wave = InclinedWave::sh(covered, 0.4).unwrap();
     assert!(wave.transfer(OUTCROP, 3.0).unwrap()[0].abs() > 0.0);
     let error = wave.field(OUTCROP, &record, 0.0).err().unwrap();
-    let Error::Layered(LayeredError::BeyondCritical { layer, limit, .. }) = error else {
+    let Error::Soil(SoilError::BeyondCritical { layer, limit, .. }) = error else {
         panic!("{error}")
     };
     assert!(layer == 1 && (limit * 600.0 - 1.0).abs() < 1e-9);

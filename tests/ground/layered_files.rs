@@ -11,8 +11,9 @@ use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBlock;
-use basemat::{Complex, Error, KernelFileError, LayeredError, Simulation, Soil, unobserved};
+use basemat::{Complex, Error, FileFault, Simulation, Soil, unobserved};
 
+use basemat_problems::faults::is_value;
 use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
 /// A file of this test's own, removed at the end.
@@ -92,7 +93,7 @@ fn files_in_plan_are_taken_to_the_last_bit() {
     // A file of which one bit is wrong is refused; one with other numbers and their checksum is believed.
     let forged = rewritten(&written, true, |words| words[300] ^= 1 << 40);
     std::fs::write(&file.0, rewritten(&written, false, |words| words[300] ^= 1 << 40)).unwrap();
-    assert!(matches!(march(ground(plan(3))), Err(Error::Layered(LayeredError::File { .. }))));
+    assert!(is_damaged(&fault(march(ground(plan(3))))));
     std::fs::write(&file.0, forged).unwrap();
     assert!(march(ground(plan(3))).unwrap() != wanted);
     // Other cells make it anew.
@@ -102,11 +103,15 @@ fn files_in_plan_are_taken_to_the_last_bit() {
     assert!(std::fs::read(&file.0).unwrap() == written);
 }
 
-fn reason(found: Result<Vec<u64>, Error>) -> KernelFileError {
+fn fault(found: Result<Vec<u64>, Error>) -> FileFault {
     match found {
-        Err(Error::Layered(LayeredError::File { reason, .. })) => reason,
+        Err(Error::File(error)) => error.fault,
         other => panic!("{other:?}"),
     }
+}
+
+fn is_damaged(fault: &FileFault) -> bool {
+    *fault == FileFault::Damaged { quantity: "file".into() }
 }
 
 /// The words of a file after a change; with `checksum`, the check sum is corrected.
@@ -209,16 +214,20 @@ fn foreign_files_are_refused_and_kept() {
     let file = Temporary::new("foreign");
     for text in ["", "x", "BASEMAT", "basematk and more of it", &"0,1,2\n".repeat(1000)] {
         std::fs::write(&file.0, text).unwrap();
-        assert_eq!(reason(with(&file.0)), KernelFileError::NotAKernel, "{text:.20}");
+        let fault = fault(with(&file.0));
+        assert!(
+            matches!(&fault, FileFault::Format { needed, .. } if needed.contains("not written over")),
+            "{text:.20}: {fault}"
+        );
         assert_eq!(std::fs::read_to_string(&file.0).unwrap(), *text);
     }
     let folder = std::env::temp_dir();
-    assert!(matches!(reason(with(&folder)), KernelFileError::Unreadable(_)));
+    assert!(matches!(fault(with(&folder)), FileFault::Unreadable(_)));
     // A file where a folder must be.
     let found = with(&file.0.join("below.kernel"));
     assert!(found.is_err(), "{found:?}");
     // No file can have that name.
-    assert!(matches!(with(Path::new("")), Err(Error::Write { .. })));
+    assert!(matches!(fault(with(Path::new(""))), FileFault::Unwritable(_)));
     let text = with(&folder).unwrap_err().to_string();
     assert!(text.contains(&folder.display().to_string()), "{text}");
 }
@@ -231,23 +240,23 @@ fn damaged_files_are_refused() {
     let put = |content: &[u8]| std::fs::write(&file.0, content).unwrap();
     for length in [8, 12, 16, 39, 40, 47, 48, 1000, original.len() - 8, original.len() - 1] {
         put(&original[..length]);
-        assert!(matches!(reason(with(&file.0)), KernelFileError::Length { .. }), "{length}");
+        assert!(is_value(&fault(with(&file.0)), "number of bytes"), "{length}");
         assert_eq!(std::fs::read(&file.0).unwrap(), &original[..length]);
     }
     put(&[&original[..], &[0; 8]].concat());
-    assert!(matches!(reason(with(&file.0)), KernelFileError::Length { .. }));
+    assert!(is_value(&fault(with(&file.0)), "number of bytes"));
     // More blocks than there can be, with the right checksum.
     for blocks in [0, 1, 3, 25, 26, u64::MAX] {
         put(&rewritten(&original, true, |words| words[4] = blocks));
-        assert!(matches!(reason(with(&file.0)), KernelFileError::Length { .. }), "{blocks}");
+        assert!(is_value(&fault(with(&file.0)), "number of bytes"), "{blocks}");
     }
     for value in [f64::NAN, f64::INFINITY] {
         put(&rewritten(&original, true, |words| words[77] = value.to_bits()));
-        assert_eq!(reason(with(&file.0)), KernelFileError::Damaged);
+        assert!(is_damaged(&fault(with(&file.0))));
     }
     // Two neighbours exchanged.
     put(&rewritten(&original, false, |words| words.swap(20, 21)));
-    assert_eq!(reason(with(&file.0)), KernelFileError::Damaged);
+    assert!(is_damaged(&fault(with(&file.0))));
     // One bit anywhere: an error; in format, fingerprint or number of classes another kernel's file.
     for place in (0..original.len()).step_by(311).chain(0..48) {
         for bit in [0, 7] {
@@ -255,7 +264,7 @@ fn damaged_files_are_refused() {
             bytes[place] ^= 1 << bit;
             put(&bytes);
             match with(&file.0) {
-                Err(Error::Layered(LayeredError::File { .. })) => {}
+                Err(Error::File(_)) => {}
                 found => {
                     assert!((8..32).contains(&place), "byte {place}");
                     assert_eq!(found.unwrap(), wanted, "byte {place}");
@@ -304,5 +313,5 @@ fn runs_from_a_file_are_the_same_to_the_last_bit() {
     let ground = ElasticGround::new(p3(gmb(5)), Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     let mut ground = ground.with_kernel_file(&file.0);
     let found = ground.prepare(0.2, None, &mut unobserved).unwrap_err();
-    assert!(matches!(found, Error::Layered(LayeredError::File { .. })), "{found}");
+    assert!(matches!(found, Error::File(_)), "{found}");
 }

@@ -2,10 +2,11 @@
 //! SCENE: damped half-plane, layer on rock, layer on a rigid base; bonded and relaxed.
 //! REFERENCE: tables of other programs, statics and the cut-off frequency of a layer.
 
+use basemat::bem::GroundError;
 use basemat::bem::layered::StripContact;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Elastic, Hysteretic, SoilProfile};
-use basemat::{Complex, Error, LayeredError, Soil, unobserved};
+use basemat::{Complex, Error, Soil, unobserved};
 
 use basemat_problems::profiles::{p1, p3};
 
@@ -202,7 +203,7 @@ fn bad_frequencies_and_resonances_are_refused() {
     // An undamped layer 2 m thick begins to guide waves at 1/8 Hz.
     let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();
     let found = at(&layer, 0.125);
-    assert!(matches!(found, Err(Error::Layered(LayeredError::Unresolved { .. }))), "{found:?}");
+    assert!(matches!(found, Err(Error::Ground(GroundError::Unresolved { .. }))), "{found:?}");
     for frequency in [-1.0, f64::NAN, f64::INFINITY, 0.0] {
         let found = at(&SoilProfile::on_half_plane(soil), frequency);
         assert!(matches!(found, Err(Error::Input { .. })), "{found:?}");

@@ -4,8 +4,9 @@
 
 use basemat::motion::{Record, el_centro_1940};
 use basemat::site::{ControlPoint, SiteWarning, SoilColumn, VerticalWave};
+use basemat::soil::SoilError;
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, SoilProfile};
-use basemat::{Complex, Error, LayeredError, Soil, unobserved};
+use basemat::{Complex, Error, Soil, unobserved};
 
 use basemat_problems::profiles::p1;
 
@@ -155,7 +156,7 @@ fn bad_motions_are_refused() {
     let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
     let found = column.to_surface(control, 0.1, &[1.0], &mut unobserved);
-    assert!(matches!(found, Err(Error::Layered(LayeredError::NotCausal { layer: 1, .. }))));
+    assert!(matches!(found, Err(Error::Soil(SoilError::NotCausal { layer: 1, .. }))));
     assert!(found.unwrap_err().to_string().contains("GeneralizedMaxwell"));
 }
 

@@ -2,10 +2,11 @@
 //! SCENE: block and tower on the half-plane that slide, uplift or stay bonded.
 //! REFERENCE: the mirrored, rescaled or superposed run, and statics.
 
+use basemat::coupled::StepError;
 use basemat::coupled::{GravityStage, State};
 use basemat::interface::{Bonded, Mode, PreviousContact};
 use basemat::results::Quantity;
-use basemat::{Error, Simulation, StepError};
+use basemat::{Error, Simulation};
 use proptest::prelude::*;
 
 use basemat_problems::scenes::{

@@ -10,7 +10,8 @@ use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::io::GmshMesh;
 use basemat::structure::{FemModel, Structure};
-use basemat::{Error, MeshFileError, Simulation, Soil};
+use basemat::{Error, FileError, FileFault, Simulation, Soil};
+use basemat_problems::faults::{count, not_a_number, value};
 use proptest::prelude::*;
 
 use basemat_problems::dense;
@@ -151,9 +152,9 @@ fn a_block_comes_back_as_it_was() {
 }
 
 /// Line and reason of the refusal of `text`.
-fn refusal(text: &str) -> (usize, MeshFileError) {
+fn refusal(text: &str) -> (usize, FileFault) {
     match read(text) {
-        Err(Error::MeshFile { file, line, reason }) if file == "test.msh" => (line, reason),
+        Err(Error::File(FileError { file, line, fault })) if file == "test.msh" => (line, fault),
         other => panic!("{other:?}"),
     }
 }
@@ -161,21 +162,24 @@ fn refusal(text: &str) -> (usize, MeshFileError) {
 #[test]
 fn bad_files_are_refused_with_their_line() {
     let with = |from: &str, to: &str| refusal(&MANUAL.replacen(from, to, 1));
-    assert!(matches!(with("4.1 0 8", "2.2 0 8"), (2, MeshFileError::Unsupported { .. })));
-    assert!(matches!(with("4.1 0 8", "4.1 1 8"), (2, MeshFileError::Unsupported { .. })));
-    assert!(matches!(with("2 1 3 2", "2 1 2 2"), (22, MeshFileError::Unsupported { .. })));
-    assert!(matches!(with("0. 1. 0.", "0. 1. 0.5"), (16, MeshFileError::Unsupported { .. })));
-    assert!(matches!(with("1. 1. 0.", "1. x 0."), (15, MeshFileError::NotA { .. })));
-    assert!(matches!(with("1. 1. 0.", "1. nan 0."), (15, MeshFileError::NotA { .. })));
-    assert!(matches!(with("2 2 5 6 3", "2 2 5 7 3"), (24, MeshFileError::Missing { .. })));
-    assert!(matches!(with("\n6\n", "\n5\n"), (12, MeshFileError::Twice { .. })));
-    assert!(matches!(with("$EndNodes", "$EndElements"), (19, MeshFileError::Missing { .. })));
-    assert!(matches!(with("$Elements", "Elements"), (20, MeshFileError::NotA { .. })));
-    assert!(matches!(refusal(""), (0, MeshFileError::Missing { .. })));
-    assert!(matches!(refusal(&"1".repeat(100_000)), (1, MeshFileError::LineTooLong { .. })));
+    assert!(matches!(with("4.1 0 8", "2.2 0 8"), (2, FileFault::Format { .. })));
+    assert!(matches!(with("4.1 0 8", "4.1 1 8"), (2, FileFault::Format { .. })));
+    assert!(matches!(with("2 1 3 2", "2 1 2 2"), (22, FileFault::Format { .. })));
+    assert_eq!(with("0. 1. 0.", "0. 1. 0.5"), (16, value("z of a node", "0.5", "0")));
+    assert_eq!(with("1. 1. 0.", "1. x 0."), (15, not_a_number("x")));
+    assert_eq!(with("1. 1. 0.", "1. nan 0."), (15, not_a_number("nan")));
+    assert!(matches!(with("2 2 5 6 3", "2 2 5 7 3"), (24, FileFault::Missing { .. })));
+    assert_eq!(with("\n6\n", "\n5\n"), (12, value("node 5", "given twice", "given once")));
+    assert!(matches!(with("$EndNodes", "$EndElements"), (19, FileFault::Missing { .. })));
+    let begin = value("field", "'Elements'", "the beginning of a section");
+    assert_eq!(with("$Elements", "Elements"), (20, begin));
+    assert!(matches!(refusal(""), (0, FileFault::Missing { .. })));
+    let long = value("length of the line", "65536 bytes or more", "less");
+    assert_eq!(refusal(&"1".repeat(100_000)), (1, long));
     let cut = refusal(&MANUAL[..MANUAL.find("2 2 5 6 3").unwrap()]);
-    assert!(matches!(cut, (24, MeshFileError::Missing { .. })), "{cut:?}");
-    assert!(matches!(GmshMesh::read("no such file"), Err(Error::MeshFile { line: 0, .. })));
+    assert!(matches!(cut, (24, FileFault::Missing { .. })), "{cut:?}");
+    let Err(Error::File(error)) = GmshMesh::read("no such file") else { panic!("there is a file") };
+    assert!(error.line == 0 && matches!(error.fault, FileFault::Unreadable(_)), "{error}");
 }
 
 /// Editors may write a byte-order mark before the first line; anywhere else it is not a number.
@@ -185,7 +189,7 @@ fn a_byte_order_mark_is_passed_over() {
     assert_eq!(read(&marked).unwrap(), read(MANUAL).unwrap());
     // Lines are counted as without it.
     let (line, reason) = refusal(&marked.replacen("1. 1. 0.", "1. x 0.", 1));
-    assert!(line == 15 && matches!(reason, MeshFileError::NotA { .. }), "{reason}");
+    assert_eq!((line, reason), (15, not_a_number("x")));
     let (line, _) = refusal(&MANUAL.replacen("1. 1. 0.", "\u{feff}1. 1. 0.", 1));
     assert_eq!(line, 15);
 }
@@ -198,8 +202,7 @@ fn numbers_are_read_wholly_or_refused() {
     }
     for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1e999", "inf", "\u{2212}2", "2;", "**", "2/1"] {
         let (line, reason) = refusal(&with(bad));
-        let MeshFileError::NotA { text, .. } = &reason else { panic!("{bad}: {reason}") };
-        assert_eq!((line, text.as_str()), (17, bad), "{reason}");
+        assert_eq!((line, reason), (17, not_a_number(bad)));
     }
 }
 
@@ -217,15 +220,17 @@ fn groups_that_are_not_there_are_named() {
     let gmsh = read(MANUAL).unwrap();
     for materials in [&[][..], &[("", concrete()), ("roof", concrete())]] {
         let error = gmsh.mesh(materials).unwrap_err();
-        assert!(matches!(error, Error::MeshFile { .. }), "{error}");
+        let Error::File(error) = error else { panic!("{error}") };
+        assert!(matches!(error.fault, FileFault::Missing { .. }), "{error}");
     }
     assert!(gmsh.line("base").unwrap_err().to_string().contains("there is no line 'base'"));
     // A quadrilateral that crosses itself has an area of neither sign.
     let crossed_text = MANUAL.replacen("1 1 2 3 4", "1 1 3 2 4", 1);
     let crossed = read(&crossed_text).unwrap();
     let error = crossed.mesh(&[("", concrete())]).unwrap_err();
-    let Error::MeshFile { line, reason, .. } = &error else { panic!("{error}") };
-    assert!(matches!(reason, MeshFileError::Element { tag: 1, .. }), "{error}");
+    let Error::File(FileError { line, fault, .. }) = &error else { panic!("{error}") };
+    let FileFault::Unusable(inside) = fault else { panic!("{error}") };
+    assert!(matches!(&**inside, Error::Item { item, .. } if item == "element 1"), "{error}");
     let stands = crossed_text.lines().nth(line - 1).unwrap();
     assert_eq!(stands, "1 1 3 2 4");
     assert!(error.to_string().contains(&format!("line {line}: element 1: ")), "{error}");
@@ -235,9 +240,9 @@ fn groups_that_are_not_there_are_named() {
 fn what_is_announced_must_be_there() {
     let with = |from: &str, to: &str| refusal(&MANUAL.replacen(from, to, 1));
     let nodes = with("1 6 1 6", "1 7 1 6");
-    assert_eq!(nodes, (18, MeshFileError::Count { what: "nodes", found: 6, announced: 7 }));
+    assert_eq!(nodes, (18, count("nodes", 6, "7, as announced")));
     let elements = with("1 2 1 2", "1 1 1 2");
-    assert_eq!(elements, (24, MeshFileError::Count { what: "elements", found: 2, announced: 1 }));
+    assert_eq!(elements, (24, count("elements", 2, "1, as announced")));
     let (line, reason) = with("2 1 3 2", "2 1 10 2");
     assert!(line == 22 && reason.to_string().contains("SecondOrderIncomplete"), "{reason}");
 }
@@ -256,7 +261,8 @@ fn a_group_has_one_material() {
     let gmsh = read(MANUAL).unwrap();
     let soft = Material::new(1.0e9, 0.2, 2400.0).unwrap();
     let error = gmsh.mesh(&[("", concrete()), ("", soft)]).unwrap_err();
-    assert!(matches!(error, Error::MeshFile { reason: MeshFileError::Twice { .. }, .. }));
+    let Error::File(FileError { fault, .. }) = error else { panic!("{error}") };
+    assert_eq!(fault, value("material of surface ''", "given twice", "given once"));
 }
 
 /// GOAL: what a file gives twice is refused, whole sections and single elements.
@@ -264,8 +270,9 @@ fn a_group_has_one_material() {
 fn nothing_counts_twice() {
     let twice = |text: &str, part: &str| {
         let (line, reason) = refusal(text);
-        let MeshFileError::Twice { what } = &reason else { panic!("{reason}") };
-        assert!(line > 0 && what.contains(part), "{line}: {what}, not {part}");
+        let FileFault::Value { quantity, found, .. } = &reason else { panic!("{reason}") };
+        assert!(line > 0 && quantity.contains(part), "{line}: {quantity}, not {part}");
+        assert_eq!(found, "given twice");
         line
     };
     let section = |name: &str, text: &str| {
@@ -329,7 +336,7 @@ $Elements\n2 5 1 5\n1 1 1 2\n1 4 3\n2 1 2\n2 1 3 3\n3 1 2 6 5\n4 2 3 7 6\n5 3 4 
 fn a_base_with_a_gap_is_two_foundations() {
     let gmsh = read(STRIPS).unwrap();
     let error = gmsh.line("base").unwrap_err().to_string();
-    assert!(error.contains("2 pieces"), "{error}");
+    assert!(error.contains("number of pieces of line 'base' is 2, but must be 1"), "{error}");
     let lines = gmsh.foundations("base").unwrap();
     assert_eq!(lines, [[0, 1], [2, 3]]);
     let mesh = || gmsh.mesh(&[("", concrete())]).unwrap();

@@ -3,8 +3,9 @@
 //! REFERENCE: numbers that scipy and numpy give for the same files.
 
 use basemat::structure::Triplets;
-use basemat::{Error, MatrixFileError, MemoryError};
+use basemat::{Error, FileError, FileFault, MemoryError};
 
+use basemat_problems::faults::{count, not_a_number, value};
 use basemat_problems::random::Random;
 
 /// Dense sums of the entries.
@@ -16,6 +17,10 @@ fn dense(matrix: &Triplets) -> Vec<f64> {
 fn data(name: &str) -> Triplets {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/matrix_market/");
     Triplets::read_matrix_market(format!("{folder}{name}.mtx")).unwrap()
+}
+
+fn fault(line: usize, fault: FileFault) -> Error {
+    Error::File(FileError { file: "text".into(), line, fault })
 }
 
 fn parse(text: &str) -> basemat::Result<Triplets> {
@@ -93,10 +98,7 @@ fn a_byte_order_mark_is_passed_over() {
     let text = "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 2.0\n";
     let marked = format!("\u{feff}{text}");
     assert_eq!(parse(&marked).unwrap(), parse(text).unwrap());
-    let Error::MatrixFile { line, .. } = parse(&marked.replace("2.0", "x")).unwrap_err() else {
-        panic!("a matrix's file")
-    };
-    assert_eq!(line, 3);
+    assert_eq!(parse(&marked.replace("2.0", "x")), Err(fault(3, not_a_number("x"))));
     assert!(parse(&text.replace("2.0", "\u{feff}2.0")).is_err());
 }
 
@@ -111,38 +113,56 @@ fn numbers_are_read_wholly_or_refused() {
     for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1D999", "inf", "\u{2212}2", "2;", "**", "Dinf"]
     {
         let error = parse(&with(bad)).unwrap_err();
-        let reason = MatrixFileError::NotANumber { text: bad.into() };
-        assert_eq!(error, Error::MatrixFile { file: "text".into(), line: 3, reason }, "{bad}");
+        assert_eq!(error, fault(3, not_a_number(bad)), "{bad}");
     }
     for bad in ["1,0", "1.0", "1D0", "-1", "1e0"] {
         let text = with("2").replace("1 1 2", &format!("{bad} 1 2"));
-        assert!(matches!(parse(&text), Err(Error::MatrixFile { line: 3, .. })), "{bad}");
+        let whole = value("field", &format!("'{bad}'"), "a whole number");
+        let index = value("index", bad, "from 1 to 1");
+        let error = parse(&text).unwrap_err();
+        assert!([fault(3, whole), fault(3, index)].contains(&error), "{bad}: {error}");
     }
 }
 
 #[test]
 fn bad_files_are_refused_with_line_and_reason() {
-    use MatrixFileError as E;
     let coordinate = |rest: &str| format!("%%MatrixMarket matrix coordinate real general\n{rest}");
     let symmetric = |rest: &str| format!("%%MatrixMarket matrix coordinate real symmetric\n{rest}");
     let array = |rest: &str| format!("%%MatrixMarket matrix array real general\n{rest}");
     let header = |text: &str| format!("%%MatrixMarket {text}\n2 2 0\n");
-    let not = |text: &str| E::NotANumber { text: text.into() };
-    let unsupported = |text: &str| E::Unsupported { text: text.into() };
-    let entries = |found, needed| E::Entries { found, needed };
+    let not = not_a_number;
+    let not_whole = |text: &str| value("field", &format!("'{text}'"), "a whole number");
+    let fields = |found, needed| count("fields", found, needed);
+    let format = |found: &str, needed: &str| FileFault::Format {
+        found: found.to_owned(),
+        needed: needed.to_owned(),
+    };
+    let head = |found: &str| format(found, "'%%MatrixMarket matrix <format> <field> <symmetry>'");
+    let index = |found| value("index", found, "from 1 to 2");
+    let unsupported =
+        |text: &str| format(text, "a real matrix, coordinate or array, general or symmetric");
+    let entries = |found, needed: usize| {
+        count("entries", found, &format!("{needed}, as the size line states"))
+    };
     let too_large = |asked, needed| {
         let quantity = "rows of the matrix";
         let remedy = "`set_memory_limit` allows more";
-        E::Memory(MemoryError { quantity, asked, needed, limit: 4.0 * 1024.0_f64.powi(3), remedy })
+        FileFault::Memory(MemoryError {
+            quantity,
+            asked,
+            needed,
+            limit: 4.0 * 1024.0_f64.powi(3),
+            remedy,
+        })
     };
     let long = "1".repeat(70_000);
     for (text, line, reason) in [
-        (String::new(), 0, E::Empty),
-        ("1 2 3\n".into(), 1, E::Header { text: "1 2 3".into() }),
+        (String::new(), 0, FileFault::Missing { quantity: "header".into() }),
+        ("1 2 3\n".into(), 1, head("1 2 3")),
         (
             "%%MatrixMarket matrix coordinate real\n".into(),
             1,
-            E::Header { text: "%%MatrixMarket matrix coordinate real".into() },
+            head("%%MatrixMarket matrix coordinate real"),
         ),
         (header("vector coordinate real general"), 1, unsupported("vector")),
         (header("matrix sparse real general"), 1, unsupported("sparse")),
@@ -150,18 +170,18 @@ fn bad_files_are_refused_with_line_and_reason() {
         (header("matrix coordinate pattern general"), 1, unsupported("pattern")),
         (header("matrix coordinate real hermitian"), 1, unsupported("hermitian")),
         (header("matrix coordinate real skew-symmetric"), 1, unsupported("skew-symmetric")),
-        (coordinate("% only a comment\n"), 2, E::Fields { found: 0, needed: 3 }),
-        (coordinate("2 2\n"), 2, E::Fields { found: 2, needed: 3 }),
-        (coordinate("2 -2 1\n"), 2, not("-2")),
-        (coordinate("2 2 x\n"), 2, not("x")),
-        (coordinate("2 3 1\n"), 2, E::NotSquare { rows: 2, columns: 3 }),
-        (coordinate("2 2 1\n1 1\n"), 3, E::Fields { found: 2, needed: 3 }),
-        (coordinate("2 2 1\n1 1 1 0\n"), 3, E::Fields { found: 4, needed: 3 }),
+        (coordinate("% only a comment\n"), 2, fields(0, "3")),
+        (coordinate("2 2\n"), 2, fields(2, "3")),
+        (coordinate("2 -2 1\n"), 2, not_whole("-2")),
+        (coordinate("2 2 x\n"), 2, not_whole("x")),
+        (coordinate("2 3 1\n"), 2, value("size of the matrix", "2 x 3", "square")),
+        (coordinate("2 2 1\n1 1\n"), 3, fields(2, "3")),
+        (coordinate("2 2 1\n1 1 1 0\n"), 3, fields(4, "3")),
         (coordinate("2 2 1\n1 1 nan\n"), 3, not("nan")),
         (coordinate("2 2 1\n1 1 1e999\n"), 3, not("1e999")),
-        (coordinate("2 2 1\n1.5 1 1\n"), 3, not("1.5")),
-        (coordinate("2 2 1\n0 1 1\n"), 3, E::Index { index: 0, order: 2 }),
-        (coordinate("2 2 1\n1 3 1\n"), 3, E::Index { index: 3, order: 2 }),
+        (coordinate("2 2 1\n1.5 1 1\n"), 3, not_whole("1.5")),
+        (coordinate("2 2 1\n0 1 1\n"), 3, index("0")),
+        (coordinate("2 2 1\n1 3 1\n"), 3, index("3")),
         (coordinate("2 2 3\n1 1 1\n%\n2 2 1\n"), 5, entries(2, 3)),
         (coordinate("2 2 1\n1 1 1\n\n2 2 1\n"), 5, entries(2, 1)),
         (coordinate("2 2 18446744073709551615\n1 1 1\n"), 3, entries(1, usize::MAX)),
@@ -172,18 +192,26 @@ fn bad_files_are_refused_with_line_and_reason() {
         ),
         (coordinate("100000000 100000000 1\n1 1 1.0\n"), 2, too_large(1e8, 4e10)),
         (array("30000 30000\n1\n"), 2, too_large(3e4, 24.0 * 9e8)),
-        (symmetric("2 2 1\n1 2 1.0\n"), 3, E::AboveDiagonal { row: 1, column: 2 }),
+        (
+            symmetric("2 2 1\n1 2 1.0\n"),
+            3,
+            value("entry", "(1, 2)", "on or below the diagonal of a symmetric matrix"),
+        ),
         (array("2 2\n1\n2\n3\n"), 5, entries(3, 4)),
         (array("2 2\n1\n2\n3\n4\n5\n"), 7, entries(5, 4)),
-        (array("2 2\n1 2\n"), 3, E::Fields { found: 2, needed: 1 }),
-        (coordinate(&long), 2, E::LineTooLong { bytes: 65_536 }),
-        (coordinate("\u{fffd}\n"), 2, E::Fields { found: 1, needed: 3 }),
+        (array("2 2\n1 2\n"), 3, fields(2, "1")),
+        (coordinate(&long), 2, value("length of the line", "65536 bytes or more", "less")),
+        (coordinate("\u{fffd}\n"), 2, fields(1, "3")),
     ] {
-        let expected = Error::MatrixFile { file: "text".into(), line, reason };
-        assert_eq!(parse(&text).unwrap_err(), expected, "{}", &text[..text.len().min(90)]);
+        assert_eq!(
+            parse(&text).unwrap_err(),
+            fault(line, reason),
+            "{}",
+            &text[..text.len().min(90)]
+        );
     }
     let missing = Triplets::read_matrix_market("/no/such/file.mtx").unwrap_err();
-    assert!(missing.to_string().starts_with("/no/such/file.mtx: cannot be read"));
+    assert!(missing.to_string().starts_with("/no/such/file.mtx cannot be read"));
     let nowhere = Triplets::new(1).write_matrix_market("/no/such/file.mtx").unwrap_err();
     assert!(nowhere.to_string().contains("cannot be written"), "{nowhere}");
     let mut bad = Triplets::new(1);

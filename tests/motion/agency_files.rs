@@ -2,11 +2,11 @@
 //! SCENE: small files in the layout of each agency, with samples of our own (`tests/data/records`).
 //! REFERENCE: the samples and the interval that the file was made with, which its header states in several places.
 
-use basemat::RecordError;
 use basemat::motion::{
     AccelerationUnit, AfadFormat, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
     KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
 };
+use basemat_problems::faults::{is_contradiction, is_unprocessed, value};
 
 use super::refusal;
 
@@ -109,7 +109,7 @@ fn components_of_a_station_are_read_at_once() {
     assert_eq!((single.len(), single[0].0.as_str()), (1, "HNE"));
     for component in [0, 4] {
         let (_, reason) = refusal(&bytes("afad_three.txt"), &AfadFormat { component });
-        assert_eq!(reason, RecordError::Channel { found: 3, needed: component });
+        assert_eq!(reason, value("requested channel", &component.to_string(), "from 1 to 3"));
     }
     let format = ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.01);
     let columns = all("three_components.txt", &format);
@@ -126,7 +126,7 @@ fn cosmos_files_have_the_interval_of_their_data() {
     let format = CosmosFormat::default();
     is_read("cosmos_interval_5ms.v2c", &format, 0.005, repeated(50, 0.01));
     let (line, reason) = refusal(&bytes("cosmos_counts.v0c"), &format);
-    assert!(line == 44 && matches!(reason, RecordError::Unprocessed { .. }), "{reason}");
+    assert!(line == 44 && is_unprocessed(&reason), "{reason}");
     assert!(reason.to_string().contains("raw counts"), "{reason}");
 
     // The interval of the data is unknown: the recorder's counts. Neither is right if the duration is another one.
@@ -142,7 +142,7 @@ fn cosmos_files_have_the_interval_of_their_data() {
     ] {
         assert!(text.contains(from));
         let (_, reason) = refusal(&text.replace(from, to), &format);
-        assert!(matches!(reason, RecordError::Contradiction { .. }), "{to}: {reason}");
+        assert!(is_contradiction(&reason), "{to}: {reason}");
     }
 }
 
@@ -190,7 +190,8 @@ fn times_that_are_rounded_too_coarsely_ask_for_the_step() {
     let given = ColumnFormat { time_step: Some(1.0 / 128.0), ..columns };
     // 200 samples a second, printed to 10 ms.
     let text = "0.00 1\n0.01 2\n0.01 3\n0.02 4\n0.02 5\n";
-    assert!(matches!(refusal(text, &columns), (3, RecordError::RoundedTimes { .. })));
+    let needed = "given (`time_step`): times rounded to 0.01 s do not tell it";
+    assert_eq!(refusal(text, &columns), (3, value("time step", "near 0.005 s", needed)));
     let wanted = (0..200).map(|k| f64::from(k % 5));
     is_read("rounded128.csv", &given, 1.0 / 128.0, wanted);
 }

@@ -11,7 +11,7 @@ use basemat::motion::{
     AccelerationUnit, AfadFormat, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
     KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
 };
-use basemat::{Error, Result};
+use basemat::{Error, FileError, Result};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
@@ -71,8 +71,8 @@ fn check(result: Result<Record>) {
             }
             let _ = record.at(0.5 * record.duration()).displacement;
         }
-        Err(Error::Record { line, reason, .. }) => {
-            assert!(!reason.to_string().is_empty() && line < 1 << 40);
+        Err(Error::File(FileError { line, fault, .. })) => {
+            assert!(!fault.to_string().is_empty() && line < 1 << 40);
         }
         Err(Error::Input { needed, .. }) => assert!(!needed.is_empty()),
         Err(other) => panic!("{other}"),

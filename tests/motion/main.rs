@@ -20,15 +20,15 @@ mod response_spectrum;
 mod stated_twice;
 
 use basemat::motion::{Record, RecordFormat};
-use basemat::{Error, RecordError};
+use basemat::{Error, FileError, FileFault};
 
 /// Line and reason of a text's refusal.
 #[track_caller]
-fn refusal(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> (usize, RecordError) {
+fn refusal(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> (usize, FileFault) {
     match Record::from_reader("text", text.as_ref(), format) {
-        Err(Error::Record { file, line, reason }) => {
+        Err(Error::File(FileError { file, line, fault })) => {
             assert_eq!(file, "text");
-            (line, reason)
+            (line, fault)
         }
         other => panic!("{other:?}"),
     }

@@ -7,7 +7,11 @@
 use basemat::motion::{
     AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat, el_centro_1940,
 };
-use basemat::{Error, RecordError};
+use basemat::{Error, FileFault};
+use basemat_problems::faults::{
+    count, is_contradiction, is_missing, is_no_acceleration, is_no_number, is_unprocessed,
+    not_a_number, value,
+};
 use proptest::prelude::*;
 
 use super::refusal;
@@ -58,15 +62,14 @@ fn peer_files_that_do_not_hold_what_they_say_are_refused() {
     assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2\n"), (5, counted(2, 3)));
     assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2\n3 4\n"), (6, counted(4, 3)));
     assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2 3\n\n4\n"), (7, counted(4, 3)));
-    let number = |text: &str| RecordError::NotANumber { text: text.into() };
-    assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2 x3\n"), (5, number("x3")));
-    assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2 ***\n"), (5, number("***")));
+    assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2 x3\n"), (5, not_a_number("x3")));
+    assert_eq!(with("NPTS= 3, DT= .01 SEC\n1 2 ***\n"), (5, not_a_number("***")));
     for header in ["NPTS= 3, DT= 0 SEC", "NPTS= 1, DT= 1", "NPTS=, DT=", "NPTS= 1e99, DT=.1"] {
         let (line, reason) = with(&format!("{header}\n1 2 3\n"));
-        assert!(line == 4 && matches!(reason, RecordError::Missing { .. }), "{header}: {reason}");
+        assert!(line == 4 && is_missing(&reason), "{header}: {reason}");
     }
     let (_, reason) = refusal(&format!("{PEER_TITLE}no numbers\n"), &PeerFormat);
-    assert!(matches!(reason, RecordError::Missing { .. }));
+    assert!(is_missing(&reason));
     for other in [
         "VELOCITY TIME SERIES IN UNITS OF CM/S",
         "VELOCITY TIME SERIES (CM/S)",
@@ -78,7 +81,7 @@ fn peer_files_that_do_not_hold_what_they_say_are_refused() {
     ] {
         let text = format!("{PEER_TITLE}{other}\nNPTS= 2, DT= .01 SEC\n1 2\n");
         let (line, reason) = refusal(&text, &PeerFormat);
-        assert!(line == 3 && matches!(reason, RecordError::NotAcceleration { .. }), "{reason}");
+        assert!(line == 3 && is_no_acceleration(&reason), "{reason}");
     }
 }
 
@@ -88,15 +91,16 @@ fn peer_files_must_name_their_unit() {
         let text = format!("{PEER_TITLE}{header}NPTS= 2, DT= .01 SEC\n1 2\n");
         let (line, reason) = refusal(&text, &PeerFormat);
         assert_eq!(line, if header.is_empty() { 3 } else { 4 });
-        assert_eq!(reason, RecordError::Missing { quantity: "unit (UNITS OF G)" });
+        let unit = "there is no unit (UNITS OF G) in the header, or none that makes sense";
+        assert!(is_missing(&reason) && reason.to_string() == unit, "{reason}");
     }
     // A step that is a number, but no record's.
     let text = format!("{PEER_TITLE}UNITS OF G\nNPTS= 2, DT= 1e308 SEC\n1 2\n");
-    assert!(matches!(refusal(&text, &PeerFormat), (0, RecordError::Unusable(_))));
+    assert!(matches!(refusal(&text, &PeerFormat), (0, FileFault::Unusable(_))));
 }
 
-fn counted(found: usize, needed: usize) -> RecordError {
-    RecordError::SampleCount { found, needed }
+fn counted(found: usize, needed: usize) -> FileFault {
+    count("samples", found, &needed.to_string())
 }
 
 #[test]
@@ -128,7 +132,7 @@ fn k_net_counts_become_accelerations() {
         ("Memo.", "Remark"),
     ] {
         let (_, reason) = refusal(&text.replace(key, other), &KNetFormat);
-        assert!(matches!(reason, RecordError::Missing { .. }), "{other}: {reason}");
+        assert!(is_missing(&reason), "{other}: {reason}");
     }
 }
 
@@ -148,10 +152,11 @@ fn csmip_files_hold_channels() {
     same(&read(CSMIP, &second).unwrap(), 0.01, &[0.5 * GRAVITY, -0.5 * GRAVITY]);
     for needed in [0, 3] {
         let (_, reason) = refusal(CSMIP, &CosmosFormat { channel: needed, ..format });
-        assert_eq!(reason, RecordError::Channel { found: 2, needed });
+        assert_eq!(reason, value("requested channel", &needed.to_string(), "from 1 to 2"));
     }
     let counts = CSMIP.replace("in g.", "in counts.");
-    assert!(matches!(refusal(&counts, &second), (8, RecordError::Unprocessed { .. })));
+    let (line, reason) = refusal(&counts, &second);
+    assert!(line == 8 && is_unprocessed(&reason), "{reason}");
     let short = &CSMIP[..CSMIP.len() - 5];
     assert_eq!(refusal(short, &second), (9, counted(1, 2)));
 }
@@ -204,16 +209,17 @@ fn cosmos_takes_the_interval_from_its_real_header() {
     let recorder = cosmos_text(-999.0);
     same(&read(&recorder, &format).unwrap(), 0.02, &wanted);
     let (_, reason) = refusal(&recorder.replace("     0.020000", "  -999.000000"), &format);
-    assert_eq!(reason, RecordError::Missing { quantity: "sampling interval" });
+    let interval = "there is no sampling interval in the header, or none that makes sense";
+    assert!(is_missing(&reason) && reason.to_string() == interval, "{reason}");
     let counts = text.replace("cm/s^2 (4)", "counts (50)");
-    assert!(matches!(refusal(&counts, &format).1, RecordError::Unprocessed { .. }));
+    assert!(is_unprocessed(&refusal(&counts, &format).1));
     let contradicted = text.replace("cm/s^2 (4)", "cm/s^2 (2)");
-    assert!(matches!(refusal(&contradicted, &format).1, RecordError::NotAcceleration { .. }));
+    assert!(is_no_acceleration(&refusal(&contradicted, &format).1));
     // The title's duration.
     for seconds in [3, 50, 1000] {
         let text = text.replace("approx  0 secs", &format!("approx  {seconds} secs"));
         let (line, reason) = refusal(&text, &format);
-        assert!(line == 22 && matches!(reason, RecordError::Contradiction { .. }), "{reason}");
+        assert!(line == 22 && is_contradiction(&reason), "{reason}");
     }
 }
 
@@ -245,7 +251,7 @@ fn full_columns_may_touch() {
         ("", "9.1234510.1234511.1234512.34500"),
     ] {
         let (line, reason) = refusal(&csmip(format, body), &CosmosFormat::default());
-        assert!(line == 2 && matches!(reason, RecordError::NotANumber { .. }), "{reason}");
+        assert!(line == 2 && is_no_number(&reason), "{reason}");
     }
 }
 
@@ -261,7 +267,7 @@ fn units_of_cosmos_files_are_words() {
             [CosmosFormat::default(), CosmosFormat { unit: Some(unit), ..CosmosFormat::default() }]
         {
             let (line, reason) = refusal(&with(units), &format);
-            assert!(line == 2 && matches!(reason, RecordError::NotAcceleration { .. }), "{units}");
+            assert!(line == 2 && is_no_acceleration(&reason), "{units}");
         }
     }
     let values = [1.0, -12345.678, 3.0];
@@ -275,10 +281,8 @@ fn units_of_cosmos_files_are_words() {
     }
     // Old files name no unit.
     let old = with("");
-    assert!(matches!(
-        refusal(&old, &CosmosFormat::default()),
-        (2, RecordError::NotAcceleration { .. })
-    ));
+    let (line, reason) = refusal(&old, &CosmosFormat::default());
+    assert!(line == 2 && is_no_acceleration(&reason), "{reason}");
     same(
         &read(&old, &CosmosFormat { unit: Some(unit), ..CosmosFormat::default() }).unwrap(),
         0.02,

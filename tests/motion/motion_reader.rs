@@ -4,7 +4,8 @@
 
 use approx::assert_relative_eq;
 use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
-use basemat::{Error, RecordError};
+use basemat::{Error, FileError, FileFault};
+use basemat_problems::faults::{count, is_value, not_a_number, value};
 use proptest::prelude::*;
 
 use super::refusal;
@@ -23,9 +24,9 @@ fn read(text: &str) -> Result<Record, Error> {
     Record::from_reader("text", text.as_bytes(), &metric())
 }
 
-fn not_a_number(text: &str) -> RecordError {
-    RecordError::NotANumber { text: text.into() }
-}
+/// Requirement of a word before all numbers.
+const MORE_LINES: &str =
+    "a finite number: with more than one line of header, give their number (`header_lines`)";
 
 #[test]
 fn reader_takes_every_usual_layout() {
@@ -84,28 +85,28 @@ fn units_are_converted() {
 #[test]
 fn reader_refuses_with_line_and_reason() {
     let format = metric();
-    let cases: [(&[u8], usize, RecordError); 20] = [
-        (b"", 0, RecordError::TooShort { found: 0, needed: 2 }),
-        (b"# only\n\ncomments\n", 0, RecordError::TooShort { found: 0, needed: 2 }),
-        (b"0 1\n", 1, RecordError::TooShort { found: 1, needed: 2 }),
+    let cases: [(&[u8], usize, FileFault); 20] = [
+        (b"", 0, count("samples", 0, "at least 2")),
+        (b"# only\n\ncomments\n", 0, count("samples", 0, "at least 2")),
+        (b"0 1\n", 1, count("samples", 1, "at least 2")),
         (b"0 1\n1 nan\n", 2, not_a_number("nan")),
         (b"0 1\n1 -inf\n", 2, not_a_number("-inf")),
         (b"0 1\nNaN 1\n", 2, not_a_number("NaN")),
         (b"0 1\n1 1e999\n", 2, not_a_number("1e999")),
-        (b"0 1\n1\n", 2, RecordError::Column { found: 1, needed: 2 }),
+        (b"0 1\n1\n", 2, value("requested column", "2", "from 1 to 1")),
         (b"0,1\n1,\n", 2, not_a_number("")),
         (b"0,1\n,1\n", 2, not_a_number("")),
         (b"0;1\n1;;1\n", 2, not_a_number("")),
         // Decimal commas.
         (b"0;1\n0,02;1\n", 2, not_a_number("0,02")),
         (b"0;1\n1;1,5\n", 2, not_a_number("1,5")),
-        (b"t a\nt a\n0 0\n1 1\n", 2, RecordError::HeaderLine { text: "t".into() }),
+        (b"t a\nt a\n0 0\n1 1\n", 2, value("field", "'t'", MORE_LINES)),
         (b"0 0\nt a\n1 1\n", 2, not_a_number("t")),
         (b"0 x\n1 1\n", 1, not_a_number("x")),
         (b"0 1\n\xff\xfe 1\n", 2, not_a_number("\u{fffd}\u{fffd}")),
-        (b"0 1\n1 1\n1 1\n", 3, RecordError::TimeNotIncreasing { found: 0.0 }),
-        (b"0 1\n-1 1\n", 2, RecordError::TimeNotIncreasing { found: -1.0 }),
-        (b"0 1\n1 1\n\n2.2 1\n", 4, RecordError::UnequalStep { found: 1.2, expected: 1.0 }),
+        (b"0 1\n1 1\n1 1\n", 3, value("time step", "0 s", "above zero")),
+        (b"0 1\n-1 1\n", 2, value("time step", "-1 s", "above zero")),
+        (b"0 1\n1 1\n\n2.2 1\n", 4, value("time step", "1.2 s", "1 s, as before")),
     ];
     for (text, line, reason) in cases {
         let shown = String::from_utf8_lossy(text);
@@ -117,31 +118,31 @@ fn reader_refuses_with_line_and_reason() {
 fn reader_refuses_wrong_columns_and_counts() {
     let text = b"0 1\n1 1\n";
     let found = refusal(text, &columns(1, 3));
-    assert_eq!(found, (1, RecordError::Column { found: 2, needed: 3 }));
+    assert_eq!(found, (1, value("requested column", "3", "from 1 to 2")));
     let found = refusal(text, &columns(0, 1));
-    assert_eq!(found, (1, RecordError::Column { found: 2, needed: 0 }));
+    assert_eq!(found, (1, value("requested column", "0", "from 1 to 2")));
     let found = refusal(text, &ColumnFormat { samples: Some(3), ..metric() });
-    assert_eq!(found, (2, RecordError::SampleCount { found: 2, needed: 3 }));
+    assert_eq!(found, (2, count("samples", 2, "3")));
     // the acceleration taken for the time
     let found = refusal(b"0 1\n1 3\n2 9\n", &columns(2, 1));
-    assert_eq!(found, (3, RecordError::UnequalStep { found: 6.0, expected: 2.0 }));
+    assert_eq!(found, (3, value("time step", "6 s", "2 s, as before")));
 }
 
 #[test]
 fn a_single_column_is_single() {
     let alone = ColumnFormat::equally_spaced(METRIC, 0.02);
     let found = refusal(b"1\n2 3\n", &alone);
-    assert_eq!(found, (2, RecordError::SeveralColumns { found: 2 }));
+    assert_eq!(found, (2, count("columns", 2, "1 (name the one of the acceleration)")));
     let found = refusal(b"0.00,1\n0.02,2\n", &alone);
-    assert_eq!(found, (1, RecordError::SeveralColumns { found: 2 }));
+    assert_eq!(found, (1, count("columns", 2, "1 (name the one of the acceleration)")));
     let found = refusal(b"1\n2\n3\n", &ColumnFormat { samples: Some(2), ..alone });
-    assert_eq!(found, (3, RecordError::SampleCount { found: 3, needed: 2 }));
+    assert_eq!(found, (3, count("samples", 3, "2")));
     let found = refusal(b"1\n2\n", &ColumnFormat { acceleration_column: Some(2), ..alone });
-    assert_eq!(found, (1, RecordError::Column { found: 1, needed: 2 }));
+    assert_eq!(found, (1, value("requested column", "2", "from 1 to 1")));
     for step in [0.0, -0.02, f64::NAN, f64::INFINITY] {
         let format = ColumnFormat::equally_spaced(METRIC, step);
         let (line, reason) = refusal(b"1\n2\n", &format);
-        assert!(line == 0 && matches!(reason, RecordError::Unusable(_)), "{reason}");
+        assert!(line == 0 && matches!(reason, FileFault::Unusable(_)), "{reason}");
     }
     // A time column after all.
     let record = Record::from_reader("", &b"0 5\n1 6\n"[..], &columns(1, 2)).unwrap();
@@ -152,7 +153,7 @@ fn a_single_column_is_single() {
 fn numbers_that_make_no_record_name_the_file() {
     let (line, reason) = refusal(b"0 1e200\n1e200 1e200\n", &metric());
     assert_eq!(line, 0);
-    let RecordError::Unusable(error) = reason else { panic!("{reason}") };
+    let FileFault::Unusable(error) = reason else { panic!("{reason}") };
     assert!(matches!(*error, Error::Input { quantity: "velocity of the record", .. }), "{error}");
 }
 
@@ -165,11 +166,11 @@ fn reader_refuses_drifting_steps_and_endless_lines() {
         time += 1.0 + 5e-5 * f64::from(k);
     }
     let (_, reason) = refusal(lines.join("\n").as_bytes(), &metric());
-    assert!(matches!(reason, RecordError::DriftingStep { .. }), "{reason}");
+    assert!(is_value(&reason, "time"), "{reason}");
     let endless = std::io::Read::take(std::io::repeat(b'1'), 1 << 40);
     let error = Record::from_reader("zeros", endless, &metric()).unwrap_err();
-    let reason = RecordError::LineTooLong { bytes: 65_536 };
-    assert_eq!(error, Error::Record { file: "zeros".into(), line: 1, reason });
+    let fault = value("length of the line", "65536 bytes or more", "less");
+    assert_eq!(error, Error::File(FileError { file: "zeros".into(), line: 1, fault }));
 }
 
 #[test]
@@ -189,7 +190,8 @@ fn reader_refuses_a_truncated_record() {
         // a number cut within its digits is still a number: only that passes unseen
         if cut >= last_number {
             let error = outcome.unwrap_err();
-            assert!(matches!(error, Error::Record { line: l, .. } if l + 1 >= line), "{error}");
+            let Error::File(error) = error else { panic!("{error}") };
+            assert!(error.line + 1 >= line, "{error}");
         }
     }
 }
@@ -197,9 +199,9 @@ fn reader_refuses_a_truncated_record() {
 #[test]
 fn files_that_cannot_be_read_are_named() {
     let error = Record::read("/nowhere/record.csv", &metric()).unwrap_err();
-    assert_eq!(error.to_string(), "/nowhere/record.csv: cannot be read: it does not exist");
+    assert_eq!(error.to_string(), "/nowhere/record.csv cannot be read: it does not exist");
     let error = Record::read(basemat_problems::data_path(""), &metric()).unwrap_err();
-    assert!(matches!(error, Error::Record { reason: RecordError::Unreadable(_), .. }));
+    assert!(matches!(error, Error::File(FileError { fault: FileFault::Unreadable(_), .. })));
     let file = basemat_problems::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");
     let format = ColumnFormat::new(AccelerationUnit::StandardGravity);
     assert_eq!(Record::read(file, &format).unwrap(), el_centro_1940());

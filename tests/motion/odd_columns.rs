@@ -1,7 +1,8 @@
 //! Columns of numbers in unusual forms.
 
 use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
-use basemat::{Error, RecordError};
+use basemat::{Error, FileError, FileFault};
+use basemat_problems::faults::{count, is_no_number, is_value, not_a_number, value};
 
 const METRIC: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
 
@@ -15,9 +16,9 @@ fn alone() -> ColumnFormat {
 
 /// Line and reason of the refusal.
 #[track_caller]
-fn refusal(text: &str, format: &ColumnFormat) -> (usize, RecordError) {
+fn refusal(text: &str, format: &ColumnFormat) -> (usize, FileFault) {
     match Record::from_reader("text", text.as_bytes(), format) {
-        Err(Error::Record { line, reason, .. }) => (line, reason),
+        Err(Error::File(FileError { line, fault, .. })) => (line, fault),
         other => panic!("{text:?}: {other:?}"),
     }
 }
@@ -26,10 +27,6 @@ fn refusal(text: &str, format: &ColumnFormat) -> (usize, RecordError) {
 fn is_read(text: &str, format: &ColumnFormat, wanted: &[f64]) {
     let record = Record::from_reader("text", text.as_bytes(), format).unwrap();
     assert_eq!((record.time_step(), record.accelerations()), (0.02, wanted), "{text:?}");
-}
-
-fn not_a_number(text: &str) -> RecordError {
-    RecordError::NotANumber { text: text.into() }
 }
 
 #[test]
@@ -62,7 +59,7 @@ fn decimal_commas_are_refused() {
     }
     // Commas that group thousands change the number of columns.
     let (line, reason) = refusal("0,999.5\n1,1,000.5\n", &pairs());
-    assert_eq!((line, reason), (2, RecordError::UnequalColumns { found: 3, expected: 2 }));
+    assert_eq!((line, reason), (2, count("columns", 3, "2, as before")));
     // Text that looks alike and is something else.
     is_read("0,1\n0.02,15\n", &pairs(), &[1.0, 15.0]);
     is_read("0.00, 1, at rest\n0.02, 2, hit by it\n", &pairs(), &[1.0, 2.0]);
@@ -156,7 +153,7 @@ fn control_characters_do_not_part_numbers() {
     for text in ["0 0\r0.02 1\n0.04 2\n0.08 2\n", "0 0\u{b}0.02 1\n0.04 2\n", "0 0\u{c}1\n0.02 1\n"]
     {
         let (line, reason) = refusal(text, &pairs());
-        assert!(line == 1 && matches!(reason, RecordError::NotANumber { .. }), "{text:?}");
+        assert!(line == 1 && is_no_number(&reason), "{text:?}");
     }
 }
 
@@ -164,7 +161,7 @@ fn control_characters_do_not_part_numbers() {
 #[test]
 fn an_empty_field_between_tabs_is_not_passed_over() {
     let text = "0.00\t1.5\t7\n0.02\t\t7\n0.04\t3.5\t7\n";
-    let unequal = RecordError::UnequalColumns { found: 2, expected: 3 };
+    let unequal = count("columns", 2, "3, as before");
     assert_eq!(refusal(text, &pairs()), (2, unequal));
     // Tabs that align.
     is_read("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
@@ -185,13 +182,20 @@ fn lines_of_header_are_passed_over() {
     let text_alone = "Station 7\nPGA 0.3\n9 1\n9 2\n";
     assert_eq!(
         refusal(text_alone, &second),
-        (1, RecordError::HeaderLine { text: "Station".into() })
+        (
+            1,
+            value(
+                "field",
+                "'Station'",
+                "a finite number: with more than one line of header, give their number (`header_lines`)"
+            )
+        )
     );
     is_read(text_alone, &ColumnFormat { header_lines: 2, ..second }, &[1.0, 2.0]);
     let (_, reason) = refusal(text, &after(9));
-    assert_eq!(reason, RecordError::TooShort { found: 0, needed: 2 });
+    assert_eq!(reason, count("samples", 0, "at least 2"));
     let (_, reason) = refusal("one\nt (ms),a\n0,1\n0.02,2\n", &after(2));
-    assert!(matches!(reason, RecordError::TitleUnit { .. }), "{reason}");
+    assert!(is_value(&reason, "title"), "{reason}");
 }
 
 #[test]
@@ -202,6 +206,6 @@ fn times_of_day_are_read() {
     is_read("2000/01/01 12:00:15.00,1\n2000/01/01 12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
     for bad in ["12:00:15.00,1\n12:0x:15.02,2\n", "12:00:15.00,1\n12:00,2\n"] {
         let (line, reason) = refusal(bad, &pairs());
-        assert!(line == 2 && matches!(reason, RecordError::NotANumber { .. }), "{reason}");
+        assert!(line == 2 && is_no_number(&reason), "{reason}");
     }
 }

@@ -2,11 +2,12 @@
 //! SCENE: other line ends, marks, blank lines, cases of letters, exponents, commas, bytes that are not UTF-8.
 //! REFERENCE: the record in the file as it was.
 
-use basemat::RecordError;
+use basemat::FileFault;
 use basemat::motion::{
     AfadFormat, CosmosFormat, EsmFormat, GeoNetFormat, KNetCsvFormat, KNetFormat, PeerFormat,
     Record, RecordFormat, SmcFormat,
 };
+use basemat_problems::faults::{count, is_no_number, value};
 
 use super::agency_files::bytes;
 use super::refusal;
@@ -112,8 +113,10 @@ fn decimal_commas_are_named() {
         if name != "k_net.ns" {
             let (line, reason) = refusal(&text, format.as_ref());
             let clear = match &reason {
-                RecordError::NotANumber { text } => text.contains(','),
-                RecordError::UnequalColumns { .. } => name == "k_net.csv",
+                FileFault::Value { quantity, .. } if quantity == "number of columns" => {
+                    name == "k_net.csv"
+                }
+                FileFault::Value { found, .. } => is_no_number(&reason) && found.contains(','),
                 _ => false,
             };
             assert!(clear && line > 0, "{name}, line {line}: {reason}");
@@ -137,7 +140,7 @@ fn empty_cells_at_the_end_of_lines_are_no_columns() {
     // A missing sample is not an empty cell.
     let lost = text.replacen(",18.357", ",", 1);
     let (line, reason) = refusal(&lost, &format);
-    assert_eq!((line, reason), (16, RecordError::UnequalColumns { found: 3, expected: 4 }));
+    assert_eq!((line, reason), (16, count("columns", 3, "4, as before")));
 }
 
 /// Files of velocity or displacement alone say so, in either layout of CESMD.
@@ -156,14 +159,15 @@ fn files_without_acceleration_are_named() {
         for channel in [1, 2] {
             let (line, reason) =
                 refusal(&text, &CosmosFormat { channel, ..CosmosFormat::default() });
-            let text = title.chars().take(60).collect();
-            assert_eq!((line, reason), (2, RecordError::NotAcceleration { text }));
+            let found = title.chars().take(60).collect();
+            let needed = "an acceleration in a known unit".to_owned();
+            assert_eq!((line, reason), (2, FileFault::Format { found, needed }));
         }
         let all = CosmosFormat::default().parse_all("", &mut text.as_bytes()).unwrap_err();
-        assert!(all.to_string().contains("no acceleration in a known unit"), "{all}");
+        assert!(all.to_string().contains("instead of an acceleration in a known unit"), "{all}");
     }
     // A channel that is not there, beside one that is.
     let text = String::from_utf8(bytes("cosmos.v2c")).unwrap();
     let (_, reason) = refusal(&text, &CosmosFormat { channel: 3, ..CosmosFormat::default() });
-    assert_eq!(reason, RecordError::Channel { found: 2, needed: 3 });
+    assert_eq!(reason, value("requested channel", "3", "from 1 to 2"));
 }

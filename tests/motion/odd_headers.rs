@@ -3,7 +3,10 @@
 use basemat::motion::{
     AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat,
 };
-use basemat::{Error, RecordError};
+use basemat::{Error, FileError, FileFault};
+use basemat_problems::faults::{
+    CLEAR, is_missing, is_no_acceleration, is_no_number, is_off_columns, is_unclear, value,
+};
 
 const GRAVITY: f64 = 9.80665;
 
@@ -13,9 +16,9 @@ fn read(text: &str, format: &dyn RecordFormat) -> Result<Record, Error> {
 
 /// Line and reason of the refusal.
 #[track_caller]
-fn refusal(text: &str, format: &dyn RecordFormat) -> (usize, RecordError) {
+fn refusal(text: &str, format: &dyn RecordFormat) -> (usize, FileFault) {
     match read(text, format) {
-        Err(Error::Record { line, reason, .. }) => (line, reason),
+        Err(Error::File(FileError { line, fault, .. })) => (line, fault),
         other => panic!("{text:?}: {other:?}"),
     }
 }
@@ -101,16 +104,18 @@ fn time_steps_of_peer_files_are_whole_quantities() {
             let (line, reason) = refusal(&peer(&header), &PeerFormat);
             assert_eq!(line, 3, "{header}: {reason}");
             assert!(
-                matches!(&reason, RecordError::Unclear { text: found, .. }
-                if text.to_uppercase().contains(found.as_str())),
+                is_unclear(&reason)
+                    && matches!(&reason, FileFault::Value { found, .. }
+                    if text.to_uppercase().contains(found.trim_matches('\''))),
                 "{header}: {reason}"
             );
         }
     }
-    let unclear = |quantity, text: &str| RecordError::Unclear { quantity, text: text.into() };
+    let unclear = |quantity, text: &str| value(quantity, &format!("'{text}'"), CLEAR);
     let (line, reason) = refusal(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
     assert_eq!((line, &reason), (3, &unclear("time step", "1,5 SEC")));
-    assert_eq!(reason.to_string(), "the time step '1,5 SEC' is not understood");
+    let text = "time step is '1,5 SEC', but must be clear: all of it a known number, unit or word";
+    assert_eq!(reason.to_string(), text);
     for (header, text) in [
         ("NPTS= 4,000, DT= .01", "4,000"),
         ("NPTS= 4 X, DT= .01", "4 X"),
@@ -149,7 +154,7 @@ fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
         "4 .02 DT, NPTS",
     ] {
         let (line, reason) = refusal(&peer(header), &PeerFormat);
-        let typed = matches!(reason, RecordError::Missing { .. } | RecordError::Unclear { .. });
+        let typed = is_missing(&reason) || is_unclear(&reason);
         assert!(line >= 3 && typed, "{header}: {reason}");
     }
 }
@@ -187,18 +192,17 @@ fn a_unit_of_g_with_a_factor_is_refused() {
     ] {
         let text = format!("TITLE\n{unit}\nNPTS= 2, DT= .01 SEC\n1 2\n");
         let (line, reason) = refusal(&text, &PeerFormat);
-        let unit_refused =
-            matches!(reason, RecordError::NotAcceleration { .. } | RecordError::Missing { .. });
+        let unit_refused = is_no_acceleration(&reason) || is_missing(&reason);
         assert!((line == 2 || line == 3) && unit_refused, "{unit}: {reason}");
     }
     // Whatever line says so.
     for rest in ["UNITS= CM/S/S, NPTS= 2, DT= .01", "NPTS= 2, DT= .01 SEC, UNITS: MG"] {
         let (line, reason) = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
-        assert!(line == 2 && matches!(reason, RecordError::NotAcceleration { .. }), "{reason}");
+        assert!(line == 2 && is_no_acceleration(&reason), "{reason}");
     }
     for rest in ["NPTS= 2, DT= .01, SCALE FACTOR= 1000", "NPTS= 2, DT= .01 SEC, SCALE: 10"] {
         let (line, reason) = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
-        assert!(line == 2 && matches!(reason, RecordError::Unclear { .. }), "{reason}");
+        assert!(line == 2 && is_unclear(&reason), "{reason}");
     }
     for unit in [
         "UNITS OF G",
@@ -232,7 +236,7 @@ fn time_steps_of_csmip_files_are_whole_quantities() {
     for text in UNCLEAR {
         for rest in [", in cm/sec2. (8f10.3)", " in cm/sec2. (8f10.3)", " (8f10.3)", ""] {
             let (line, reason) = refusal(&csmip(&format!("{text}{rest}")), &format);
-            let typed = matches!(reason, RecordError::Unclear { .. });
+            let typed = is_unclear(&reason);
             assert!(line == 2 && typed, "{text}{rest}: {reason}");
         }
     }
@@ -265,8 +269,7 @@ fn units_and_formats_of_csmip_and_cosmos_are_whole() {
         ".01 sec (8f10,3)",
     ] {
         let (line, reason) = refusal(&csmip(title), &format);
-        let typed =
-            matches!(reason, RecordError::NotAcceleration { .. } | RecordError::Unclear { .. });
+        let typed = is_no_acceleration(&reason) || is_unclear(&reason);
         assert!(line == 2 && typed, "{title}: {reason}");
     }
     for (title, factor) in [
@@ -329,12 +332,12 @@ fn fields_without_a_point_out_of_their_columns_are_refused() {
     let format = CosmosFormat::default();
     for body in ["     12345     -2345\n3000 1", "3000 1\n     12345     -2345", "12 13\n14\n15"] {
         let (line, reason) = refusal(&in_columns("2f10.3", body), &format);
-        let typed = matches!(reason, RecordError::OffColumns { .. });
+        let typed = is_off_columns(&reason);
         assert!(line == 3 && typed, "{body}: {reason}");
     }
     // The scale factor holds for fields of the format; these are not such fields.
     let (line, reason) = refusal(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
-    assert!(line == 2 && matches!(reason, RecordError::OffColumns { .. }), "{reason}");
+    assert!(line == 2 && is_off_columns(&reason), "{reason}");
     // A column that ends in the midst of a number.
     same(
         &read(&in_columns("4f4.2", "1.5 20.25\n3. 4."), &format).unwrap(),
@@ -353,7 +356,7 @@ fn double_precision_is_read_everywhere() {
     {
         let text = format!("UNITS OF G\nNPTS= 2, DT= .01\n{bad}\n2\n");
         let (line, reason) = refusal(&text, &PeerFormat);
-        assert!(line == 3 && matches!(reason, RecordError::NotANumber { .. }), "{bad}: {reason}");
+        assert!(line == 3 && is_no_number(&reason), "{bad}: {reason}");
     }
 }
 
@@ -388,7 +391,7 @@ fn quantities_of_k_net_are_whole() {
         (3, "2Hz", "2", "1(gal)/1/2"),
     ] {
         let (found, reason) = refusal(&text(frequency, duration, scale), &KNetFormat);
-        let typed = matches!(reason, RecordError::Unclear { .. });
+        let typed = is_unclear(&reason);
         assert!(found == line && typed, "{frequency} {duration} {scale}: {reason}");
     }
 }

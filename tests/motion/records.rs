@@ -3,8 +3,8 @@
 //! REFERENCE: values tabulated with the record, and exact integrals.
 
 use approx::assert_relative_eq;
+use basemat::Error;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
-use basemat::{Error, RecordError};
 use proptest::prelude::*;
 
 use basemat_problems::{close, table};
@@ -26,8 +26,8 @@ fn bad_samples_and_steps_are_refused() {
     assert!(matches!(Record::new(1e200, vec![1e200; 3]), Err(Error::Input { .. })));
     for count in 0..2 {
         let error = Record::new(1.0, vec![0.0; count]).unwrap_err();
-        let reason = RecordError::TooShort { found: count, needed: 2 };
-        assert_eq!(error, Error::Record { file: "samples".into(), line: 0, reason });
+        let quantity = "samples of the record";
+        assert_eq!(error, Error::Size { quantity, found: count, needed: 2 });
     }
     assert!(el_centro_1940().resampled(1e-9).is_err());
     assert!(Record::new(1.0, vec![0.0; 3]).unwrap().scaled_to_peak(1.0).is_err());

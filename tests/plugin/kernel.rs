@@ -434,7 +434,10 @@ fn without_late_weights_exponentials_are_refused() {
         None,
         &mut unobserved,
     );
-    assert!(matches!(refused, Err(Error::NoExponentials { .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Err(Error::Scene { quantity: "history by exponentials", .. })),
+        "{refused:?}"
+    );
     // Auto takes the transforms.
     let coarse = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
     let mut auto = ground().with_history(coarse).unwrap();
@@ -444,7 +447,10 @@ fn without_late_weights_exponentials_are_refused() {
 
     let kernel = Coupled(VoigtKernel::new(VOIGT, &strips(Grading::Uniform), 1e-4));
     let refused = ExponentialHistory::with_horizon(Arc::new(kernel), 1e-6, 3000).err();
-    assert!(matches!(refused, Some(Error::NoExponentials { .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Some(Error::Scene { quantity: "history by exponentials", .. })),
+        "{refused:?}"
+    );
 }
 
 #[test]

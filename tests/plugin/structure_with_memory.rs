@@ -6,10 +6,11 @@ use std::any::Any;
 
 use basemat::bem::SpringGround;
 use basemat::coupled::Probe;
+use basemat::coupled::{CheckpointError, StepError};
 use basemat::interface::Bonded;
 use basemat::motion::{Record, el_centro_1940};
 use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
-use basemat::{CheckpointError, Error, Result, Simulation, StepError};
+use basemat::{Error, Result, Simulation};
 
 use basemat_problems::own_force;
 
@@ -197,7 +198,7 @@ fn an_isolator_off_its_plate_ends_the_step_with_its_own_reason() {
     let mut short = on_rock(0.03, 0.005);
     let error = short.run(4000, |_| {}).unwrap_err();
     let Error::Step { step, source, .. } = &error else { panic!("{error:?}") };
-    let StepError::Structure { source, .. } = source else { panic!("{error:?}") };
+    let StepError::Part { source, .. } = source else { panic!("{error:?}") };
     assert!(matches!(&**source, Error::Part { part, .. } if part == "isolator"), "{error:?}");
     assert!(error.to_string().contains("is off its plate of 0.03 m"), "{error}");
 

@@ -8,7 +8,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use basemat::prelude::*;
 use basemat::sweep::CaseTable;
-use basemat::{CaseFileError, Error, MemoryError, Result, SweepError};
+use basemat::sweep::SweepError;
+use basemat::{Error, FileError, FileFault, MemoryError, Result};
+use basemat_problems::faults::{count, is_unwritable, is_value, value};
 use proptest::prelude::*;
 
 /// A folder of its own, empty.
@@ -62,22 +64,30 @@ fn shards(folder: &Path, of: usize) -> Vec<PathBuf> {
         .collect()
 }
 
-fn refused(result: Result<CaseTable>) -> SweepError {
+fn refused(result: Result<CaseTable>) -> Error {
     match result {
-        Err(Error::Sweep(error)) => error,
+        Err(error @ (Error::Sweep(_) | Error::File(_))) => error,
         other => panic!("{other:?}"),
     }
 }
 
+/// Fault of a whole file.
+fn file_error(file: &str, fault: FileFault) -> Error {
+    Error::File(FileError { file: file.to_owned(), line: 0, fault })
+}
+
+/// Requirement of a case's number.
+const OF_SWEEP: &str = "one of this sweep, in digits";
+
 /// The fault of a file with this text, and its line.
-fn fault(name: &str, text: &str) -> (usize, CaseFileError) {
+fn fault(name: &str, text: &str) -> (usize, FileFault) {
     let path = folder(name).join("cases.csv");
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     std::fs::write(&path, text).unwrap();
     match refused(sweep().merge([&path])) {
-        SweepError::File { file, line, reason } => {
+        Error::File(FileError { file, line, fault }) => {
             assert_eq!(file, path.display().to_string());
-            (line, reason)
+            (line, fault)
         }
         other => panic!("{other}"),
     }
@@ -118,7 +128,7 @@ fn cases_are_numbered_by_their_place() {
     let row = table.rows().nth(3).unwrap();
     assert!(matches!(
         row.value("residual_slip_m"),
-        Err(Error::Sweep(SweepError::Failed { case: 3, .. }))
+        Err(Error::Part { part, .. }) if part == "case 3 failed"
     ));
     for wrong in [
         row.value("record").err(),
@@ -185,7 +195,7 @@ fn wrong_sets_of_shards_are_refused() {
     let folder = folder("sets");
     let paths = shards(&folder, 4);
     let missing = |paths: &[&PathBuf]| match refused(sweep().merge(paths)) {
-        SweepError::Missing { cases, shards } => (cases, shards),
+        Error::Sweep(SweepError::Missing { cases, shards }) => (cases, shards),
         other => panic!("{other}"),
     };
     let class = |k: usize| (0..24).filter(|case| case % 4 == k).collect::<Vec<_>>();
@@ -196,17 +206,20 @@ fn wrong_sets_of_shards_are_refused() {
     let text = sweep().merge([&paths[0], &paths[1], &paths[3]]).unwrap_err().to_string();
     assert_eq!(text, "6 of the sweep's cases missing: 2, 6, 10, 14, 18, 22; shard 2/4");
 
-    let SweepError::Twice { case, first, second } =
-        refused(sweep().merge([&paths[0], &paths[1], &paths[0]]))
-    else {
-        panic!("cases are twice")
-    };
-    assert_eq!((case, &first), (0, &second));
-    assert_eq!(first, paths[0].display().to_string());
-    assert!(matches!(
-        refused(sweep().merge([folder.join("not_there.csv")])),
-        SweepError::Unreadable { reason: std::io::ErrorKind::NotFound, .. }
-    ));
+    let name = paths[0].display().to_string();
+    let found = format!("here and in {name}");
+    assert_eq!(
+        refused(sweep().merge([&paths[0], &paths[1], &paths[0]])),
+        file_error(&name, value("case 0", &found, "in one place"))
+    );
+    let nowhere = folder.join("not_there.csv");
+    assert_eq!(
+        refused(sweep().merge([&nowhere])),
+        file_error(
+            &nowhere.display().to_string(),
+            FileFault::Unreadable(std::io::ErrorKind::NotFound)
+        )
+    );
 
     // Of another study: values, parameters, results.
     let other = folder.join("other.csv");
@@ -215,9 +228,9 @@ fn wrong_sets_of_shards_are_refused() {
         shard.table(columns, |_| Ok::<_, Error>([0.0; 2])).unwrap().csv().save(&other).unwrap();
         let shards = [&paths[0], &paths[1], &paths[2], &other];
         match self::sweep().merge(shards) {
-            Err(Error::Sweep(SweepError::File { reason, file, .. })) => {
+            Err(Error::File(FileError { fault, file, .. })) => {
                 assert_eq!(file, other.display().to_string());
-                reason
+                fault
             }
             other => panic!("{other:?}"),
         }
@@ -230,21 +243,19 @@ fn wrong_sets_of_shards_are_refused() {
         ])
         .unwrap()
     };
-    assert!(matches!(
+    assert_eq!(
         reason(grid(0.3, "width_m"), COLUMNS),
-        CaseFileError::Parameter { case: 15, parameter, found, needed }
-            if parameter == "friction" && found == "0.3" && needed == "0.30000000000000004"
-    ));
+        value("friction of case 15", "'0.3'", "'0.30000000000000004'")
+    );
     let exact = grid(THIRD, "width_m");
-    assert!(matches!(
+    assert_eq!(
         reason(exact, ["ratio, -", "slip"]),
-        CaseFileError::Heading { column: 6, found, needed }
-            if found == "slip" && needed == "residual_slip_m"
-    ));
-    assert!(matches!(
+        value("heading of column 6", "'slip'", "'residual_slip_m'")
+    );
+    assert_eq!(
         reason(grid(THIRD, "width"), COLUMNS),
-        CaseFileError::Heading { column: 4, found, .. } if found == "width"
-    ));
+        value("heading of column 4", "'width'", "'width_m'")
+    );
 }
 
 #[test]
@@ -256,15 +267,16 @@ fn spoilt_files_are_refused() {
     for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
         std::fs::write(&path, &text[..end]).unwrap();
         match refused(sweep().merge([&path])) {
-            SweepError::File { reason: CaseFileError::Cut, .. } => {}
-            SweepError::Missing { .. } if end > 0 && text.as_bytes()[end - 1] == b'\n' => {}
+            Error::File(FileError { fault: FileFault::Cut, .. }) => {}
+            Error::Sweep(SweepError::Missing { .. })
+                if end > 0 && text.as_bytes()[end - 1] == b'\n' => {}
             other => panic!("{end}: {other}"),
         }
     }
     std::fs::write(&path, &text.as_bytes()[..=text.find('µ').unwrap()]).unwrap();
     assert!(matches!(
         refused(sweep().merge([&path])),
-        SweepError::File { reason: CaseFileError::NotText, .. }
+        Error::File(FileError { fault: FileFault::Format { needed, .. }, .. }) if needed == "UTF-8"
     ));
     // A byte-order mark is passed over, and so are line ends of Windows.
     std::fs::write(&path, format!("\u{feff}{text}")).unwrap();
@@ -279,22 +291,23 @@ fn spoilt_files_are_refused() {
         fault("spoilt", &text.replacen(from, to, 1))
     };
     let (line, reason) = spoilt("\n1,0.1,", "\n24,0.1,");
-    assert_eq!((line, reason), (3, CaseFileError::Case { text: "24".to_owned() }));
-    assert!(matches!(spoilt("\n1,0.1,", "\n+1,0.1,").1, CaseFileError::Case { .. }));
-    assert!(matches!(spoilt("\n1,0.1,", "\n1,0.11,").1, CaseFileError::Parameter { case: 1, .. }));
-    assert!(matches!(spoilt("\n1,0.1,", "\n1,0.1,0,").1, CaseFileError::Cells { found: 9, .. }));
-    assert!(matches!(spoilt(",-inf,", ",inf,").1, CaseFileError::Damaged { case: 5 }));
-    assert!(matches!(spoilt(",-inf,", ",minus,").1, CaseFileError::NotANumber { .. }));
-    assert!(matches!(spoilt(",failed", "0,failed").1, CaseFileError::ErrorAndResults { case: 11 }));
-    assert!(matches!(spoilt("friction", "fric\"tion").1, CaseFileError::Quote));
-    assert!(matches!(spoilt("case,", "").1, CaseFileError::Heading { column: 1, .. }));
-    assert_eq!(fault("empty", ""), (1, CaseFileError::Cut));
-    assert!(matches!(fault("short", "case\n").1, CaseFileError::Heading { column: 2, .. }));
+    assert_eq!((line, reason), (3, value("case", "'24'", OF_SWEEP)));
+    assert_eq!(spoilt("\n1,0.1,", "\n+1,0.1,").1, value("case", "'+1'", OF_SWEEP));
+    assert_eq!(spoilt("\n1,0.1,", "\n1,0.11,").1, value("friction of case 1", "'0.11'", "'0.1'"));
+    assert_eq!(spoilt("\n1,0.1,", "\n1,0.1,0,").1, count("cells", 9, "8"));
+    assert_eq!(spoilt(",-inf,", ",inf,").1, FileFault::Damaged { quantity: "case 5".into() });
+    let (_, fault_of_number) = spoilt(",-inf,", ",minus,");
+    assert_eq!(fault_of_number.to_string(), "residual_slip_m is 'minus', but must be a number");
+    let both = value("case 11", "a row with an error and results", "a row with either");
+    assert_eq!(spoilt(",failed", "0,failed").1, both);
+    assert!(is_value(&spoilt("friction", "fric\"tion").1, "quotation mark"));
+    assert_eq!(spoilt("case,", "").1, value("heading of column 1", "'friction'", "'case'"));
+    assert_eq!(fault("empty", ""), (1, FileFault::Cut));
+    assert_eq!(fault("short", "case\n").1, value("heading of column 2", "''", "'friction'"));
     // As tables were before they had check sums.
     let bare = "case,friction,record,width_m,y,error\n";
     let (_, reason) = fault("bare", bare);
-    let CaseFileError::Heading { column: 7, found, needed } = reason else { panic!("{reason}") };
-    assert_eq!((found.as_str(), needed.as_str()), ("", "check"));
+    assert_eq!(reason, value("heading of column 7", "''", "'check'"));
 }
 
 #[test]
@@ -371,12 +384,11 @@ fn a_killed_sweep_goes_on() {
     assert_eq!((ran(), part.exists()), (0, false));
     // Files of another sweep are not taken, nor overwritten.
     let other = sweep().shard(0, 2).unwrap().table_in(&path, COLUMNS, compute);
-    assert!(matches!(refused(other), SweepError::File { reason: CaseFileError::Case { .. }, .. }));
+    let Error::File(error) = refused(other) else { panic!("of another sweep") };
+    assert!(is_value(&error.fault, "case"), "{error}");
     let other = sweep().table_in(&path, ["a", "b"], compute);
-    assert!(matches!(
-        refused(other),
-        SweepError::File { reason: CaseFileError::Heading { .. }, .. }
-    ));
+    let Error::File(error) = refused(other) else { panic!("of another sweep") };
+    assert!(is_value(&error.fault, "heading of column 5"), "{error}");
     assert_eq!(std::fs::read_to_string(&path).unwrap(), *text);
     std::fs::remove_file(&path).unwrap();
     std::fs::write(&part, text.replace("\n2,0.1", "\n1,0.1")).unwrap();
@@ -387,29 +399,33 @@ fn a_killed_sweep_goes_on() {
     let nowhere = sweep().table_in(file.join("cases.csv"), COLUMNS, |_| -> Result<[f64; 2]> {
         unreachable!("the file cannot be written")
     });
-    assert!(matches!(nowhere, Err(Error::Write { .. })), "{nowhere:?}");
-    assert!(matches!(whole().csv().save(file.join("cases.csv")), Err(Error::Write { .. })));
+    assert!(is_unwritable(&nowhere), "{nowhere:?}");
+    assert!(is_unwritable(&whole().csv().save(file.join("cases.csv"))));
 }
 
 #[test]
 fn parameters_and_columns_are_checked() {
-    use SweepError::{NoValues, NotFinite, RepeatedValue, Unnamed};
+    let of = |parameter: &str, source| {
+        let item = format!("parameter '{parameter}'");
+        Error::Item { item, source: Box::new(source) }
+    };
+    let repeated = |value: &str| Error::DuplicateName { quantity: "value", name: value.to_owned() };
+    let unnamed = || Error::Scene { quantity: "column", needed: "it must have a name" };
     let grid = |parameters: Vec<Parameter>| Sweep::grid(parameters).unwrap_err();
     let numbers = |values: &[f64]| Parameter::numbers("x", values.iter().copied());
-    assert!(
-        matches!(grid(vec![numbers(&[])]), Error::Sweep(NoValues { parameter }) if parameter == "x")
+    let quantity = "list of values";
+    assert_eq!(grid(vec![numbers(&[])]), of("x", Error::Size { quantity, found: 0, needed: 1 }));
+    assert_eq!(
+        grid(vec![numbers(&[1.0, f64::NAN])]).to_string(),
+        "parameter 'x': list of values is not finite: entry 1 is NaN"
     );
-    assert!(
-        matches!(grid(vec![numbers(&[1.0, f64::NAN])]), Error::Sweep(NotFinite { value, .. }) if value.is_nan())
-    );
-    for repeated in [[2.0, 2.0], [0.0, -0.0]] {
-        assert!(matches!(grid(vec![numbers(&repeated)]), Error::Sweep(RepeatedValue { .. })));
+    for (twice, value) in [([2.0, 2.0], "2"), ([0.0, -0.0], "-0")] {
+        assert_eq!(grid(vec![numbers(&twice)]), of("x", repeated(value)));
     }
-    assert!(
-        matches!(grid(vec![Parameter::texts("r", ["a", "a"])]), Error::Sweep(RepeatedValue { value, .. }) if value == "a")
-    );
-    assert!(matches!(grid(vec![Parameter::texts("r", [""])]), Error::Sweep(Unnamed { .. })));
-    assert!(matches!(grid(vec![Parameter::numbers("", [1.0])]), Error::Sweep(Unnamed { .. })));
+    assert_eq!(grid(vec![Parameter::texts("r", ["a", "a"])]), of("r", repeated("a")));
+    let empty = Error::Scene { quantity: "value", needed: "it must not be an empty text" };
+    assert_eq!(grid(vec![Parameter::texts("r", [""])]), of("r", empty));
+    assert_eq!(grid(vec![Parameter::numbers("", [1.0])]), unnamed());
     for name in ["case", "error", "check", "x"] {
         let fault = grid(vec![numbers(&[1.0]), Parameter::numbers(name, [1.0])]);
         assert_eq!(fault, Error::DuplicateName { quantity: "column", name: name.to_owned() });
@@ -426,7 +442,7 @@ fn parameters_and_columns_are_checked() {
     for columns in [["friction", "y"], ["y", "y"], ["y", "error"]] {
         assert!(matches!(table(columns), Err(Error::DuplicateName { .. })), "{columns:?}");
     }
-    assert!(matches!(refused(table(["y", ""])), Unnamed { quantity: "column" }));
+    assert_eq!(table(["y", ""]).unwrap_err(), unnamed());
 
     // Without parameters, cases or results.
     assert_eq!(Sweep::grid([]).unwrap().cases().len(), 1);

@@ -7,10 +7,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use basemat::sweep::SweepError;
 use basemat::sweep::{CaseTable, Parameter, Sweep, SweepCase};
-use basemat::{CaseFileError, Error, Result, SweepError};
+use basemat::{Error, FileError, FileFault, Result};
 
 use basemat_problems::check_sum::{check_sum, text_words};
+use basemat_problems::faults::is_value;
 
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("damaged_tables").join(name);
@@ -111,8 +113,8 @@ fn edited_digits_are_refused_by_their_row() {
             other[at] = b'0' + (other[at] - b'0' + 1) % 10;
             write(&path, &other);
             match sweep(4).merge([&path]) {
-                Err(Error::Sweep(SweepError::File { reason, .. })) => {
-                    assert_eq!(reason, CaseFileError::Damaged { case });
+                Err(Error::File(FileError { fault, .. })) => {
+                    assert_eq!(fault, FileFault::Damaged { quantity: format!("case {case}") });
                     damaged += 1;
                 }
                 // The seventeenth digit may be another without another number.
@@ -158,9 +160,9 @@ fn a_stray_quotation_mark_drops_no_rows() {
                     assert!(again <= 2, "{name}, {at}: {again} cases run again");
                     kept += 1;
                 }
-                Err(Error::Sweep(SweepError::File { reason, .. })) => {
+                Err(Error::File(FileError { fault, .. })) => {
                     assert_eq!(std::fs::read_to_string(&part).unwrap(), spoilt, "{name}, {at}");
-                    refused += usize::from(reason == CaseFileError::Quote);
+                    refused += usize::from(is_value(&fault, "quotation mark"));
                 }
                 Err(other) => panic!("{name}, {at}: {other}"),
             }
@@ -231,10 +233,9 @@ fn many_values_are_compared_in_no_time() {
     assert_eq!(Sweep::grid([numbers()]).unwrap().cases().len(), 300_000);
     assert!(Sweep::grid([texts]).is_ok());
     let twice = Parameter::numbers("x", (0..many).map(f64::from).chain([7.0]));
-    assert!(matches!(
-        Sweep::grid([twice]).unwrap_err(),
-        Error::Sweep(SweepError::RepeatedValue { value, .. }) if value == "7"
-    ));
+    let repeated = Error::DuplicateName { quantity: "value", name: "7".to_owned() };
+    let item = "parameter 'x'".to_owned();
+    assert_eq!(Sweep::grid([twice]).unwrap_err(), Error::Item { item, source: Box::new(repeated) });
     // A comparison of each with each takes 4.5e10 comparisons.
     assert!(clock.elapsed().as_secs_f64() < 3.0, "{:?}", clock.elapsed());
 }

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-use basemat::Error;
 use basemat::coupled::{EnergyTerm, Probe};
 use basemat::results::{Quantity, Recorder, TimeSeries};
 use basemat::structure::RigidBlock;
+use basemat_problems::faults::is_unwritable;
 
 use super::{FRICTION, Recorded, STEPS, recorded};
 use basemat_problems::scenes::{SI, block, friction, scene};
@@ -150,7 +150,7 @@ fn archives_are_saved_beside_their_tables() {
     time_series.csv().save(folder.join("run.csv")).unwrap();
     time_series.contact_csv().save(folder.join("contact.csv")).unwrap();
     let below = folder.join("run.npz/below_a_file.npz");
-    assert!(matches!(time_series.save_npz(below), Err(Error::Write { .. })));
+    assert!(is_unwritable(&time_series.save_npz(below)));
 }
 
 #[test]
@@ -172,6 +172,6 @@ fn names_of_arrays_differ_and_frames_may_be_left_out() {
     let time_series = Recorder::new().start(&builder.probe(long).build().unwrap()).unwrap();
     assert!(time_series.write_npz(&mut Vec::new()).is_err());
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz_refused/long.npz");
-    assert!(matches!(time_series.save_npz(&path), Err(Error::Write { .. })));
+    assert!(is_unwritable(&time_series.save_npz(&path)));
     assert!(!path.exists());
 }

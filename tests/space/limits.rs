@@ -4,6 +4,7 @@
 
 use basemat::bem::SpringGround;
 use basemat::bem::plan::Plan;
+use basemat::coupled::StabilityError;
 use basemat::coupled::{GravityStage, SimulationBuilder, Warning};
 use basemat::interface::{
     Bonded, Cohesive, Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode,
@@ -11,7 +12,7 @@ use basemat::interface::{
 };
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::RigidBody;
-use basemat::{Error, Result, Simulation, StabilityError};
+use basemat::{Error, Result, Simulation};
 
 const SIDE: f64 = 4.0;
 const MASS: f64 = 64.0e3;

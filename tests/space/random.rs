@@ -4,12 +4,13 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, ElasticGround};
+use basemat::coupled::StepError;
 use basemat::coupled::{GravityStage, Load, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
 use basemat::motion::FreeField;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::RigidBody;
-use basemat::{Error, Simulation, Soil, StepError};
+use basemat::{Error, Simulation, Soil};
 use basemat_problems::random::Random;
 
 const SCENES: usize = 40;

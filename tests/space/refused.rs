@@ -3,12 +3,13 @@
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, Ground, SpringGround};
 use basemat::coupled::Load;
+use basemat::coupled::StabilityError;
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{
     ContactNode, FaceNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, PlanError, Result, Simulation, StabilityError};
+use basemat::{Error, Result, Simulation};
 
 use super::cells::{BED, Cells};
 
@@ -200,7 +201,8 @@ fn bodies_that_are_none() {
     assert!(RigidBody::from_mass(square.to_vec(), 1e4, round, [0.0, 0.0, -1.0]).is_err());
     let crossed = [square[0], square[2], square[1], square[3]];
     let error = build(body(&crossed, round).unwrap(), cells(), Bonded);
-    assert!(matches!(error, Error::Plan(PlanError::Face { face: 0, .. })), "{error}");
+    let Error::Item { item, source } = &error else { panic!("{error}") };
+    assert!(item == "face 0" && matches!(**source, Error::Scene { .. }), "{error}");
 }
 
 /// A torque beyond friction is named, with what friction gives under even pressure: µ N times the mean distance of the

@@ -1,5 +1,6 @@
 //! Several bodies on one ground in plan: each has its own forces, all of them together those about their common middle.
 
+use basemat::bem::PlanError;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, SpringGround};
 use basemat::coupled::State;
@@ -7,7 +8,7 @@ use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{FreeField, Record, Triaxial, el_centro_1940};
 use basemat::results::{Criterion, Quantity, Recorder, Run, Serviceability, TimeSeries};
 use basemat::structure::{RigidBlock, RigidBody, StructureGroup};
-use basemat::{Error, PlanError, Simulation, Soil};
+use basemat::{Error, Simulation, Soil};
 
 use basemat_problems::scenes::recorded;
 

@@ -3,10 +3,11 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground};
+use basemat::coupled::CoarseBaseError;
 use basemat::coupled::Warning;
 use basemat::interface::Coulomb;
 use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
-use basemat::{CoarseBaseError, Error, Result, Simulation, Soil};
+use basemat::{Error, Result, Simulation, Soil};
 
 /// Displacement and rotations about x and y of a node: w, ∂w/∂y, −∂w/∂x.
 const NODE: usize = 3;

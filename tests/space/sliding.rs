@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{GravityStage, Load};
+use basemat::coupled::{StabilityError, StepError};
 use basemat::interface::{
     Bonded, Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, UnilateralCondition,
     VariableFriction, Yielding,
@@ -11,7 +12,7 @@ use basemat::interface::{
 use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial, el_centro_1940};
 use basemat::reference::SlidingBlock;
 use basemat::structure::RigidBody;
-use basemat::{Result, Simulation, Soil, StabilityError, StepError};
+use basemat::{Result, Simulation, Soil};
 
 use basemat_problems::series::{Error, whole};
 use basemat_problems::{law_from, table};

@@ -3,11 +3,12 @@
 //! REFERENCE: the same on 64 elements; twice the elements; numbers of elements.
 
 use basemat::bem::{ElasticGround, Ground, Strip};
+use basemat::coupled::CoarseBaseError;
 use basemat::coupled::Warning;
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
 use basemat::structure::DofCombination;
-use basemat::{CoarseBaseError, Error, Result};
+use basemat::{Error, Result};
 
 const WIDTH: f64 = 20.0;
 const BEAMS: usize = 40;

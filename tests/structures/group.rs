@@ -3,6 +3,7 @@
 //! REFERENCE: each alone, or its mirror image.
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
+use basemat::coupled::CheckpointError;
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Coulomb};
@@ -11,7 +12,7 @@ use basemat::structure::{
     CraigBampton, DofCombination, ModalDamping, NonlinearForce, RigidBlock, ShearBuilding, Storey,
     Structure, StructureGroup, Triplets, WithSprings,
 };
-use basemat::{CheckpointError, Error, Result, Simulation, Soil};
+use basemat::{Error, Result, Simulation, Soil};
 
 use basemat_problems::{needed_from, own_force};
 
@@ -390,5 +391,5 @@ fn rows_and_probes_stay_within_their_member() {
         index: 4,
         bound: 3,
     };
-    assert_eq!(error, Error::Probe { name: "shear".to_owned(), source: Box::new(source) });
+    assert_eq!(error, Error::Item { item: "probe 'shear'".to_owned(), source: Box::new(source) });
 }

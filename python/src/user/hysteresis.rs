@@ -4,7 +4,8 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
-use basemat::{CheckpointError, Result};
+use basemat::coupled::CheckpointError;
+use basemat::Result;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyType;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use basemat::CheckpointError;
+use basemat::coupled::CheckpointError;
 use basemat::structure::InternalEnergy;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;

@@ -29,7 +29,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 ///
 /// The scheme is not stable for every step: see [the module](super). The builder of a simulation calls
 /// [`Ground::prepare`], which assesses the discrete operator for this boundary, step and kernel, with the
-/// base uplifted and with the base bonded. It returns [`Error::Unstable`] if perturbations grow by more than
+/// base uplifted and with the base bonded. It returns [`GroundError::Unstable`](crate::bem::GroundError::Unstable) if perturbations grow by more than
 /// 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of a thousand
 /// factorisations of complex matrices of order 2E, and ten times that time if modes grow: with the 20
 /// elements of the paper 0.2 s, and up to 2 s (release build). It is computed once per step size.
@@ -176,7 +176,7 @@ impl FullPlaneGround {
     /// // The step of the paper, β = 1/2.
     /// let found = ground.assess(step(0.5))?.clone();
     /// assert!(found.uplifted.growth_per_step > 0.05 && !found.is_bounded());
-    /// assert!(matches!(ground.prepare(step(0.5), None, &mut unobserved), Err(Error::Unstable { .. })));
+    /// assert!(matches!(ground.prepare(step(0.5), None, &mut unobserved), Err(GroundError::Unstable { .. })));
     /// let mut ground = ground.allow_growth();
     /// ground.prepare(step(0.5), None, &mut unobserved)?;
     /// assert_eq!(ground.stability(), Some(&found));

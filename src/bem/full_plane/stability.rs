@@ -12,7 +12,7 @@ use super::convolution::BoundaryHistory;
 use super::stability_symbol::Symbol;
 use super::stability_zeros::{passivity, smallest_zero};
 use super::{Boundary, BoundaryCondition, BoundaryKernel};
-use crate::error::{Error, Result, require, same_length};
+use crate::error::{Error, GroundError, Result, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
@@ -88,7 +88,7 @@ impl Stability {
     ///     Stability::assess(&kernel, &conditions, 1e-3)
     /// };
     /// assert!(assess(2.0)?.require_bounded().is_ok());
-    /// assert!(matches!(assess(0.1)?.require_bounded(), Err(Error::Unstable { .. })));
+    /// assert!(matches!(assess(0.1)?.require_bounded(), Err(GroundError::Unstable { .. })));
     /// # Ok::<(), Error>(())
     /// ```
     ///
@@ -129,15 +129,16 @@ impl Stability {
     /// Returns `Ok` if no perturbation grows.
     ///
     /// # Errors
-    /// [`Error::Unstable`] if perturbations grow.
+    /// [`GroundError::Unstable`](crate::bem::GroundError::Unstable) if perturbations grow.
     pub fn require_bounded(&self) -> Result<()> {
         if self.is_bounded() {
             Ok(())
         } else {
-            Err(Error::Unstable {
+            Err(GroundError::Unstable {
                 growth_per_step: self.growth_per_step,
                 growing_modes: self.growing_modes,
-            })
+            }
+            .into())
         }
     }
 }
@@ -216,7 +217,7 @@ impl GroundStability {
     /// Returns `Ok` if no perturbation grows in either state.
     ///
     /// # Errors
-    /// [`crate::Error::Unstable`] with the faster growth.
+    /// [`GroundError::Unstable`](crate::bem::GroundError::Unstable) with the faster growth.
     pub fn require_bounded(&self) -> Result<()> {
         self.worst().require_bounded()
     }

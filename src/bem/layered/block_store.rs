@@ -23,7 +23,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::coefficients::{BLOCKS, Block, FIRST};
-use crate::error::{Error, KernelFileError, LayeredError, Result, Watch, require, same_length};
+use crate::error::{Error, FileFault, Result, Watch, require, same_length};
 use crate::text::check_sum::CheckSum;
 use crate::text::file::write_file;
 
@@ -190,13 +190,11 @@ const HEADER: usize = 5;
 /// The blocks of a file, in order; none without a file, or for another kernel or format.
 ///
 /// # Errors
-/// [`LayeredError::File`] for a file that cannot be read, is not a kernel file, or is damaged.
+/// [`Error::File`] for a file that cannot be read, is not a kernel file, or is damaged.
 fn read(path: &Path, fingerprint: u64, [classes, kinds]: [usize; 2]) -> Result<Vec<Block>> {
     match contents(path, fingerprint, [classes, kinds]) {
-        Err(KernelFileError::Unreadable(std::io::ErrorKind::NotFound)) => Ok(vec![]),
-        found => found.map_err(|reason| {
-            Error::from(LayeredError::File { file: path.display().to_string(), reason })
-        }),
+        Err(FileFault::Unreadable(std::io::ErrorKind::NotFound)) => Ok(vec![]),
+        found => found.map_err(|fault| fault.of(path.display().to_string(), 0)),
     }
 }
 
@@ -204,8 +202,8 @@ fn contents(
     path: &Path,
     fingerprint: u64,
     [classes, kinds]: [usize; 2],
-) -> std::result::Result<Vec<Block>, KernelFileError> {
-    let unreadable = |error: std::io::Error| KernelFileError::Unreadable(error.kind());
+) -> std::result::Result<Vec<Block>, FileFault> {
+    let unreadable = |error: std::io::Error| FileFault::Unreadable(error.kind());
     let mut file = File::open(path).map_err(unreadable)?;
     let found = file.metadata().map_err(unreadable)?.len();
     let mut begin = vec![];
@@ -213,13 +211,16 @@ fn contents(
     let header: Vec<u64> =
         begin.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
     if header.first() != Some(&MAGIC) {
-        return Err(KernelFileError::NotAKernel);
+        return Err(FileFault::format(
+            "other data",
+            "convolution weights: the file is not written over",
+        ));
     }
     if header.get(1).is_some_and(|format| *format != FORMAT) {
         return Ok(vec![]);
     }
     let [_, _, whose, found_classes, blocks] = header[..] else {
-        return Err(KernelFileError::Length { found, needed: None });
+        return Err(wrong_length(found, None));
     };
     if whose != fingerprint || found_classes != classes as u64 {
         return Ok(vec![]);
@@ -231,24 +232,24 @@ fn contents(
     };
     let needed = (blocks <= BLOCKS).then(|| size(blocks));
     if needed != Some(found) {
-        return Err(KernelFileError::Length { found, needed });
+        return Err(wrong_length(found, needed));
     }
     let mut bytes = vec![];
     file.read_to_end(&mut bytes).map_err(unreadable)?;
     let (words, _) = bytes.as_chunks::<8>();
     let Some((stored, data)) = words.split_last() else {
-        return Err(KernelFileError::Length { found, needed });
+        return Err(wrong_length(found, needed));
     };
     let mut sum = CheckSum::default();
     for word in begin.as_chunks().0.iter().chain(data) {
         sum.add(u64::from_le_bytes(*word));
     }
     if sum.value() != u64::from_le_bytes(*stored) {
-        return Err(KernelFileError::Damaged);
+        return Err(damaged());
     }
     let mut numbers = data.iter().map(|word| f64::from_le_bytes(*word));
     if !numbers.clone().all(f64::is_finite) {
-        return Err(KernelFileError::Damaged);
+        return Err(damaged());
     }
     let mut list = |lags: usize| numbers.by_ref().take(lags).collect::<Vec<_>>();
     let mut block = |number: usize| {
@@ -256,6 +257,17 @@ fn contents(
         Block { values: (0..kinds * classes).map(|_| list(lags)).collect() }
     };
     Ok((0..blocks).map(&mut block).collect())
+}
+
+/// Fault of a file that is shorter or longer than its header states, in bytes.
+fn wrong_length(found: u64, needed: Option<u64>) -> FileFault {
+    let stated = needed.map_or_else(|| "more".to_owned(), |needed| needed.to_string());
+    let needed = format!("{stated} (delete the file to have it made anew)");
+    FileFault::value("number of bytes", found.to_string(), needed)
+}
+
+fn damaged() -> FileFault {
+    FileFault::Damaged { quantity: "file".into() }
 }
 
 /// Replaces the file; another process finds either the old file or the new one, complete.

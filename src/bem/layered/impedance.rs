@@ -140,7 +140,7 @@ pub(in crate::bem) fn points(
 /// The entries `judged` must agree between the extrapolations from all samples and from all but the last.
 ///
 /// # Errors
-/// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) if the entries do not agree; as for `at`.
+/// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) if the entries do not agree; as for `at`.
 pub(in crate::bem) fn stiffnesses<const N: usize>(
     lists: &[Vec<Complex>],
     judged: &[usize],

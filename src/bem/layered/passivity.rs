@@ -4,7 +4,7 @@ use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
 use super::wavenumber::Compliances;
-use crate::error::{LayeredError, Result, Watch};
+use crate::error::{Error, Result, Watch};
 use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::text::check_sum::CheckSum;
@@ -47,8 +47,8 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
         if !passes {
             let margin = margin(classes, &values);
             if margin.is_nan() || margin < allowed {
-                let radius = RADIUS;
-                return Err(LayeredError::NotPassive { margin, allowed, angle, radius }.into());
+                let (quantity, radius) = ("mobility of the convolution weights", RADIUS);
+                return Err(Error::NotPassive { quantity, margin, allowed, angle, radius });
             }
         }
         for value in values.iter().flatten() {

@@ -32,7 +32,7 @@ const DATUM: f64 = 10.0;
 ///
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length,
-/// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law without long-term
+/// [`SoilError::Modulus`](crate::soil::SoilError::Modulus) for a damping law without long-term
 /// stiffness; as for [`PairClasses::new`].
 pub(in crate::bem) fn static_compliance(
     profile: &SoilProfile,
@@ -108,10 +108,11 @@ fn smooth(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Error;
     use crate::bem::layered::wavenumber::{Compliances, Workspace};
     use crate::bem::{Grading, StaticKernel, Strip};
+    use crate::soil::SoilError;
     use crate::soil::{Kjartansson, Soil};
-    use crate::{Error, LayeredError};
 
     fn matrix(profile: &SoilProfile, strip: &Strip) -> Vec<f64> {
         let elements = strip.elements();
@@ -198,7 +199,7 @@ mod tests {
         let profile = SoilProfile::on_half_plane(soil).with_damping(law);
         let elements = Strip::uniform(0.0..1.0, 2).unwrap().elements();
         let found = static_compliance(&profile, &elements, &mut [0.0; 16]);
-        assert!(matches!(found, Err(Error::Layered(LayeredError::Modulus { layer: 1, .. }))));
+        assert!(matches!(found, Err(Error::Soil(SoilError::Modulus { layer: 1, .. }))));
         assert!(static_compliance(&profile, &elements, &mut [0.0; 15]).is_err());
     }
 }

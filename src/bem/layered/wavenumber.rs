@@ -14,7 +14,7 @@
 use super::compliance::{Compliance, SurfaceCompliance};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
-use crate::error::{Error, LayeredError, Result, Watch};
+use crate::error::{Error, GroundError, Result, Watch};
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -49,7 +49,7 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Re s > 0, or damped layers.
     ///
     /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`LayeredError::Unresolved`].
+    /// As for [`SoilProfile::moduli`]; [`GroundError::Unresolved`].
     fn compliance(
         &self,
         profile: &SoilProfile,
@@ -230,8 +230,8 @@ impl Wavenumbers {
         let short = (SHORT / self.shortest).min(MOST_FOR_SHORT * width);
         let count = (least / width).max(short / width).ceil().max(1.0);
         if count > MOST_PANELS {
-            let (span, wavenumber) = (self.span, least);
-            return Err(LayeredError::TooFine { span, wavenumber }.into());
+            let (span, wavenumber, most) = (self.span, least, MOST_PANELS * width);
+            return Err(GroundError::TooFine { span, wavenumber, most }.into());
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         let count = count as usize;
@@ -294,7 +294,7 @@ impl Wavenumbers {
 
 /// Error for an integral at `s` whose halving stopped at the wavenumber `k`.
 pub(crate) fn unresolved(s: Complex, k: f64) -> Error {
-    LayeredError::Unresolved { re: s.re, im: s.im, wavenumber: k }.into()
+    GroundError::Unresolved { re: s.re, im: s.im, wavenumber: k }.into()
 }
 
 /// Smallest K at which the bottom of the top layer has no effect on the surface, 1/m.

@@ -36,7 +36,7 @@ impl StripWeights {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an invalid time step,
-    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for damping that is defined only in the
+    /// [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for damping that is defined only in the
     /// frequency domain; as for [`PairClasses::new`].
     pub(in crate::bem) fn under_strips(
         profile: SoilProfile,

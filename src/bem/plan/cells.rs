@@ -70,7 +70,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
-    /// [`PlanError::Face`], [`PlanError::NoCells`], [`PlanError::TooClose`], [`PlanError::Uncovered`].
+    /// [`Error::Item`], [`PlanError::NoCells`], [`PlanError::TooClose`], [`PlanError::Uncovered`].
     pub fn on_faces(faces: &[Vec<[f64; 2]>], cells: usize) -> Result<Self> {
         check_faces(faces.len())?;
         let faces: Result<Vec<_>> =

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::{PlanError, Result};
+use crate::error::{Error, PlanError, Result};
 use crate::linalg::Partition;
 
 /// Distance that counts as touching, relative to the size of a face.
@@ -25,14 +25,17 @@ impl Face {
     /// Face number `face` from its corners, in either order.
     ///
     /// # Errors
-    /// [`PlanError::Face`].
+    /// [`Error::Item`] of [`Error::Scene`].
     pub(crate) fn new(face: usize, corners: &[[f64; 2]]) -> Result<Self> {
-        let fault = |reason| Err(PlanError::Face { face, reason }.into());
+        let fault = |needed| {
+            let error = Error::Scene { quantity: "polygon", needed };
+            Err(error.within(format!("face {face}")))
+        };
         if corners.len() < 3 {
-            return fault("has less than three corners");
+            return fault("it has less than three corners");
         }
         if !corners.iter().flatten().all(|x| x.is_finite()) {
-            return fault("has a corner that is not finite");
+            return fault("it has a corner that is not finite");
         }
         let mut corners = corners.to_vec();
         let fan = |corners: &[[f64; 2]]| -> f64 {
@@ -46,11 +49,11 @@ impl Face {
         let size = face.edges().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).fold(0.0, f64::max);
         face.near = TOUCHING * size;
         if area.is_nan() || area <= face.near * size {
-            return fault("has no area");
+            return fault("it has no area");
         }
         // One turn in all, and never to the right.
         let convex = face.corners.iter().all(|p| face.contains(*p));
-        if convex { Ok(face) } else { fault("is not convex, or crosses itself") }
+        if convex { Ok(face) } else { fault("it is not convex, or crosses itself") }
     }
 
     fn edges(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {

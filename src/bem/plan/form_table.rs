@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 
 use super::forms::{AngularMeans, FORMS, integrals};
 use crate::bem::layered::{DEGREES, POINTS, REACH, legendre, on_grid};
-use crate::error::{PlanError, Result, Watch, memory};
+use crate::error::{GroundError, Result, Watch, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
@@ -103,7 +103,7 @@ impl FormTable {
     /// Empty table for `lattice`, for Laplace variables with |√q₂| up to `root` and K from `deep` on (1/m).
     ///
     /// # Errors
-    /// [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
+    /// [`GroundError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
     pub(super) fn new(lattice: &Lattice, [root, deep]: [f64; 2]) -> Result<Self> {
         let classes = lattice.classes().len();
         let width = TURN / lattice.diagonal();
@@ -128,7 +128,7 @@ impl FormTable {
         if turn.is_nan() || turn * turn * cells > MOST {
             let span = lattice.diagonal();
             let most = (MOST / cells).sqrt() / span;
-            return Err(PlanError::TooFine { span, wavenumber: end, most }.into());
+            return Err(GroundError::TooFine { span, wavenumber: end, most }.into());
         }
         let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;

@@ -21,7 +21,7 @@ use crate::bem::layered::{
     Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, SurfaceCompliance, by_halves, deep,
     last_coefficients, legendre, median, surface_outlook, surface_series, unresolved,
 };
-use crate::error::{PlanError, Result, Watch};
+use crate::error::{GroundError, Result, Watch};
 use crate::geometry::{Lattice, SERIES};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -165,7 +165,7 @@ impl Integrals {
     /// Integrals without tabulated forms; [`Compliances::make_ready`] tabulates them.
     ///
     /// # Errors
-    /// As for [`SoilProfile::moduli`]; [`PlanError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
+    /// As for [`SoilProfile::moduli`]; [`GroundError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
     pub(super) fn sketch(
         lattice: &Lattice,
         profile: &SoilProfile,
@@ -191,7 +191,7 @@ impl Integrals {
             let width = self.table.width;
             let (span, wavenumber) = (self.table.span(), panels as f64 * width);
             let most = self.table.end as f64 * width;
-            return Err(PlanError::TooFine { span, wavenumber, most }.into());
+            return Err(GroundError::TooFine { span, wavenumber, most }.into());
         };
         work.sums.clear();
         work.sums.resize(2 * SERIES * self.table.classes, 0.0);

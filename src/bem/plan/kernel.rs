@@ -50,7 +50,7 @@ impl LatticeKernel {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step,
-    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal); as for [`Integrals::sketch`].
+    /// [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal); as for [`Integrals::sketch`].
     pub(in crate::bem) fn in_plan(
         profile: SoilProfile,
         plan: &Plan,

@@ -178,7 +178,7 @@ impl Cone {
                 {
                     if !(value >= 0.0 && value.is_finite()) {
                         let mode = Mode::Stick.word();
-                        return Err(LawError::NotFinite { element: e, mode, quantity, value });
+                        return Err(LawError::not_finite(e, mode, quantity, value));
                     }
                 }
                 self.layers[e] = layer;
@@ -301,7 +301,7 @@ fn lasts(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool
 fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
     let (law, start) = (input.law(element), input.start.element(element));
     let mode = start.mode.word();
-    let refused = |reason| LawError::Refused { element, mode, reason: Box::new(reason) };
+    let refused = |reason| LawError { element, mode, reason: Box::new(reason) };
     let limits = law.limits(&start).and_then(Limits::checked).map_err(refused)?;
     Ok(if input.frictionless { limits.frictionless() } else { limits })
 }

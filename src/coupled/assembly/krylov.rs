@@ -12,12 +12,12 @@
 //! step cannot follow.
 
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
-use crate::coupled::assembly::subspace::Subspace;
+use crate::coupled::assembly::subspace::{REDUCED, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::error::{ReducedError, Result, finite, require};
+use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::structure::{FaceNode, HeldBase, stiffest};
@@ -185,24 +185,25 @@ impl<'a> Reduction<'a> {
             }
             last = Some(responses);
         }
-        Err(ReducedError::Accuracy { tolerance, reached, vectors: space.count() }.into())
+        Err(inaccurate(reached, tolerance, space.count()))
     }
 
     /// Mass, damping and stiffness; an error if they cannot be reduced.
     fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
-        if !self.assembled.linear {
-            return Err(ReducedError::Nonlinear.into());
-        }
+        require_part(REDUCED, self.assembled.linear, "they need a linear structure")?;
         let matrices = self.assembled.matrices();
         let names = ["mass matrix", "damping matrix", "stiffness matrix"];
         for (matrix, name) in matrices.iter().zip(names) {
             if matrix.asymmetry() > 1e-13 {
-                return Err(ReducedError::Matrix { matrix: name, needed: "symmetric" }.into());
+                let needed = "it must be symmetric";
+                let error = Error::Scene { quantity: name, needed };
+                return Err(error.within(REDUCED));
             }
         }
         if SparseFactor::positive_definite(names[0], matrices[0]).is_err() {
-            let needed = "positive definite";
-            return Err(ReducedError::Matrix { matrix: names[0], needed }.into());
+            let needed = "it must be positive definite";
+            let error = Error::Scene { quantity: names[0], needed };
+            return Err(error.within(REDUCED));
         }
         Ok(matrices)
     }
@@ -266,4 +267,13 @@ fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
         rows.extend(row);
     }
     kept
+}
+
+/// Error for reduced coordinates that do not reach a tolerance.
+fn inaccurate(reached: f64, tolerance: f64, vectors: usize) -> Error {
+    let quantity = "response of reduced coordinates to sudden tractions";
+    let remedy = format!(
+        "with {vectors} vectors; undamped structures cannot be reduced: damping in proportion to stiffness helps"
+    );
+    Error::Accuracy { quantity, reached, tolerance, remedy }
 }

@@ -300,10 +300,10 @@ impl SimulationBuilder {
     ///
     /// # Errors
     /// * the typed error of a part that is wrong, [`crate::Error::Scene`] for a missing part;
-    /// * [`crate::Error::Restrained`] for a structure held by more than the ground, [`crate::Error::Detached`] for
+    /// * [`StructureError::Restrained`](crate::structure::StructureError::Restrained) for a structure held by more than the ground, [`StructureError::Detached`](crate::structure::StructureError::Detached) for
     ///   one with a part that is not connected to its base, [`crate::Error::Indefinite`] for a negative mass or
     ///   damping, or a stiffness that is negative with the base held;
-    /// * [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that does
+    /// * [`crate::Error::Item`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that does
     ///   not exist or a name that occurs twice;
     /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0,
     ///   [`crate::Error::Preload`] if no equilibrium was found for another reason;

@@ -214,7 +214,7 @@ fn check_placed(
         let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \
                       `GravityStage::Frictional`, in which the law itself acts";
         let reason = Box::new(Error::Scene { quantity: "static state without friction", needed });
-        return Err(Error::Law(LawError::Refused { element, mode: at_rest.word(), reason }));
+        return Err(Error::Law(LawError { element, mode: at_rest.word(), reason }));
     }
     Ok(())
 }

@@ -9,7 +9,7 @@
 //! to zero.
 
 use crate::coupled::base::transformation::ModalBasis;
-use crate::error::{ReducedError, Result};
+use crate::error::{Error, Result};
 use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
 
 /// Residual of the eigenproblem, and of damping that counts as diagonal, relative to its terms.
@@ -18,6 +18,8 @@ pub(crate) const DECOUPLED: f64 = 1e-10;
 const ZERO: f64 = 1e-13;
 /// Smallest eigenvalue above zero, relative to the largest: between the two limits it is uncertain.
 const LEAST: f64 = 1e-10;
+/// Name of the coordinates in errors.
+pub(crate) const REDUCED: &str = "reduced coordinates";
 
 /// Smallest independent part of a translation.
 const INDEPENDENT: f64 = 1e-7;
@@ -156,15 +158,19 @@ impl<'a> Subspace<'a> {
         let [damping, stiffness] = &self.projected;
         let rows = (fixed..count).flat_map(|i| &stiffness[i * count + fixed..(i + 1) * count]);
         let rows: Vec<f64> = rows.copied().collect();
-        let failed =
-            ReducedError::Matrix { matrix: "stiffness matrix", needed: "finite in the subspace" };
-        let (mut values, own) = symmetric_modes(&rows, free).ok_or(failed)?;
+        let failed = || {
+            let needed = "it must be finite in the subspace";
+            Error::Scene { quantity: "stiffness matrix", needed }.within(REDUCED)
+        };
+        let (mut values, own) = symmetric_modes(&rows, free).ok_or_else(failed)?;
         let top = largest(&values);
         values.iter_mut().filter(|value| value.abs() <= ZERO * top).for_each(|value| *value = 0.0);
         let nonzero = values.iter().filter(|value| **value != 0.0);
         let ratio = nonzero.fold(top, |least, value| value.abs().min(least)) / top;
         if ratio < LEAST {
-            return Err(ReducedError::Spectrum { ratio, least: LEAST }.into());
+            let quantity = "lowest eigenvalue besides zero, relative to the highest,";
+            let needed = "at least 1e-10, from which double precision tells it from zero";
+            return Err(Error::Input { quantity, value: ratio, needed }.within(REDUCED));
         }
         let mut combinations = vec![0.0; count * count];
         (0..fixed).for_each(|i| combinations[i * (count + 1)] = 1.0);
@@ -178,7 +184,10 @@ impl<'a> Subspace<'a> {
         (0..count).for_each(|j| modal[j * (count + 1)] = 0.0);
         let coupling = largest(&modal) / largest(&damping);
         if coupling > DECOUPLED {
-            return Err(ReducedError::Damping { coupling }.into());
+            let quantity =
+                "coupling of the modes by the damping, relative to its largest modal coefficient,";
+            let needed = "rounding, as that of proportional damping is";
+            return Err(Error::Input { quantity, value: coupling, needed }.within(REDUCED));
         }
         let mut stiffness = vec![0.0; fixed];
         stiffness.extend(values);

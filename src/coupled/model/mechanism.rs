@@ -61,7 +61,7 @@ impl AtRest<'_> {
         }
         let dofs = Regular::held(self).1.free_dofs(free)?;
         let place = place(self.structure, &dofs);
-        Some(StabilityError::Mechanism { dofs, place })
+        Some(StabilityError::Mechanism { dofs, place, massless: false })
     }
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn unresisted(
     let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
     let dofs = Regular::new(sum, 1.0, &[]).free_dofs(FREE)?;
     let place = place(structure, &dofs);
-    Some(StabilityError::Massless { dofs, place })
+    Some(StabilityError::Mechanism { dofs, place, massless: true })
 }
 
 /// The structure's names of degrees of freedom, or their numbers.

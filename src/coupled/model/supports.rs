@@ -27,7 +27,7 @@
 
 use crate::coupled::base::Base;
 use crate::coupled::base::influence::Influence;
-use crate::error::{Error, Result, require, require_part};
+use crate::error::{Error, Result, StructureError, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{Structure, Tangent, UNNOTICED};
@@ -74,7 +74,7 @@ pub(crate) fn check(
         let is_noticed = square > UNNOTICED * mass.form(translation, translation);
         if is_noticed && resistance.holds(lag, firmer) {
             let Resistance { force, dof, ratio, .. } = resistance;
-            return Err(Error::Restrained { direction, force, dof, ratio });
+            return Err(StructureError::Restrained { direction, force, dof, ratio }.into());
         }
         if resistance.is_free || !is_noticed && resistance.bent <= LAG {
             for r in translation.iter_mut() {
@@ -155,7 +155,7 @@ pub(crate) fn joined_by_force(
     };
     for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
         if let Some((force, dof, ratio)) = resistance(translation)? {
-            return Err(Error::Restrained { direction, force, dof, ratio });
+            return Err(StructureError::Restrained { direction, force, dof, ratio }.into());
         }
     }
     if parts.len() > 1 {

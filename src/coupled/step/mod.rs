@@ -79,7 +79,7 @@ impl Forcing {
             *value -= start;
         }
         // An error of the ground ends the step.
-        ground.history(&mut self.history).map_err(|error| StepError::Ground(Box::new(error)))?;
+        ground.history(&mut self.history).map_err(StepError::part("history of the ground"))?;
         for (values, quantity) in
             [(&self.free_field, "free field"), (&self.history, "history of the ground")]
         {
@@ -109,7 +109,7 @@ impl Forcing {
         let own = scene
             .model
             .load(structure, within, at_start, &mut self.dofs, &mut self.load)
-            .map_err(StepError::structure("load of the structure"))?;
+            .map_err(StepError::part("load of the structure"))?;
         if own {
             StepError::check_finite("load of the structure", &self.dofs)?;
         }

@@ -178,12 +178,12 @@ impl Newton {
         let weight = scene.coefficients.displacement[0];
         self.tangent
             .refill(structure, &self.seen)
-            .map_err(StepError::structure("tangent of the structure"))?;
+            .map_err(StepError::part("tangent of the structure"))?;
         let tangent = &self.tangent.matrix;
         if !tangent.entries().eq(linear.operators.tangent.entries()) {
             let (model, base) = (&scene.model, &scene.base);
             let factor = Factor::of_dofs(model, &scene.coefficients, tangent)
-                .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
+                .map_err(StepError::part("tangent of the structure"))?;
             let tangent = tangent.clone();
             linear.operators =
                 Operators::new(model, base, &scene.soil, Factor::Sparse(factor), tangent);
@@ -237,7 +237,7 @@ impl Newton {
         increment.force.fill(0.0);
         if let Some(own) = structure.nonlinear() {
             own.force(&self.seen, &mut increment.force)
-                .map_err(StepError::structure("nonlinear force of the structure"))?;
+                .map_err(StepError::part("nonlinear force of the structure"))?;
         }
         for (force, at_rest) in increment.force.iter_mut().zip(&scene.static_state.force) {
             *force -= at_rest;

@@ -5,8 +5,10 @@ use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 use crate::history::shared_spectra::SharedSpectra;
 
-const COUPLING_LASTS: Error =
-    Error::NoExponentials { needed: "a coupling that ends before the exponentials begin" };
+const COUPLING_LASTS: Error = Error::Scene {
+    quantity: "history by exponentials",
+    needed: "they need a coupling that ends before they begin",
+};
 
 /// A kernel whose coefficients are zero after its window.
 pub(super) struct Cut<'a> {

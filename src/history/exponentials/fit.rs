@@ -50,20 +50,31 @@ impl Fit {
             aim *= CLOSER;
             if accuracy.relative > tolerance {
                 let reached = accuracy.relative;
-                refusal.get_or_insert(Error::Accuracy { tolerance, reached });
+                refusal.get_or_insert_with(|| inaccurate(tolerance, reached));
                 continue;
             }
             let Margin { least, frequency } =
                 passivity::margin(kernel, &exact, &tail, horizon as f64);
             // A NaN is an error as well.
             if least.is_nan() || least < 0.0 {
-                refusal = Some(Error::NotPassive { margin: least, frequency });
+                refusal = Some(Error::NotPassive {
+                    quantity: "history by exponentials",
+                    margin: least,
+                    allowed: 0.0,
+                    angle: frequency,
+                    radius: 1.0,
+                });
                 continue;
             }
             return Ok(Self { request, tail, accuracy, margin: least });
         }
-        Err(refusal.unwrap_or(Error::Accuracy { tolerance, reached: f64::INFINITY }))
+        Err(refusal.unwrap_or_else(|| inaccurate(tolerance, f64::INFINITY)))
     }
+}
+
+fn inaccurate(tolerance: f64, reached: f64) -> Error {
+    let remedy = "with the largest number of poles tried".to_owned();
+    Error::Accuracy { quantity: "history by exponentials", reached, tolerance, remedy }
 }
 
 /// A fit, and the spectra of its window alone.

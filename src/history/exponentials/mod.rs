@@ -116,7 +116,7 @@ impl ExponentialHistory {
     /// The error of a coefficient is relative to the largest coefficient of its lag.
     ///
     /// # Errors
-    /// [`Error::NoExponentials`] for a kernel without late lags, or whose coupling has not ended before them;
+    /// [`Error::Scene`] for a kernel without late lags, or whose coupling has not ended before them;
     /// [`Error::Input`] for a tolerance not between 1e-12 and 1e-2; [`Error::Memory`] for a time step so short that the
     /// window would take more than 1 GiB; [`Error::Accuracy`] if the tolerance was not reached; [`Error::NotPassive`]
     /// if the fit creates energy.
@@ -283,7 +283,12 @@ fn window(late: &dyn LateWeights) -> Result<usize> {
 }
 
 const NO_LATE_LAGS: Error =
-    Error::NoExponentials { needed: "a kernel that knows its late lags as exponentials" };
+    no_exponentials("they need a kernel that knows its late lags as exponentials");
+
+/// Error for a kernel that does not allow exponentials.
+const fn no_exponentials(needed: &'static str) -> Error {
+    Error::Scene { quantity: "history by exponentials", needed }
+}
 
 impl ConvolutionHistory for ExponentialHistory {
     fn steps(&self) -> usize {

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::path::Path;
 
-use crate::error::{Error, MeshFileError, Result};
+use self::parse::twice;
+use crate::error::{Error, FileFault, Result};
 use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 
 /// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
@@ -62,26 +63,22 @@ impl GmshMesh {
     /// Reads a `.msh` file.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] with the line and the reason.
+    /// [`Error::File`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let name = path.display().to_string();
         match std::fs::File::open(path) {
             Ok(file) => Self::from_reader(&name, file),
-            Err(error) => Err(Error::MeshFile {
-                file: name,
-                line: 0,
-                reason: MeshFileError::Unreadable(error.kind()),
-            }),
+            Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
         }
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] with the line and the reason.
+    /// [`Error::File`] with the line and the reason.
     pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
-        let refuse = |(line, reason)| Error::MeshFile { file: name.to_owned(), line, reason };
+        let refuse = |(line, fault): (usize, FileFault)| fault.of(name, line);
         let raw = parse::read(source).map_err(refuse)?;
         let mut used = BTreeMap::new();
         let quads = raw.cells.iter().filter(|cell| cell.is_quadrilateral());
@@ -101,8 +98,8 @@ impl GmshMesh {
             most.max(x.abs()).max(y.abs())
         });
         if let Some(point) = points().find(|point| point.values[2].abs() > FLAT * size) {
-            let text = format!("a node at z = {}", point.values[2]);
-            return Err(refuse((point.line, MeshFileError::Unsupported { text })));
+            let fault = FileFault::value("z of a node", point.values[2].to_string(), "0");
+            return Err(refuse((point.line, fault)));
         }
         let nodes = points().map(|point| [point.values[0], point.values[1]]).collect();
         let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
@@ -118,8 +115,8 @@ impl GmshMesh {
                 own.sort_unstable();
                 if !corners.insert(own) {
                     let tags: Vec<String> = cell.nodes.iter().map(u64::to_string).collect();
-                    let what = format!("the quadrilateral of nodes {}", tags.join(" "));
-                    return Err(refuse((cell.line, MeshFileError::Twice { what })));
+                    let what = format!("quadrilateral of nodes {}", tags.join(" "));
+                    return Err(refuse((cell.line, twice(what))));
                 }
                 mesh.turn_counter_clockwise(&mut nodes);
                 mesh.quads.push(Cell { groups, nodes, tag, line });
@@ -150,7 +147,7 @@ impl GmshMesh {
     /// Nodes keep their indices.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] for a quadrilateral without a material or with two materials, a material without a
+    /// [`Error::File`] for a quadrilateral without a material or with two materials, a material without a
     /// group, and quadrilaterals without area or with a reflex corner, with their line.
     pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
         self.mesh_of(materials, QuadFormulation::default())
@@ -171,8 +168,7 @@ impl GmshMesh {
         }
         for (k, (name, _)) in materials.iter().enumerate() {
             if materials[..k].iter().any(|(other, _)| other == name) {
-                let what = format!("the material of surface '{name}'");
-                return Err(self.refuse(MeshFileError::Twice { what }));
+                return Err(self.refuse(twice(format!("material of surface '{name}'"))));
             }
         }
         let mut mesh = Mesh::new();
@@ -188,10 +184,9 @@ impl GmshMesh {
                 }
                 _ => continue,
             };
-            added.map_err(|error| Error::MeshFile {
-                file: self.file.clone(),
-                line: quad.line,
-                reason: MeshFileError::Element { tag: quad.tag, r#source: Box::new(error) },
+            added.map_err(|error| {
+                let error = error.within(format!("element {}", quad.tag));
+                FileFault::Unusable(Box::new(error)).of(&self.file, quad.line)
             })?;
         }
         Ok(mesh)
@@ -205,11 +200,10 @@ impl GmshMesh {
             (Some((_, material)), None) => Ok(*material),
             (Some((one, _)), Some((other, _))) => {
                 let what = format!(
-                    "the material of element {}, which is in the surfaces '{one}' and '{other}',",
+                    "material of element {}, which is in the surfaces '{one}' and '{other}',",
                     quad.tag
                 );
-                let reason = MeshFileError::Twice { what };
-                Err(Error::MeshFile { file: self.file.clone(), line: quad.line, reason })
+                Err(twice(what).of(&self.file, quad.line))
             }
             (None, _) => {
                 let surfaces = quad.groups.join("' or '");
@@ -221,18 +215,16 @@ impl GmshMesh {
     /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] if there is no such group, or its lines have a gap; [`GmshMesh::foundations`]
+    /// [`Error::File`] if there is no such group, or its lines have a gap; [`GmshMesh::foundations`]
     /// returns the pieces between gaps.
     pub fn line(&self, name: &str) -> Result<Vec<usize>> {
         let mut pieces = self.foundations(name)?;
         match (pieces.pop(), pieces.len()) {
             (Some(line), 0) => Ok(line),
             (_, others) => {
-                let text = format!(
-                    "line '{name}' as one: it is in {} pieces, which `GmshMesh::foundations` gives",
-                    others + 1
-                );
-                Err(self.refuse(MeshFileError::Unsupported { text }))
+                let needed = "1 (`GmshMesh::foundations` gives the pieces)";
+                let items = format!("pieces of line '{name}'");
+                Err(self.refuse(FileFault::count(&items, others + 1, needed)))
             }
         }
     }
@@ -245,7 +237,7 @@ impl GmshMesh {
     /// [`FemModel::on_foundations`]: crate::structure::FemModel::on_foundations
     ///
     /// # Errors
-    /// [`Error::MeshFile`] if there is no such group.
+    /// [`Error::File`] if there is no such group.
     pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
         let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
         for line in self.lines.iter().filter(|line| line.groups.iter().any(|group| group == name)) {
@@ -274,11 +266,11 @@ impl GmshMesh {
     }
 
     fn missing(&self, what: String) -> Error {
-        self.refuse(MeshFileError::Missing { what })
+        self.refuse(FileFault::missing(what))
     }
 
-    fn refuse(&self, reason: MeshFileError) -> Error {
-        Error::MeshFile { file: self.file.clone(), line: 0, reason }
+    fn refuse(&self, fault: FileFault) -> Error {
+        fault.of(&self.file, 0)
     }
 
     /// Reverses clockwise nodes. Corners come first, then the nodes between them, in Gmsh as in [`Quad8`].
@@ -293,8 +285,8 @@ impl GmshMesh {
     }
 }
 
-fn no_node(tag: u64) -> MeshFileError {
-    MeshFileError::Missing { what: format!("node {tag}") }
+fn no_node(tag: u64) -> FileFault {
+    FileFault::missing(format!("node {tag}"))
 }
 
 fn names(cells: &[Cell]) -> Vec<&str> {

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::str::FromStr;
 
-use crate::error::MeshFileError;
+use crate::error::FileFault;
 use crate::text::bounded_line::Lines;
-use crate::text::column::{excerpt, finite};
+use crate::text::column::{excerpt, finite, quoted};
 
 /// The result of reading; the error holds the number of the line and its fault.
-type Reason<T> = Result<T, (usize, MeshFileError)>;
+type Reason<T> = Result<T, (usize, FileFault)>;
 
 /// A point, and its line in the file.
 #[derive(Debug)]
@@ -75,7 +75,7 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
     let mut seen = Vec::new();
     while let Some(section) = fields.section()? {
         if seen.contains(&section) {
-            return Err(fields.refuse(MeshFileError::Twice { what: format!("section ${section}") }));
+            return Err(fields.refuse(twice(format!("section ${section}"))));
         }
         match section.as_str() {
             "MeshFormat" => format(&mut fields)?,
@@ -94,8 +94,7 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
     }
     for needed in ["MeshFormat", "Nodes", "Elements"] {
         if !seen.iter().any(|section| section == needed) {
-            let what = format!("section ${needed}");
-            return Err((0, MeshFileError::Missing { what }));
+            return Err((0, FileFault::missing(format!("section ${needed}"))));
         }
     }
     Ok(raw)
@@ -107,8 +106,8 @@ fn format(fields: &mut Words<impl Read>) -> Reason<()> {
     let _: u8 = fields.next("size of a number")?;
     if version != "4.1" || binary != 0 {
         let kind = if binary == 0 { "ASCII" } else { "binary" };
-        let text = format!("format {version} {kind}; 4.1 ASCII is needed");
-        return Err(fields.refuse(MeshFileError::Unsupported { text }));
+        let found = format!("format {} {kind}", excerpt(&version));
+        return Err(fields.refuse(FileFault::format(found, "format 4.1 ASCII")));
     }
     Ok(())
 }
@@ -119,8 +118,8 @@ fn physical_names(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
         let key = (fields.next("dimension")?, fields.next("tag of a group")?);
         let name = fields.quoted()?;
         if raw.names.insert(key, name).is_some() {
-            let what = format!("the name of group {} of dimension {}", key.1, key.0);
-            return Err(fields.refuse(MeshFileError::Twice { what }));
+            let what = format!("name of group {} of dimension {}", key.1, key.0);
+            return Err(fields.refuse(twice(what)));
         }
     }
     Ok(())
@@ -165,8 +164,8 @@ fn entities(fields: &mut Words<impl Read>, raw: &mut Raw, partitioned: bool) -> 
             let before = raw.groups.get(&(dimension, tag));
             let other = before.is_some_and(|before| *before != groups && !groups.is_empty());
             if other && !partitioned {
-                let what = format!("the group of entity {tag} of dimension {dimension}");
-                return Err(fields.refuse(MeshFileError::Twice { what }));
+                let what = format!("group of entity {tag} of dimension {dimension}");
+                return Err(fields.refuse(twice(what)));
             }
             if !groups.is_empty() {
                 raw.groups.insert((dimension, tag), groups);
@@ -193,7 +192,7 @@ fn nodes(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
         for k in 0..count {
             let tag = fields.next("tag of a node")?;
             if raw.places.insert(tag, first + k).is_some() {
-                return Err(fields.refuse(MeshFileError::Twice { what: format!("node {tag}") }));
+                return Err(fields.refuse(twice(format!("node {tag}"))));
             }
         }
         for _ in 0..count {
@@ -220,18 +219,19 @@ fn counts(fields: &mut Words<impl Read>, what: &'static str) -> Reason<(u64, u64
 }
 
 /// Number of nodes of an element of this Gmsh type.
-fn size_of(kind: u32) -> Result<usize, MeshFileError> {
-    let what = match kind {
+fn size_of(kind: u32) -> Result<usize, FileFault> {
+    let remedy = match kind {
         15 => return Ok(1),
         1 => return Ok(2),
         8 => return Ok(3),
         3 => return Ok(4),
         16 => return Ok(8),
-        2 | 9 => "triangles: let Gmsh recombine them (Mesh.RecombineAll = 1)",
-        10 => "quadrilaterals of nine nodes: Mesh.SecondOrderIncomplete = 1 leaves out the ninth",
-        _ => "needed are lines and quadrilaterals of the first or second order",
+        2 | 9 => ": let Gmsh recombine triangles (Mesh.RecombineAll = 1)",
+        10 => ": Mesh.SecondOrderIncomplete = 1 leaves out the ninth node",
+        _ => "",
     };
-    Err(MeshFileError::Unsupported { text: format!("elements of type {kind} ({what})") })
+    let needed = format!("lines and quadrilaterals of the first or second order{remedy}");
+    Err(FileFault::format(format!("elements of type {kind}"), needed))
 }
 
 fn elements(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
@@ -257,6 +257,11 @@ fn elements(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
     fields.agree("elements", found, announced)
 }
 
+/// Fault of an item that may be there once.
+pub(super) fn twice(item: impl Into<String>) -> FileFault {
+    FileFault::value(item, "given twice", "given once")
+}
+
 /// The fields of a text in order, with their line numbers.
 struct Words<R: Read> {
     source: Lines<R>,
@@ -272,7 +277,7 @@ impl<R: Read> Words<R> {
         Self { source: Lines::new(source), text: String::new(), at: 0, line: 0 }
     }
 
-    fn refuse(&self, reason: MeshFileError) -> (usize, MeshFileError) {
+    fn refuse(&self, reason: FileFault) -> (usize, FileFault) {
         (self.line, reason)
     }
 
@@ -308,10 +313,10 @@ impl<R: Read> Words<R> {
     /// The next field, converted by `parse`.
     fn field_as<T>(&mut self, what: &'static str, parse: impl Fn(&str) -> Option<T>) -> Reason<T> {
         let Some(field) = self.field()? else {
-            return Err((self.line, MeshFileError::Missing { what: what.to_owned() }));
+            return Err((self.line, FileFault::missing(what)));
         };
-        let (parsed, text) = (parse(field), excerpt(field));
-        parsed.ok_or_else(|| self.refuse(MeshFileError::NotA { what, text }))
+        let (parsed, found) = (parse(field), quoted(field));
+        parsed.ok_or_else(|| self.refuse(FileFault::value("field", found, format!("a {what}"))))
     }
 
     fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
@@ -327,7 +332,7 @@ impl<R: Read> Words<R> {
         if u64::try_from(found) == Ok(announced) {
             return Ok(());
         }
-        Err(self.refuse(MeshFileError::Count { what, found, announced }))
+        Err(self.refuse(FileFault::count(what, found, format!("{announced}, as announced"))))
     }
 
     /// Text between quotation marks, on the present line.
@@ -340,9 +345,7 @@ impl<R: Read> Words<R> {
                 self.at = self.text.len() - after.len();
                 Ok(name)
             }
-            _ => {
-                Err(self.refuse(MeshFileError::Missing { what: "name in quotation marks".into() }))
-            }
+            _ => Err(self.refuse(FileFault::missing("name in quotation marks"))),
         }
     }
 
@@ -352,8 +355,8 @@ impl<R: Read> Words<R> {
         if let Some(name) = field.strip_prefix('$') {
             return Ok(Some(name.to_owned()));
         }
-        let text = excerpt(field);
-        Err(self.refuse(MeshFileError::NotA { what: "beginning of a section", text }))
+        let found = quoted(field);
+        Err(self.refuse(FileFault::value("field", found, "the beginning of a section")))
     }
 
     /// Reads the end of `section`.
@@ -362,7 +365,7 @@ impl<R: Read> Words<R> {
         if end == Some(true) {
             return Ok(());
         }
-        Err(self.refuse(MeshFileError::Missing { what: format!("$End{section}") }))
+        Err(self.refuse(FileFault::missing(format!("$End{section}"))))
     }
 
     fn pass_over(&mut self, section: &str) -> Reason<()> {
@@ -371,6 +374,6 @@ impl<R: Read> Words<R> {
                 return Ok(());
             }
         }
-        Err(self.refuse(MeshFileError::Missing { what: format!("$End{section}") }))
+        Err(self.refuse(FileFault::missing(format!("$End{section}"))))
     }
 }

@@ -14,7 +14,7 @@ use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, 
 ///
 /// Elements act on each other through common nodes. A part without a node in common with the part on the ground
 /// must be tied to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
-/// [`Error::Detached`], which names the nodes, and nodes at the same place that were not merged.
+/// [`StructureError::Detached`](crate::structure::StructureError::Detached), which names the nodes, and nodes at the same place that were not merged.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -242,12 +242,18 @@ impl FemModel {
     /// The degree of freedom itself, or for a follower of a rigid link a sum of its leader's degrees of freedom.
     ///
     /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::NoDof`] for a node that no element moves in this
+    /// [`Error::Index`] for a node that does not exist, [`Error::Part`] for a node that no element moves in this
     /// direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
         in_bounds("node", node, self.mesh.nodes().len())?;
         let dof = self.numbering.dof(node, direction);
-        let dof = dof.ok_or(Error::NoDof { node, direction: direction.word() })?;
+        let dof = dof.ok_or_else(|| {
+            let reason = format!(
+                "it has no degree of freedom in direction {}: no element needs one there",
+                direction.word()
+            );
+            Error::part(format!("node {node}"), reason)
+        })?;
         let own = [(dof, 1.0)];
         Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
     }

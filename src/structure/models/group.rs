@@ -152,7 +152,7 @@ impl StructureGroup {
     /// Name and unit stay. Section resultants are converted too.
     ///
     /// # Errors
-    /// [`Error::Probe`] with the reason of [`StructureGroup::row`].
+    /// [`Error::Item`] with the reason of [`StructureGroup::row`].
     pub fn probe(&self, member: usize, probe: Probe) -> Result<Probe> {
         probe.try_map_rows(|row| self.row(member, row))
     }

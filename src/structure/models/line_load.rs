@@ -36,7 +36,7 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for a node that does not exist, [`Error::Input`]
-    /// for two successive nodes at one place, [`Error::NoDof`] for a node that no element moves in a direction of
+    /// for two successive nodes at one place, [`Error::Part`] for a node that no element moves in a direction of
     /// the pressure.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
         let mut row = DofCombination::default();

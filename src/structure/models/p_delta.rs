@@ -1,6 +1,6 @@
 //! P–Δ of finite-element models: axial forces from the weight, and the buckling factor.
 
-use crate::error::{Error, Result, not_negative};
+use crate::error::{Error, Result, StructureError, not_negative};
 use crate::fem::{Direction, MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::restricted;
@@ -57,7 +57,7 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the contact nodes do
-    /// not hold the structure, [`Error::Buckling`] when it buckles on them, under forces given by hand too; and
+    /// not hold the structure, [`StructureError::Buckling`] when it buckles on them, under forces given by hand too; and
     /// errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
@@ -72,7 +72,7 @@ impl FemModel {
         if held.stands(1.0)? {
             Ok(self)
         } else {
-            Err(Error::Buckling { factor: held.buckling_factor(1.0)? })
+            Err(StructureError::Buckling { factor: held.buckling_factor(1.0)? }.into())
         }
     }
 

@@ -103,7 +103,7 @@ impl CraigBampton {
     ///
     /// # Errors
     /// [`Error::Scene`] for a nonlinear structure, [`Error::Unsymmetric`] for matrices that are not symmetric,
-    /// [`Error::Detached`] for a part that no stiffness joins to a kept degree of freedom, [`Error::Index`] for a
+    /// [`StructureError::Detached`](crate::structure::StructureError::Detached) for a part that no stiffness joins to a kept degree of freedom, [`Error::Index`] for a
     /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than degrees of freedom are
     /// left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or the stiffness of the
     /// rest is not positive.

@@ -111,7 +111,7 @@ impl Recovery {
     /// Name and unit stay. Section resultants are converted too.
     ///
     /// # Errors
-    /// [`Error::Probe`](crate::Error::Probe) with the reason of [`Recovery::row`].
+    /// [`Error::Item`](crate::Error::Item) with the reason of [`Recovery::row`].
     pub fn probe(&self, probe: Probe) -> Result<Probe> {
         probe.try_map_rows(|row| self.row(row))
     }

@@ -4,9 +4,10 @@
 
 use basemat::bem::{ContactElement, Grading, SpringGround};
 use basemat::contact::ContactSearch;
+use basemat::coupled::StepError;
 use basemat::coupled::{HhtAlpha, Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::interface::{Bonded, FrictionLimit, InterfaceLaw, ThinLayer, UnilateralCondition};
-use basemat::{Error, Simulation, StepError};
+use basemat::{Error, Simulation};
 use basemat_problems::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
 
 fn layer() -> ThinLayer {

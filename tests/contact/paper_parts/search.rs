@@ -2,9 +2,10 @@
 //! SCENE: sliding blocks of several strengths and coefficients of friction.
 //! REFERENCE: the robust search, step by step; an unchanged state after an error.
 
+use basemat::Error;
 use basemat::contact::{ContactSearch, SearchMethod};
 use basemat::coupled::SimulationBuilder;
-use basemat::{Error, StepError};
+use basemat::coupled::StepError;
 use basemat_problems::scenes::{SI, block, friction, scene};
 
 const CHART: ContactSearch = ContactSearch::FlowChart { iterations: 60 };

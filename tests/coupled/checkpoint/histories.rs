@@ -6,13 +6,14 @@
 use std::sync::Arc;
 
 use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
+use basemat::coupled::{CheckpointError, StepError};
 use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, HistoryMethod,
     HistoryOptions, RelaxedFftHistory,
 };
 use basemat::soil::SoilProfile;
-use basemat::{CheckpointError, Error, MemoryError, Simulation, StepError};
+use basemat::{Error, MemoryError, Simulation};
 
 use super::{STEPS, carried, half_plane, refusal};
 use basemat_problems::scenes::{SI, block, friction, scene, soil, states};
@@ -195,9 +196,11 @@ fn steps_beyond_the_memory_are_refused() {
         of_memory(short.run(350, |_| {}).unwrap_err(), memory);
         assert!(*short.state() == wanted[50], "{number}");
         let error = (50..400).find_map(|_| short.step().err()).unwrap();
-        let Error::Step { step, source: StepError::Ground(cause), .. } = error else {
+        let Error::Step { step, source: StepError::Part { quantity, source: cause }, .. } = error
+        else {
             panic!("{number}: {error}");
         };
+        assert_eq!(quantity, "history of the ground");
         of_memory(*cause, memory);
         let seen = short.state().step;
         assert!((64..400).contains(&seen) && step == seen + 1, "{number}: {step}");

@@ -15,8 +15,9 @@ mod text;
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::Checkpoint;
+use basemat::coupled::CheckpointError;
 use basemat::history::HistoryOptions;
-use basemat::{CheckpointError, Error, Simulation};
+use basemat::{Error, Simulation};
 
 use basemat_problems::scenes::{SI, soil};
 

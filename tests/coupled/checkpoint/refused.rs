@@ -3,6 +3,7 @@
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::coupled::CheckpointError;
 use basemat::coupled::{Change, GravityStage, Load, SimulationBuilder};
 use basemat::history::HistoryMethod;
 use basemat::interface::{Cohesive, VariableFriction};
@@ -10,7 +11,7 @@ use basemat::motion::{AtRest, FreeFieldFn, el_centro_1940};
 use basemat::structure::{
     ModalDamping, NonlinearForce, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };
-use basemat::{CheckpointError, Error, Observer, Result};
+use basemat::{Error, Observer, Result};
 
 use super::{half_plane, refusal, spring_bed};
 use basemat_problems::scenes::{Rider, SI, block, friction, scene};

@@ -6,11 +6,12 @@
 use std::any::Any;
 
 use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::CheckpointError;
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::history::HistoryMethod;
 use basemat::interface::Bonded;
 use basemat::structure::{NonlinearForce, RigidBlock, Structure, Triplets};
-use basemat::{CheckpointError, Result, Simulation};
+use basemat::{Result, Simulation};
 
 use super::{STEPS, carried, half_plane, spring_bed};
 use basemat_problems::scenes::{Rider, SI, block, friction, scene, soil, states, tower};

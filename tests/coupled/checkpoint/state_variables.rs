@@ -3,9 +3,10 @@
 //! springs and half-plane.
 //! REFERENCE: the uninterrupted run, to the last bit; typed errors for other memories.
 
+use basemat::Simulation;
+use basemat::coupled::CheckpointError;
 use basemat::coupled::SimulationBuilder;
 use basemat::history::HistoryMethod;
-use basemat::{CheckpointError, Simulation};
 
 use super::{STEPS, carried, half_plane, refusal, spring_bed};
 use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};

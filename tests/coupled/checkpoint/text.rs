@@ -3,9 +3,10 @@
 //! bytes (feature `serde`).
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
+use basemat::Simulation;
 use basemat::coupled::Checkpoint;
+use basemat::coupled::CheckpointError;
 use basemat::history::HistoryMethod;
-use basemat::{CheckpointError, Simulation};
 use proptest::prelude::*;
 use serde_json::Value;
 

@@ -4,8 +4,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
+use basemat::Error;
 use basemat::coupled::State;
-use basemat::{CheckpointError, Error, StepError};
+use basemat::coupled::{CheckpointError, StepError};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -95,6 +96,9 @@ pub(crate) fn for_all<T: std::fmt::Debug>(
     tally
 }
 
+/// Name of a history in errors.
+const EXPONENTIALS: &str = "history by exponentials";
+
 /// The states of a run, or `None` if a part of the scene says that it cannot be had.
 pub(crate) fn accepted(
     recipe: &Recipe,
@@ -104,15 +108,17 @@ pub(crate) fn accepted(
     let refused = |error: &Error| {
         matches!(
             error,
-            Error::Accuracy { .. }
-                | Error::NotPassive { .. }
+            Error::Accuracy { quantity: EXPONENTIALS, .. }
+                | Error::NotPassive { quantity: EXPONENTIALS, .. }
                 | Error::Scene { quantity: "modal coordinates", .. }
                 | Error::Checkpoint(CheckpointError::Unsupported { .. })
         )
     };
     match outcome {
         Ok(states) => Ok(Some(states)),
-        Err(Error::Step { source: StepError::Ground(error), .. }) if refused(&error) => {
+        Err(Error::Step { source: StepError::Part { source: error, .. }, .. })
+            if refused(&error) =>
+        {
             tally.count("refused", 1);
             Ok(None)
         }

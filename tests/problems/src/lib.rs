@@ -16,6 +16,7 @@ pub mod check_sum;
 pub mod contact_problems;
 pub mod containment;
 pub mod dense;
+pub mod faults;
 pub mod headline;
 pub mod impedance;
 pub mod laws_with_memory;

@@ -76,7 +76,10 @@ fn rows_that_no_node_has_are_refused() {
     let mesh = Mesh::layered_block(-2.0..2.0, 2, &[Layer::new(2.0, 1, soft())]).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     assert_eq!(model.row(5, Direction::Y), Ok(DofCombination::from(11)));
-    let none = Error::NoDof { node: 5, direction: "rotation" };
+    let none = Error::part(
+        "node 5",
+        "it has no degree of freedom in direction rotation: no element needs one there",
+    );
     assert_eq!(model.row(5, Direction::Rotation), Err(none));
     let none = Error::Index { quantity: "node", index: 6, bound: 6 };
     assert_eq!(model.row(6, Direction::X), Err(none));

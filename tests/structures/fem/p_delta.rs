@@ -6,6 +6,7 @@ use basemat::Error;
 use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Beam, Direction, Element, LumpedMass, MassKind, Mesh, Truss};
 use basemat::interface::Coulomb;
+use basemat::structure::StructureError;
 use basemat::structure::{FemModel, RayleighDamping, Structure};
 use basemat::{Simulation, Soil};
 use basemat_problems::dense::{
@@ -78,7 +79,7 @@ fn a_column_buckles_under_its_own_weight_as_greenhill_says() {
         let (model, _) = cantilever(16, DENSITY, 0.0);
         match model.with_p_delta(factor * critical) {
             Ok(_) => assert!(stands, "{factor}"),
-            Err(Error::Buckling { factor: found }) => {
+            Err(Error::Structure(StructureError::Buckling { factor: found })) => {
                 assert!(!stands && (found * factor - 1.0).abs() < 1e-5, "{factor} {found}");
             }
             Err(other) => panic!("{other}"),
@@ -133,7 +134,9 @@ fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
     }
     let (model, _) = cantilever(8, 0.0, tip);
     let fallen = model.with_p_delta(gravity(1.25));
-    assert!(matches!(fallen, Err(Error::Buckling { factor }) if (factor - 0.8).abs() < 1e-5));
+    assert!(
+        matches!(fallen, Err(Error::Structure(StructureError::Buckling { factor })) if (factor - 0.8).abs() < 1e-5)
+    );
 }
 
 const SPAN: f64 = 6.0;
@@ -208,7 +211,10 @@ fn forces_given_by_hand_stay() {
     let model = portal(5.0e3, heavy);
     let share = model.buckling_factor().unwrap();
     assert!(share > 0.0 && share < 1.0, "{share}");
-    assert_eq!(model.with_p_delta(0.0).unwrap_err(), Error::Buckling { factor: share });
+    assert_eq!(
+        model.with_p_delta(0.0).unwrap_err(),
+        Error::Structure(StructureError::Buckling { factor: share })
+    );
 }
 
 /// A translation meets no force and no damping; a turn ψ the moment −Σ P Δy ψ, but no damping.
@@ -277,7 +283,7 @@ fn a_leaning_column_needs_its_brace() {
     let factor = model.buckling_factor().unwrap();
     assert!((factor * found[0] / critical - 1.0).abs() < 1e-8, "{factor}");
     let fallen = leaning().with_p_delta(1.01 * critical / load);
-    assert!(matches!(fallen, Err(Error::Buckling { .. })));
+    assert!(matches!(fallen, Err(Error::Structure(StructureError::Buckling { .. }))));
 }
 
 #[test]
@@ -297,7 +303,10 @@ fn what_has_no_p_delta_is_refused() {
     let model = FemModel::new(mesh, &[foot, other]).unwrap();
     let refused = model.with_p_delta(9.81);
     assert!(
-        matches!(refused, Err(Error::Singular { .. } | Error::Buckling { .. })),
+        matches!(
+            refused,
+            Err(Error::Singular { .. } | Error::Structure(StructureError::Buckling { .. }))
+        ),
         "{:?}",
         refused.err()
     );

@@ -5,6 +5,7 @@
 use crate::curvature;
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::Probe;
+use basemat::coupled::StepError;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::results::Run;
@@ -12,7 +13,7 @@ use basemat::structure::{
     Bilinear, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, ShearBuilding, Storey,
     Structure, Triplets,
 };
-use basemat::{Error, Simulation, Soil, StepError};
+use basemat::{Error, Simulation, Soil};
 
 const LEVEL: IsolationLevel =
     IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };

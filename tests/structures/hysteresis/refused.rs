@@ -2,11 +2,12 @@
 //! SCENE: one number spoilt at a time.
 //! REFERENCE: the error, and the structure as it was.
 
+use basemat::coupled::CheckpointError;
 use basemat::structure::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, NonlinearForce,
     RigidBlock, ShearBuilding, Storey, Structure, WithSprings,
 };
-use basemat::{CheckpointError, Error, Result};
+use basemat::{Error, Result};
 
 const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 

@@ -8,6 +8,7 @@ use basemat::coupled::SimulationBuilder;
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::StructureError;
 use basemat::structure::{
     Bilinear, ContactNode, FemModel, MatrixModel, RayleighDamping, RigidBlock, Structure, Triplets,
     WithSprings,
@@ -97,7 +98,11 @@ fn bad_matrices_are_refused() {
 #[track_caller]
 fn refused(structure: impl Structure + 'static) {
     let built = on_soil(structure).build();
-    assert!(matches!(built, Err(Error::Restrained { .. })), "{:?}", built.err());
+    assert!(
+        matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
+        "{:?}",
+        built.err()
+    );
 }
 
 /// An elastic support would carry part of the weight and distort the rigid motion by which the structure is weighed.
@@ -126,7 +131,7 @@ fn stiff_structures_are_free_to_translate() {
         let mesh = Mesh::layered_block(-3.0..3.0, 6, &[Layer::new(120.0, 60, material)]).unwrap();
         let model = FemModel::on_base(mesh).unwrap();
         let built = on_soil(model).gravity(0.0).build();
-        let fixed = matches!(built, Err(Error::Restrained { .. }));
+        let fixed = matches!(built, Err(Error::Structure(StructureError::Restrained { .. })));
         assert!(!fixed, "{modulus:e}: {:?}", built.err());
     }
 }

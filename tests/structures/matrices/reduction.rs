@@ -5,6 +5,7 @@
 use basemat::Error;
 use basemat::coupled::{Coordinates, Probe};
 use basemat::fem::Direction;
+use basemat::structure::StructureError;
 use basemat::structure::{
     Bilinear, ContactNode, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping,
     Recovery, ReducedModel, Structure, StructureGroup, Triplets, WithSprings,
@@ -198,7 +199,9 @@ fn what_cannot_be_reduced_is_refused() {
     let loose = mesh.add_node(0.0, 5.0).unwrap();
     mesh.add(basemat::fem::LumpedMass::new(loose, 10.0).unwrap()).unwrap();
     let hanging = CraigBampton::new(1).reduce(FemModel::on_base(mesh).unwrap());
-    let Error::Detached { dofs, place } = refuse(hanging) else { panic!() };
+    let Error::Structure(StructureError::Detached { dofs, place }) = refuse(hanging) else {
+        panic!()
+    };
     assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
     let reduced = || CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
     for bad in [-0.1, f64::NAN, f64::INFINITY] {
@@ -208,7 +211,9 @@ fn what_cannot_be_reduced_is_refused() {
     assert_eq!(recovery.full_dofs(), 18);
     assert!(matches!(recovery.row(18), Err(Error::Index { .. })));
     let probe = Probe::displacement("far", 18);
-    assert!(matches!(recovery.probe(probe), Err(Error::Probe { name, .. }) if name == "far"));
+    assert!(
+        matches!(recovery.probe(probe), Err(Error::Item { item, .. }) if item == "probe 'far'")
+    );
     assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
     // A matrix of another order gets entries out of range, which it reports when it is used.

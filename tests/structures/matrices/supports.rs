@@ -9,6 +9,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
+use basemat::structure::StructureError;
 use basemat::structure::{ContactNode, CraigBampton, FemModel, MatrixModel, Structure, Triplets};
 use basemat::{Result, Simulation, Soil};
 
@@ -78,7 +79,12 @@ fn weak_supports_are_refused_and_named() {
         for ratio in [1e-9, 1e-7, 1e-5] {
             let held = by_matrices(&block, |value| value, Some((dof, ratio)));
             match on_soil(held).build().err() {
-                Some(Error::Restrained { direction, force, dof: found, ratio: beside }) => {
+                Some(Error::Structure(StructureError::Restrained {
+                    direction,
+                    force,
+                    dof: found,
+                    ratio: beside,
+                })) => {
                     assert_eq!((direction, found), (name, dof), "{ratio:e}");
                     assert!((force / (ratio * largest) - 1.0).abs() < 1e-3, "{ratio:e}: {force}");
                     assert!(beside > 0.2 * ratio && beside < 5.0 * ratio, "{ratio:e}: {beside:e}");
@@ -92,7 +98,11 @@ fn weak_supports_are_refused_and_named() {
         let held = by_matrices(&wall(), |value| value, Some((top, ratio)));
         let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
         for built in [wall_on_soil(held), wall_on_soil(reduced)] {
-            assert!(matches!(built, Err(Error::Restrained { .. })), "{ratio:e}: {:?}", built.err());
+            assert!(
+                matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
+                "{ratio:e}: {:?}",
+                built.err()
+            );
         }
     }
 }
@@ -117,7 +127,7 @@ fn rounding_is_no_support() {
 fn matrices_of_few_digits_are_refused() {
     for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {
         match on_soil(by_matrices(&tower(6, 20), digits(count), None)).build().err() {
-            Some(Error::Restrained { ratio, .. }) => {
+            Some(Error::Structure(StructureError::Restrained { ratio, .. })) => {
                 assert!(ratio < size && ratio > 1e-3 * size, "{count}: {ratio:e}");
             }
             other => panic!("{count}: {other:?}"),
@@ -180,7 +190,11 @@ fn rounding_beside_a_rigid_base_is_no_support() {
     }
     // 1 N/m is not a support.
     let built = on_stiff_soil(craig_bampton(1.0, [[1.0, 0.0], [0.0; 2]]));
-    assert!(matches!(built, Err(Error::Restrained { .. })), "{:?}", built.err());
+    assert!(
+        matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
+        "{:?}",
+        built.err()
+    );
 }
 
 /// Stiffness of one half of a matrix only is an error that names its place, in any unit, unless it is meant.

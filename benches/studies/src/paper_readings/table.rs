@@ -3,7 +3,8 @@
 use std::fs::File;
 use std::path::Path;
 
-use basemat::{Error, StepError};
+use basemat::Error;
+use basemat::coupled::StepError;
 use csv::Writer;
 
 use super::options::Reading;

@@ -3,9 +3,10 @@
 use std::ops::ControlFlow::{Break, Continue};
 use std::time::Duration;
 
+use basemat::Error;
 use basemat::Simulation;
 use basemat::coupled::State;
-use basemat::{Error, StepError};
+use basemat::coupled::StepError;
 use cpu_time::ProcessTime;
 
 use super::scheme::Scheme;

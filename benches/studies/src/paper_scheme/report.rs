@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use basemat::Error;
+use basemat::bem::GroundError;
 use basemat::bem::full_plane::Stability;
 use basemat::plot::{Curve, curves};
 
@@ -23,7 +24,9 @@ pub(crate) fn print_assessments(scene: &Scene, steps: usize) -> Result<(), AnyEr
         let growth = [&found.bonded, &found.uplifted].map(growth_of);
         let answer = match found.require_bounded() {
             Ok(()) => "yes".to_owned(),
-            Err(Error::Unstable { .. }) => "no: `Error::Unstable`".to_owned(),
+            Err(Error::Ground(GroundError::Unstable { .. })) => {
+                "no: `GroundError::Unstable`".to_owned()
+            }
             Err(error) => return Err(error.into()),
         };
         println!("| {} | {} | {} | {answer} |", scheme.name(), growth[0], growth[1]);

@@ -156,7 +156,7 @@ pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(),
                             .map_or("–".into(), |error| format!("{error:.0e}"))
                     }));
                 }
-                Err(basemat::Error::Reduced(_)) => {
+                Err(error) if error.to_string().contains("reduced coordinates") => {
                     row.push("refused".into());
                     row.extend(std::iter::repeat_n("–".into(), 7));
                 }

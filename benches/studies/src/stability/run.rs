@@ -13,9 +13,11 @@
 //! ground: a block that its ground leaves behind has only rounding. `least_soil` is the least work done on the soil,
 //! relative in the same way: below zero, the soil returned more than it had received.
 
+use basemat::Error;
+use basemat::bem::GroundError;
 use basemat::contact::SearchMethod;
+use basemat::coupled::StepError;
 use basemat::coupled::{EnergyBalance, State};
-use basemat::{Error, StepError};
 
 use super::scene::{Foretold, Law, Scene, Scheme};
 
@@ -108,7 +110,7 @@ impl Outcome {
             && self.energy_balance[0] < ROUNDING
     }
 
-    /// Whether the crate's default refuses this boundary equation: [`Error::Unstable`].
+    /// Whether the crate's default refuses this boundary equation: [`GroundError::Unstable`].
     pub(crate) fn is_foretold(&self) -> bool {
         self.assessed.is_some_and(|growth| growth[0] > 0.0 || growth[1] > 0.0)
     }
@@ -120,7 +122,7 @@ impl Outcome {
             Some(Error::Step { source: StepError::NotFinite { .. }, .. }) => "N",
             Some(Error::Step { .. }) => "S",
             Some(Error::Preload { .. }) => "P",
-            Some(Error::Unstable { .. }) => "U",
+            Some(Error::Ground(GroundError::Unstable { .. })) => "U",
             Some(Error::Singular { .. }) => "M",
             Some(Error::IllConditioned { .. }) => "I",
             Some(_) => "E",

@@ -1,172 +1,6 @@
-//! Errors of a run: steps that fail, checkpoints that cannot be resumed.
+//! Reasons why a structure cannot stand on the ground.
 
-use super::{Error, LawError, not_finite, short};
-
-/// Why a step failed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// No set of contact modes satisfied the interface laws.
-    #[error(
-        "contact modes not found in {iterations} trials{}, residual {residual:.2e}, modes {} \
-         (`coupled::largest_convergent_step` finds a time step that gets through)",
-        all(*sets), modes.join(" ")
-    )]
-    Contact {
-        /// Number of trials, fallbacks included.
-        iterations: usize,
-        /// Difference between the tractions of these modes and the tractions of the modes that the laws require
-        /// next, relative to the largest; 1 if either set of modes is singular.
-        residual: f64,
-        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the modes of the last trial, left to right.
-        modes: Vec<&'static str>,
-        /// Number of all sets of modes, if all were tried: the step has no solution. `None` if there are more than
-        /// 65 536 sets.
-        sets: Option<usize>,
-    },
-    /// In plan: no contact forces were found that satisfy the interface laws.
-    #[error(
-        "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
-         (`coupled::largest_convergent_step` finds a time step that gets through)",
-        elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
-    )]
-    Cone {
-        /// Number of sweeps and Newton iterations, including the proximal method's.
-        iterations: usize,
-        /// Largest difference of an element's force from the force that its law allows at its displacement,
-        /// relative to the largest force.
-        residual: f64,
-        /// Elements with too large a difference.
-        elements: Vec<usize>,
-    },
-    /// Newton's iteration for a nonlinear structure did not converge.
-    #[error(
-        "Newton's iteration not converged in {iterations} iterations, residual {residual:.2e}, \
-         modes {} (`coupled::largest_convergent_step` finds a time step that gets through)",
-        modes.join(" ")
-    )]
-    Newton {
-        /// Iterations made.
-        iterations: usize,
-        /// Last out-of-balance force relative to the largest force.
-        residual: f64,
-        /// Words ([`Mode`](crate::interface::Mode)'s `Display`) of the contact modes of the last iteration, left to
-        /// right.
-        modes: Vec<&'static str>,
-    },
-    /// The ground returned an error for its history.
-    #[error("history of the ground: {0}")]
-    Ground(Box<Error>),
-    /// The structure returned an error for its load, nonlinear force or tangent.
-    #[error("{quantity}: {source}")]
-    Structure {
-        /// Name of the quantity.
-        quantity: &'static str,
-        /// The structure's reason.
-        r#source: Box<Error>,
-    },
-    /// An interface law returned an invalid value.
-    #[error(transparent)]
-    Law(#[from] LawError),
-    /// A number became NaN or infinite.
-    #[error("{quantity} is not finite: entry {index} is {value}")]
-    NotFinite {
-        /// Name of the quantity.
-        quantity: &'static str,
-        /// Index from 0: of a structure's quantity the degree of freedom (or mode, in modal coordinates); of a
-        /// base's quantity the component (normal ones first, then tangential ones); of loads the number of the
-        /// load.
-        index: usize,
-        /// The value.
-        value: f64,
-    },
-    /// The structure has lost its stability: its motion grows without limit.
-    ///
-    /// By weight on yielding columns (P–Δ), negative damping or a growing ground. The energy balance still closes.
-    #[error("the structure runs away: it moves by {increment:e} in one step")]
-    Runaway {
-        /// Largest change of a degree of freedom in the step, m or rad (in modes, times the root of a mass).
-        increment: f64,
-    },
-    /// A matrix of the step is singular.
-    #[error("{matrix} is singular")]
-    Singular {
-        /// Name of the matrix.
-        matrix: &'static str,
-    },
-}
-
-/// Number of sets of modes, where all were tried.
-fn all(sets: Option<usize>) -> String {
-    sets.map_or_else(String::new, |sets| {
-        format!(
-            ": the step has no solution, as none of all {sets} sets of modes satisfies the laws"
-        )
-    })
-}
-
-impl StepError {
-    /// Error if one of `values` is not finite.
-    pub(crate) fn check_finite(
-        quantity: &'static str,
-        values: &[f64],
-    ) -> std::result::Result<(), Self> {
-        match not_finite(values) {
-            None => Ok(()),
-            Some((index, value)) => Err(Self::NotFinite { quantity, index, value }),
-        }
-    }
-
-    /// Wraps an error of the structure as [`StepError::Structure`].
-    pub(crate) fn structure(quantity: &'static str) -> impl FnOnce(Error) -> Self {
-        move |source| Self::Structure { quantity, source: Box::new(source) }
-    }
-}
-
-// Checkpoints.
-
-/// Why a run could not be saved or resumed.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CheckpointError {
-    /// A part of the scene cannot save its state.
-    #[error("the {part} cannot save or restore its state")]
-    Unsupported {
-        /// The part.
-        part: &'static str,
-    },
-    /// The checkpoint has a format that this version does not read.
-    #[error("format {found}, but this version reads {needed}")]
-    Format {
-        /// Format of the checkpoint.
-        found: u32,
-        /// Format of this version.
-        needed: u32,
-    },
-    /// The contents differ from those saved: the file was damaged, or changed by hand.
-    #[error("damaged: the contents do not agree with their check sum")]
-    Damaged,
-    /// The checkpoint belongs to another scene.
-    #[error("made in another scene: the {quantity} differs")]
-    OtherScene {
-        /// Quantity that differs.
-        quantity: &'static str,
-    },
-    /// Numbers are missing, too many or not finite.
-    #[error("{quantity}: wrong number of values, or not finite")]
-    Corrupt {
-        /// Quantity that is impossible.
-        quantity: &'static str,
-    },
-}
-
-impl From<CheckpointError> for Error {
-    fn from(error: CheckpointError) -> Self {
-        Self::Checkpoint(error)
-    }
-}
-
-// Why a structure cannot stand on the ground.
+use crate::error::short;
 
 /// The reason why weight and loads at t = 0 have no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -304,27 +138,30 @@ pub enum StabilityError {
         /// Failure that follows.
         then: Box<StabilityError>,
     },
-    /// Part of the structure has neither stiffness nor damping nor mass against a motion.
-    #[error(
-        "nothing resists a motion of {place}: neither stiffness nor damping nor mass of the structure (give it a mass: \
-         the ground does not hold it while it is lifted)"
-    )]
-    Massless {
-        /// The degrees of freedom of that motion, ascending.
-        dofs: Vec<usize>,
-        /// The structure's own names of them.
-        place: String,
-    },
-    /// Part of the structure moves without resistance while the base is at rest.
-    #[error(
-        "the structure is a mechanism: with its base at rest nothing resists a motion of {place}"
-    )]
+    /// Part of the structure moves without resistance, while the base is at rest or at all.
+    #[error("{}", unresisted(.place, *.massless))]
     Mechanism {
         /// The degrees of freedom of that motion, ascending.
         dofs: Vec<usize>,
         /// The structure's own names of them.
         place: String,
+        /// Whether the part has no mass either, and no damping.
+        massless: bool,
     },
+}
+
+/// Message of [`StabilityError::Mechanism`].
+fn unresisted(place: &str, massless: bool) -> String {
+    if massless {
+        format!(
+            "nothing resists a motion of {place}: neither stiffness nor damping nor mass of the structure (give it a \
+             mass: the ground does not hold it while it is lifted)"
+        )
+    } else {
+        format!(
+            "the structure is a mechanism: with its base at rest nothing resists a motion of {place}"
+        )
+    }
 }
 
 /// The end of the message of [`StabilityError::Beyond`].
@@ -350,11 +187,6 @@ fn on([left, right]: [f64; 2], across: Option<[f64; 2]>) -> String {
 /// The unit of forces.
 fn force(across: Option<[f64; 2]>) -> &'static str {
     if across.is_some() { "N" } else { "N/m" }
-}
-
-/// A line of a file, or the file as a whole.
-pub(crate) fn place(file: &str, line: usize) -> String {
-    if line == 0 { file.to_owned() } else { format!("{file}, line {line}") }
 }
 
 /// Text that names the axis in plan, empty in the plane.

@@ -1,0 +1,108 @@
+//! Errors of grounds and of mats in plan.
+
+use crate::error::short;
+
+/// Why the weights or the compliance of a ground cannot be computed or used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GroundError {
+    /// A wavenumber integral that bisection does not resolve: a pole lies on the path.
+    #[error(
+        "wavenumber integral at s = {re} + {im}i 1/s is not resolved near k = {wavenumber} 1/m \
+         (without damping the real frequency axis has poles on the path: give every layer some; \
+         stiffnesses may also differ by more than double precision carries)"
+    )]
+    Unresolved {
+        /// Re s, 1/s.
+        re: f64,
+        /// Im s, 1/s.
+        im: f64,
+        /// Wavenumber at which bisection stopped, 1/m.
+        wavenumber: f64,
+    },
+    /// A time step, top layer or element so small relative to the contact that integrals would take too long.
+    #[error(
+        "contact of {span:.4} m needs wavenumbers up to {wavenumber:.3e} 1/m, but {most:.3e} 1/m, {:.2} times less, are \
+         the most (a time step so many times as long, frequencies so many times lower, a thicker top layer, a shorter \
+         contact or fewer elements)", wavenumber / most
+    )]
+    TooFine {
+        /// Length of the contact, or diagonal of the mat, m.
+        span: f64,
+        /// Wavenumber up to which integrals would be computed, 1/m.
+        wavenumber: f64,
+        /// Largest wavenumber that is allowed, 1/m.
+        most: f64,
+    },
+    /// A boundary equation whose perturbations grow from step to step.
+    #[error(
+        "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \
+         fastest by {growth_per_step:.1e} per step (take a longer step or another kernel, or allow it)"
+    )]
+    Unstable {
+        /// Factor minus one by which the fastest mode grows in a step.
+        growth_per_step: f64,
+        /// Number of growing modes.
+        growing_modes: usize,
+    },
+}
+
+/// Why a mat in plan cannot be divided into cells, or its cells are too large.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// A mat or a mask without a cell.
+    #[error("mat {mat} has no cell: cells are {} m x {} m (more of them help)", short(pitch[0]), short(pitch[1]))]
+    NoCells {
+        /// Mat, from 0 in the order of its first face.
+        mat: usize,
+        /// Sides of a cell, m.
+        pitch: [f64; 2],
+    },
+    /// Faces that overlap, or that the cells do not cover.
+    #[error(
+        "cells inside the faces have an area of {} m2, but the faces one of {} m2: they overlap, or are too narrow for \
+         cells of {} m x {} m (at most a tenth may be missing)",
+        short(*cells),
+        short(*faces),
+        short(pitch[0]),
+        short(pitch[1])
+    )]
+    Uncovered {
+        /// Area of the faces, m².
+        faces: f64,
+        /// Area of the cells that is inside the outline, m².
+        cells: f64,
+        /// Sides of a cell, m.
+        pitch: [f64; 2],
+    },
+    /// Mats that share a cell, or have cells side by side.
+    #[error(
+        "mats {} and {} are closer to each other than one cell of {} m x {} m (more cells help; faces of one mat \
+         share corners)", mats[0], mats[1], short(pitch[0]), short(pitch[1])
+    )]
+    TooClose {
+        /// Numbers of the two mats, from 0 in the order of their first faces.
+        mats: [usize; 2],
+        /// Sides of a cell, m.
+        pitch: [f64; 2],
+    },
+    /// Cells that do not resolve the waves of a frequency.
+    #[error(
+        "cells of {} m are too large for {} Hz: shear waves at the surface are {} m long there, \
+         and at least {needed} cells are needed in one",
+        short(*cell),
+        short(*frequency),
+        short(*wavelength)
+    )]
+    CoarseCells {
+        /// Longer side of a cell, m.
+        cell: f64,
+        /// Frequency, Hz.
+        frequency: f64,
+        /// Length of shear waves in the top layer, m.
+        wavelength: f64,
+        /// Smallest number of cells in a wavelength.
+        needed: f64,
+    },
+}
