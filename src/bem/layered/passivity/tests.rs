@@ -8,6 +8,7 @@ use crate::bem::layered::runge_kutta::Stages;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
 use crate::bem::layered::wavenumber::{Compliances, Wavenumbers, Workspace};
 use crate::bem::{Grading, Strip};
+use crate::soil::SoilError;
 use crate::soil::{
     Elastic, GeneralizedMaxwell, KelvinVoigt, Kjartansson, Relaxation, Soil, SoilProfile,
 };
