@@ -228,7 +228,7 @@ def test_several_peaks_are_refined_in_one_call() -> None:
     assert abs(found["b"].step_order - 1.0) < 1e-6
     page = str(found)
     assert "extrapolated" in page and "b: order of convergence" in page
-    with pytest.raises(bm.InputError, match="no peak called 'c'"):
+    with pytest.raises(bm.InputError, match="no peak 'c'"):
         found["c"]
     with pytest.raises(bm.InputError, match="same names"):
         bm.refine(8, 0.1, lambda n, step: {str(n): 1.0})

@@ -141,7 +141,7 @@ def test_a_run_is_the_summary_of_its_base(rocking) -> None:
     with pytest.raises(bm.InputError, match="no quantity 'shear'"):
         run.extremes("shear")
     for ask in (lambda: run.floor_spectrum("rof", [0.1]), lambda: run.acceleration_record("rof")):
-        with pytest.raises(bm.InputError, match="no probe called 'rof', only roof"):
+        with pytest.raises(bm.InputError, match="no probe 'rof', only roof"):
             ask()
 
 

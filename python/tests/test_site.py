@@ -74,7 +74,7 @@ def test_curves_by_every_name() -> None:
 
 def test_bad_sites_name_layer_and_quantity() -> None:
     column, curves = site(2)
-    with pytest.raises(bm.InputError, match="1 strain curves were given for 2 layers"):
+    with pytest.raises(bm.InputError, match="list of strain curves, one for each layer, has length 1, but must have 2"):
         column.equivalent_linear(bm.el_centro_1940(), curves[:1])
     with pytest.raises(bm.InputError, match="plasticity index is 300"):
         bm.StrainCurves.vucetic_dobry(300.0)

@@ -85,7 +85,7 @@ pub enum Error {
     #[error(transparent)]
     File(#[from] FileError),
     /// A name that does not exist.
-    #[error("there is no {quantity} called '{name}'{}", names(.known))]
+    #[error("there is no {quantity} '{name}'{}", names(.known))]
     Name {
         /// Item that was sought.
         quantity: &'static str,

@@ -103,8 +103,8 @@ impl Error {
     }
 }
 
-/// Text of the first twelve known names.
+/// Text of the known names, of 40 at most.
 pub(crate) fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(12)].join(", ");
+    let listed = known[..known.len().min(40)].join(", ");
     if known.is_empty() { listed } else { format!(", only {listed}") }
 }

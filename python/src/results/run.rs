@@ -76,7 +76,7 @@ impl PyRun {
             return Ok(time_series);
         }
         let known = if known.is_empty() { "none".into() } else { known.join(", ") };
-        Err(refuse(format!("there is no probe called '{probe}', only {known}")))
+        Err(refuse(format!("there is no probe '{probe}', only {known}")))
     }
 }
 

@@ -3,9 +3,9 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
-use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
-use basemat::coupled::CheckpointError;
 use basemat::Result;
+use basemat::coupled::CheckpointError;
+use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
