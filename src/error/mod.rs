@@ -258,13 +258,13 @@ pub enum Error {
     Ground(#[from] GroundError),
     /// A mat in plan that cannot be computed.
     #[error("mat in plan: {0}")]
-    Plan(#[from] PlanError),
+    Plan(PlanError),
     /// Parameters, a table or files of a sweep that cannot be used.
     #[error(transparent)]
     Sweep(#[from] SweepError),
     /// A run could not be saved or resumed.
     #[error("checkpoint: {0}")]
-    Checkpoint(#[from] CheckpointError),
+    Checkpoint(CheckpointError),
     /// A time step that could not be solved; the simulation stays at the last accepted step.
     #[error("step {step} (t = {} s): {source}", short(*.time))]
     Step {
@@ -275,6 +275,20 @@ pub enum Error {
         /// Failure of the step.
         r#source: StepError,
     },
+}
+
+// `#[from]` would make them sources, whose texts the error's own text contains.
+
+impl From<CheckpointError> for Error {
+    fn from(error: CheckpointError) -> Self {
+        Self::Checkpoint(error)
+    }
+}
+
+impl From<PlanError> for Error {
+    fn from(error: PlanError) -> Self {
+        Self::Plan(error)
+    }
 }
 
 impl std::fmt::Debug for Error {

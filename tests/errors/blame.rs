@@ -276,7 +276,8 @@ fn a_mode_that_the_law_does_not_have_is_named() {
     let law = Wayward { law: Coulomb::new(0.5).unwrap(), next };
     let mut simulation = standing(4, false).interface(law).gravity(0.0).build().unwrap();
     let error = error_with("interface law of element 0, mode stick", simulation.step().map(drop));
-    assert!(error.to_string().contains("the next mode is yield"), "{error}");
+    let unknown = "there is no next mode in the law's `modes` 'yield', only stick";
+    assert!(error.to_string().contains(unknown), "{error}");
 }
 
 /// A spring between base and ground level, with known energy or without.

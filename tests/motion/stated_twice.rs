@@ -147,7 +147,10 @@ fn afad_files_agree_with_themselves() {
                 &[("(E-W) 83.", "(E-W) 83,")],
                 "peak acceleration is …, but must be clear: all of it a known number, unit or word",
             ),
-            (&[("E-W          U-D\r\n ", "E-W\r\n ")], "UnequalColumns { found: 3, expected: 2 }"),
+            (
+                &[("E-W          U-D\r\n ", "E-W\r\n ")],
+                "number of columns is 3, but must be 2, as before",
+            ),
             (&[("VALUES (gal)", "VALUES (mg)")], TITLE_UNIT),
             (&[("VALUES (gal)", "VALUES (g)")], TITLE_UNIT),
             (&[("VALUES (gal)", "VALUES (m/s2)")], TITLE_UNIT),
@@ -186,7 +189,10 @@ fn smc_files_agree_with_themselves() {
             (&[("0.1085805E+03", "0.1085805E+02")], PEAK),
             (&[("-0.8889819E+02", "-0.8889819E+00")], PEAK),
             (&[("2 CORRECTED ACCELEROGRAM", "3 VELOCITY              ")], NOT_ACCELERATION),
-            (&[("0.1000000E+03", "0.1700000E+39")], "Unprocessed {"),
+            (
+                &[("0.1000000E+03", "0.1700000E+39")],
+                "'data in unequal steps' instead of corrected data: … (volume 2)",
+            ),
         ],
     );
 }

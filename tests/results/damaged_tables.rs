@@ -88,7 +88,7 @@ fn every_damaged_byte_is_refused() {
             write(&path, &other);
             match sweep(3).merge([&path]) {
                 Ok(merged) => assert_eq!(merged, table, "byte {place}, bit {bit}"),
-                Err(Error::Sweep(_) | Error::DuplicateName { .. }) => refused += 1,
+                Err(Error::File(_) | Error::Sweep(_) | Error::DuplicateName { .. }) => refused += 1,
                 Err(other) => panic!("byte {place}, bit {bit}: {other}"),
             }
         }
